@@ -1,0 +1,1 @@
+"""What decides a result, and nothing else, as a small canonical file with a hash."""

@@ -1,0 +1,1 @@
+"""The configuration: the pydantic models are its only source."""

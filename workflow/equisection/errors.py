@@ -1,0 +1,41 @@
+"""Named errors, each with a message for the person who has to act on it.
+
+Every message names the key or file, the value found, what is allowed and what to do next.
+Constructing one has no side effect. The scripts print them without a traceback.
+"""
+
+
+class EquisectionError(Exception):
+    """Base of every error that a user can cause and mend."""
+
+
+class ConfigError(EquisectionError):
+    """The configuration is not valid; one line for each problem."""
+
+
+class PolarFileError(EquisectionError):
+    """A polar file cannot be used; the message names file and line."""
+
+
+class IncidenceOutOfRangeError(EquisectionError):
+    """A case left the range of incidence that its polar covers."""
+
+
+class ReductionError(EquisectionError):
+    """The beam has no equivalent section (for instance no rotational restraint)."""
+
+
+class ModesError(EquisectionError):
+    """The mode computation failed or did not find the modes that are needed."""
+
+
+class CaseFileError(EquisectionError):
+    """A case file is malformed or of another schema version."""
+
+
+class ResultFileError(EquisectionError):
+    """A result file is truncated, foreign (its hash does not fit the case) or not finite."""
+
+
+class SolverError(EquisectionError):
+    """A solver could not run a case (a fault of the machine or of the set-up, not a result)."""

@@ -1,0 +1,1 @@
+"""Equations of motion of section and beam under unsteady loads, integrated in time."""

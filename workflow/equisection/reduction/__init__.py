@@ -1,0 +1,1 @@
+"""Equivalent properties and correction factors (Fig. 1): the beam as one section."""

@@ -1,0 +1,1 @@
+"""Data sets as NetCDF files: written whole or not at all, validated on reading."""

@@ -1,0 +1,1 @@
+"""Verdict on a history: settled, limit cycle or growing, with its means and frequencies."""

@@ -1,0 +1,1 @@
+"""The solver protocol, and the adapters that fulfil it."""

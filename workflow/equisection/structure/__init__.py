@@ -1,0 +1,1 @@
+"""Mode computation (Fig. 1): natural frequencies and shapes of the beam."""
