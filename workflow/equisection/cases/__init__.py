@@ -1,1 +1,29 @@
 """What decides a result, and nothing else, as a small canonical file with a hash."""
+
+from equisection.cases.model import (
+    BeamModes,
+    Case,
+    Criteria,
+    Geometry,
+    Medium,
+    SectionProperties,
+    SolverBlock,
+    SteadyCase,
+    UnsteadyCase,
+)
+from equisection.cases.store import case_hash, read_case, write_case
+
+__all__ = [
+    "BeamModes",
+    "Case",
+    "Criteria",
+    "Geometry",
+    "Medium",
+    "SectionProperties",
+    "SolverBlock",
+    "SteadyCase",
+    "UnsteadyCase",
+    "case_hash",
+    "read_case",
+    "write_case",
+]

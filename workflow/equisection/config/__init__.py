@@ -1,1 +1,11 @@
-"""The configuration: the pydantic models are its only source."""
+"""The configuration: pydantic models are its only source.
+
+Defaults, descriptions, the JSON schema (``workflow/schemas/config.schema.yaml``) and the
+reference of all keys (``config/README.md``) come from the models of
+:mod:`equisection.config.sections`; ``python -m equisection.config`` writes both files.
+"""
+
+from equisection.config.load import load_config, resolve_config
+from equisection.config.model import Config
+
+__all__ = ["Config", "load_config", "resolve_config"]

@@ -1,0 +1,136 @@
+"""NetCDF files that appear whole or not at all, and say what they hold.
+
+Every variable has ``units`` and ``long_name``; every file says its schema version, what made
+it and, for the result of a case, the case's hash. Attributes are strings and numbers.
+"""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import Any
+
+import netCDF4
+import numpy as np
+import xarray as xr
+
+import equisection
+from equisection.errors import ResultFileError
+from equisection.files import written_whole
+
+SCHEMA_VERSION = 1
+_HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
+#: Where the superblock of each version keeps the address at which the file ends.
+_END_OF_FILE_OFFSET = {0: 40, 1: 44, 2: 28, 3: 28}
+
+
+def write_dataset(path: Path, dataset: xr.Dataset) -> None:
+    """Write a data set as NetCDF-4, whole or not at all.
+
+    Raises
+    ------
+    ResultFileError
+        A variable lacks ``units`` or ``long_name``, or holds a value that is not finite and is
+        not marked as allowed to (attribute ``missing_allowed``).
+    """
+    for name, variable in dataset.variables.items():
+        for wanted in ("units", "long_name"):
+            if wanted not in variable.attrs:
+                raise ResultFileError(f"{path}: variable '{name}' has no {wanted}")
+    _require_finite(path, dataset)
+    marked = dataset.assign_attrs(
+        schema_version=SCHEMA_VERSION, equisection_version=equisection.__version__
+    )
+    encoding = {
+        str(name): {"_FillValue": None}
+        for name, variable in marked.variables.items()
+        if np.issubdtype(variable.dtype, np.floating)
+    }
+    with written_whole(path) as aside:
+        marked.to_netcdf(aside, engine="netcdf4", encoding=encoding)
+
+
+def read_dataset(path: Path, case_hash: str | None = None) -> xr.Dataset:
+    """Read a data set into memory and check that it is whole, finite and of the wanted case.
+
+    Raises
+    ------
+    ResultFileError
+        The file is missing, truncated, of another schema version, of another case, or holds
+        values that are not finite.
+    """
+    if not path.is_file():
+        raise ResultFileError(f"{path}: missing")
+    if not is_whole(path):
+        raise ResultFileError(f"{path}: truncated or not NetCDF-4; delete it and run again")
+    try:
+        with xr.open_dataset(path, engine="netcdf4") as opened:
+            dataset = opened.load()
+    except (OSError, ValueError, RuntimeError) as error:
+        raise ResultFileError(f"{path}: cannot be read ({error}); delete it and run again") from None
+    _require_provenance(path, dataset.attrs, case_hash)
+    _require_finite(path, dataset)
+    return dataset
+
+
+def read_attributes(path: Path, case_hash: str | None = None) -> dict[str, Any]:
+    """Read the attributes alone, with the same checks but for the values.
+
+    Raises
+    ------
+    ResultFileError
+        As :func:`read_dataset`.
+    """
+    if not is_whole(path):
+        raise ResultFileError(f"{path}: missing, truncated or not NetCDF-4; run again")
+    try:
+        with netCDF4.Dataset(path) as opened:
+            attributes = {name: opened.getncattr(name) for name in opened.ncattrs()}
+    except (OSError, RuntimeError) as error:
+        raise ResultFileError(f"{path}: cannot be read ({error}); delete it and run again") from None
+    _require_provenance(path, attributes, case_hash)
+    return attributes
+
+
+def is_whole(path: Path) -> bool:
+    """Tell from the first bytes and the size whether an HDF5 file is as long as it says.
+
+    Cheap (one read of 64 bytes), so that a workflow can look at thousands of files. The
+    layout is that of the HDF5 file format specification, "Superblock", with 8-byte addresses
+    as the library writes them.
+    """
+    try:
+        with path.open("rb") as stream:
+            head = stream.read(64)
+        size = path.stat().st_size
+    except OSError:
+        return False
+    if len(head) < 64 or head[:8] != _HDF5_SIGNATURE or head[8] not in _END_OF_FILE_OFFSET:
+        return False
+    (end,) = struct.unpack_from("<Q", head, _END_OF_FILE_OFFSET[head[8]])
+    return bool(size >= end > 0)
+
+
+def _require_provenance(path: Path, attributes: dict[str, Any], case_hash: str | None) -> None:
+    found = attributes.get("schema_version")
+    if found != SCHEMA_VERSION:
+        raise ResultFileError(
+            f"{path}: schema version {found}; version {SCHEMA_VERSION} is read here. "
+            "It was not written by this version of the workflow: delete it and run again"
+        )
+    if case_hash is not None and attributes.get("case_hash") != case_hash:
+        raise ResultFileError(
+            f"{path}: foreign: it is the result of case {str(attributes.get('case_hash'))[:12]}, "
+            f"wanted is {case_hash[:12]}; delete it and run again"
+        )
+
+
+def _require_finite(path: Path, dataset: xr.Dataset) -> None:
+    for name, variable in dataset.variables.items():
+        values = variable.values
+        if (
+            np.issubdtype(values.dtype, np.floating)
+            and not variable.attrs.get("missing_allowed")
+            and not np.isfinite(values).all()
+        ):
+            raise ResultFileError(f"{path}: variable '{name}' holds values that are not finite")

@@ -1,0 +1,72 @@
+"""Result of a steady case: coefficients of the section or of the rigid beam."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class SteadyResult:
+    """Coefficients at one incidence, with the spanwise ones of a beam beside them.
+
+    Attributes
+    ----------
+    drag, lift, moment
+        c_d, c_l, c_m about mid-chord (Eq. 21), or C_D, C_L, C_M (Eq. 22).
+    span
+        z/L of the sections, shape (n,); empty in 2D.
+    section_lift, section_moment
+        c_l and c_m of each section over its own chord, shape (n,); empty in 2D.
+    method
+        How the value was obtained, for instance ``steady`` or ``mean of unsteady``.
+    failure
+        Why there is no value, empty if there is one. Coefficients are then NaN.
+    """
+
+    drag: float
+    lift: float
+    moment: float
+    span: NDArray[np.float64]
+    section_lift: NDArray[np.float64]
+    section_moment: NDArray[np.float64]
+    method: str
+    failure: str = ""
+
+    def to_dataset(self) -> xr.Dataset:
+        """Return the data set that is written to file."""
+        data = {
+            "cd": ((), self.drag, {"units": "1", "long_name": "drag coefficient"}),
+            "cl": ((), self.lift, {"units": "1", "long_name": "lift coefficient"}),
+            "cm": (
+                (),
+                self.moment,
+                {"units": "1", "long_name": "moment coefficient about mid-chord, nose up"},
+            ),
+        }
+        if self.failure:
+            for _, _, attributes in data.values():
+                attributes["missing_allowed"] = "1"
+        coordinates = {}
+        if self.span.size:
+            coordinates["span"] = (
+                "span",
+                self.span,
+                {"units": "1", "long_name": "position along the span z/L"},
+            )
+            data["cl_section"] = (
+                ("span",),  # type: ignore[assignment]
+                self.section_lift,
+                {"units": "1", "long_name": "sectional lift coefficient"},
+            )
+            data["cm_section"] = (
+                ("span",),  # type: ignore[assignment]
+                self.section_moment,
+                {"units": "1", "long_name": "sectional moment coefficient about mid-chord"},
+            )
+        return xr.Dataset(
+            data, coordinates, attrs={"method": self.method, "failure": self.failure}
+        )

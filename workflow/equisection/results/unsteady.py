@@ -1,0 +1,103 @@
+"""Result of an unsteady case: histories over time, and the verdict on them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+
+class Regime(StrEnum):
+    """What a run turned out to be."""
+
+    SETTLED = "settled"
+    LIMIT_CYCLE = "limit-cycle"
+    GROWING = "growing"
+    FAILED = "failed"
+
+
+#: Attributes that carry the verdict, with what they mean.
+VERDICT_ATTRIBUTES = {
+    "regime": "settled, limit-cycle, growing or failed",
+    "reason": "why, in a sentence",
+    "periods_used": "whole periods that the verdict rests on",
+    "window_start": "start of the window that the verdict rests on (c/V)",
+    "mean_twist_deg": "mean twist of the tip (section twist over its recovery factor) (deg)",
+    "mean_deflection_chords": "mean deflection of the tip (chords)",
+    "twist_amplitude_deg": "amplitude of the tip's twist (deg)",
+    "frequency_strouhal": "frequency of the twist f c/V",
+    "growth_rate": "growth rate of the twist's amplitude (V/c)",
+}
+
+
+@dataclass(frozen=True)
+class UnsteadyResult:
+    """Histories of one case over convective time, and the verdict on them.
+
+    Attributes
+    ----------
+    time
+        s = tV/c, shape (n,).
+    twist, deflection
+        Of the section in 2D and of the tip in 3D: rad and chords, shape (n,).
+    tip_twist, tip_deflection
+        The tip's, recovered from the section's in 2D, shape (n,).
+    lift, moment
+        c_l and c_m about the moving mid-chord (2D), C_L and C_M (3D), shape (n,).
+    incidence
+        theta_0 + twist of the section or tip (rad), shape (n,).
+    torsion_amplitudes, bending_amplitudes
+        Theta_i (rad) and W_i (chords), shape (modes, n); empty in 2D.
+    verdict
+        The values of :data:`VERDICT_ATTRIBUTES`.
+    """
+
+    time: NDArray[np.float64]
+    twist: NDArray[np.float64]
+    deflection: NDArray[np.float64]
+    tip_twist: NDArray[np.float64]
+    tip_deflection: NDArray[np.float64]
+    lift: NDArray[np.float64]
+    moment: NDArray[np.float64]
+    incidence: NDArray[np.float64]
+    verdict: dict[str, str | float | int]
+    torsion_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
+    bending_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
+
+    def to_dataset(self, chord: float) -> xr.Dataset:
+        """Return the data set that is written to file, lengths in metres of a chord ``chord``."""
+        data = {
+            "twist": (self.twist, "rad", "twist, nose up (section in 2D, tip in 3D)"),
+            "deflection": (self.deflection * chord, "m", "deflection (section in 2D, tip in 3D)"),
+            "tip_twist": (self.tip_twist, "rad", "twist of the tip"),
+            "tip_deflection": (self.tip_deflection * chord, "m", "deflection of the tip"),
+            "cl": (self.lift, "1", "lift coefficient"),
+            "cm": (self.moment, "1", "moment coefficient about the moving mid-chord, nose up"),
+            "incidence": (self.incidence, "rad", "rigid incidence plus twist"),
+        }
+        variables = {
+            name: (("time",), values, {"units": units, "long_name": text})
+            for name, (values, units, text) in data.items()
+        }
+        for name, values, units, text in (
+            ("torsion_amplitude", self.torsion_amplitudes, "rad", "amplitude of torsion modes"),
+            ("bending_amplitude", self.bending_amplitudes, "1", "amplitude W_i of bending modes"),
+        ):
+            if values.size:
+                variables[name] = (
+                    (f"{name.split('_')[0]}_mode", "time"),  # type: ignore[assignment]
+                    values,
+                    {"units": units, "long_name": text},
+                )
+        attributes: dict[str, str | float | int] = {
+            "chord": chord,
+            "end_time": float(self.time[-1]) if self.time.size else 0.0,
+        }
+        return xr.Dataset(
+            variables,
+            {"time": ("time", self.time, {"units": "c/V", "long_name": "convective time t V/c"})},
+            attrs={**attributes, **self.verdict},
+        )

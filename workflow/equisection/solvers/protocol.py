@@ -1,0 +1,70 @@
+"""What a solver must offer to run a case of this workflow."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import Any, Protocol
+
+from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.results import SteadyResult, UnsteadyResult
+
+
+class Capability(StrEnum):
+    """What a solver can provide beside coefficients and histories."""
+
+    BATCH = "batch"  # many cases in one job cost less than one by one
+    SURFACE = "surface"  # pressure and friction along the section
+    FIELDS = "fields"  # the flow field
+
+
+#: Called with time simulated and longest time (c/V), summed over the cases of the job.
+Progress = Callable[[float, float], None]
+
+
+class Solver(Protocol):
+    """Runs cases.
+
+    ``version`` is that of the numerics: it changes whenever the same case would give another
+    result, and is part of the case.
+    """
+
+    name: str
+    version: str
+    provides: frozenset[Capability]
+
+    def settings(self) -> dict[str, Any]:
+        """Return everything of the solver's set-up that decides a result, in builtin types."""
+        ...
+
+    def describe(self, resolution: str) -> str:
+        """Return solver and resolution in words, as they stand in every figure."""
+        ...
+
+    def run_steady(
+        self, cases: Sequence[SteadyCase], work: Path, progress: Progress
+    ) -> list[SteadyResult]:
+        """Run rigid cases; a case that has no result has a ``failure``, and the others go on.
+
+        Raises
+        ------
+        SolverError
+            The solver itself could not run (a fault of the machine or of the set-up).
+        """
+        ...
+
+    def run_unsteady(
+        self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
+    ) -> list[UnsteadyResult]:
+        """Run free cases until their verdict is in; a failed one has the regime ``failed``.
+
+        ``work`` is the job's own directory; it survives a kill, and a solver may resume from
+        what it finds there.
+
+        Raises
+        ------
+        SolverError
+            The solver itself could not run.
+        """
+        ...
