@@ -1,0 +1,59 @@
+"""Indicial functions of the attached flow: how circulation follows the incidence.
+
+A step of incidence builds its circulatory lift up after Wagner's function phi, which R. T. Jones
+(NACA Report 681, 1940) fitted with two exponentials of the time tau = 2 s in semi-chords:
+
+    phi(tau) = 1 - A_1 exp(-b_1 tau) - A_2 exp(-b_2 tau).
+
+In the frequency domain the same statement is Theodorsen's function C(k) (NACA Report 496, 1935),
+with k = omega c/(2 V). As states, with the incidence alpha_34 at three quarters of the chord:
+
+    z_i' = 2 b_i (alpha_34 - z_i),
+    alpha_E = (1 - A_1 - A_2) alpha_34 + A_1 z_1 + A_2 z_2,    ' = d/ds,
+
+and the circulatory coefficients are those of steady flow at alpha_E.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.special import hankel2
+
+Floats = NDArray[np.float64]
+
+JONES_AMPLITUDES = (0.165, 0.335)
+"""A_1, A_2 of R. T. Jones."""
+
+JONES_RATES_SEMICHORD = (0.0455, 0.3)
+"""b_1, b_2 of R. T. Jones, per semi-chord travelled."""
+
+LAG_RATES = (2 * JONES_RATES_SEMICHORD[0], 2 * JONES_RATES_SEMICHORD[1])
+"""2 b_1, 2 b_2: the same rates per chord travelled, that is per unit of s."""
+
+IMMEDIATE_SHARE = 1.0 - sum(JONES_AMPLITUDES)
+"""phi(0) = 1/2, the part of the circulation that is there at once."""
+
+
+def wagner(time: ArrayLike) -> Floats:
+    """Wagner's function phi in Jones' form at convective times s = tV/c >= 0, any shape."""
+    s = np.asarray(time, dtype=np.float64)
+    lags = zip(JONES_AMPLITUDES, LAG_RATES, strict=True)
+    return np.asarray(1.0 - sum(a * np.exp(-rate * s) for a, rate in lags), dtype=np.float64)
+
+
+def theodorsen(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
+    """Theodorsen's C(k), exact, at k = omega c/(2 V) > 0, any shape.
+
+    C = H_1/(H_1 + i H_0) with Hankel functions of the second kind (NACA Report 496).
+    """
+    k = np.asarray(reduced_frequency, dtype=np.float64)
+    first, zeroth = hankel2(1, k), hankel2(0, k)
+    return np.asarray(first / (first + 1j * zeroth), dtype=np.complex128)
+
+
+def theodorsen_of_jones(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
+    """C(k) that belongs to Jones' form of phi: what the states can reproduce exactly."""
+    ik = 1j * np.asarray(reduced_frequency, dtype=np.float64)
+    lags = zip(JONES_AMPLITUDES, JONES_RATES_SEMICHORD, strict=True)
+    return np.asarray(1.0 - sum(a * ik / (ik + b) for a, b in lags), dtype=np.complex128)

@@ -1,0 +1,141 @@
+"""Unsteady lift and moment of strips: Wagner lag, apparent mass and a lagging bubble.
+
+At each strip, with theta the twist, w the deflection in chords and ' = d/ds,
+
+    alpha_34 = theta_0 + theta + theta'/4 - w' - alpha_i          incidence at 3/4 chord
+    z_i'     = 2 b_i (alpha_34 - z_i),  i = 1, 2                   Wagner lag (``indicial``)
+    alpha_E  = (1 - A_1 - A_2) alpha_34 + A_1 z_1 + A_2 z_2
+    tau_1 x' + x = alpha_E - tau_2 alpha_E'                        bubble (``separation``),
+                                                                   once for lift, once for moment
+    c_l = a_l alpha_E - Delta_l(x_l) + (pi/2) (theta' - w'')
+    c_m = a_m alpha_E - Delta_m(x_m) - (pi/8) theta' - (pi/64) theta''
+
+alpha_i is the incidence that the wake of a finite beam induces; zero for a section. The terms
+with pi are Theodorsen's apparent-mass and pitch-rate terms about mid-chord (NACA Report 496 with
+a = 0), those of a thin plate in free air. With a_l = 2 pi, a_m = pi/2 and no deficit this *is*
+Theodorsen's theory.
+
+The derivative of alpha_E is not needed: with y' = (alpha_E - y)/tau_1,
+
+    x = (1 + tau_2/tau_1) y - (tau_2/tau_1) alpha_E.
+
+So all states are linear and the only non-linear functions are Delta_l(x_l) and Delta_m(x_m);
+the time loop makes use of that.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.signal import lfilter
+
+from equisection.aerodynamics.indicial import IMMEDIATE_SHARE, JONES_AMPLITUDES, LAG_RATES
+from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.separation import IDENTIFIED_LAGS, Branches, SeparationLags
+
+Floats = NDArray[np.float64]
+
+APPARENT_MASS = math.pi / 2
+"""Lift against heave acceleration and with pitch rate: (pi/2) (theta' - w'')."""
+
+PITCH_DAMPING = math.pi / 8
+"""Moment against pitch rate: -(pi/8) theta'."""
+
+APPARENT_INERTIA = math.pi / 64
+"""Moment against pitch acceleration: -(pi/64) theta''."""
+
+
+@dataclass(frozen=True)
+class UnsteadyLoads:
+    """The unsteady loads of one polar: its branches and the lags of its bubble."""
+
+    branches: Branches
+    lags: SeparationLags
+
+    @classmethod
+    def from_polar(
+        cls, polar: SectionPolar, lags: SeparationLags = IDENTIFIED_LAGS
+    ) -> UnsteadyLoads:
+        """Take the polar's own slopes at zero incidence as the attached branch."""
+        return cls(Branches.from_polar(polar), lags)
+
+
+@dataclass(frozen=True)
+class ForcedMotion:
+    """Prescribed motion of one section at uniform times.
+
+    Parameters
+    ----------
+    time
+        s = tV/c, uniform, shape (n,).
+    incidence
+        theta_0 + theta (rad), shape (n,).
+    deflection
+        w/c, shape (n,).
+    """
+
+    time: Floats
+    incidence: Floats
+    deflection: Floats
+
+    @property
+    def time_step(self) -> float:
+        """Interval of the samples in convective times."""
+        return float(self.time[1] - self.time[0])
+
+
+@dataclass(frozen=True)
+class LoadHistory:
+    """Loads under prescribed motion, each of shape (n,).
+
+    ``lift_coefficient`` c_l; ``moment_coefficient`` c_m about the moving mid-chord;
+    ``effective_incidence`` alpha_E (rad).
+    """
+
+    lift_coefficient: Floats
+    moment_coefficient: Floats
+    effective_incidence: Floats
+
+
+def follow(signal: Floats, rate: float, time_step: float) -> Floats:
+    """State z of z' = rate (signal - z), exact for a signal linear between its samples.
+
+    Starts in equilibrium with the first sample. Shape (n,) in and out.
+    """
+    decay = math.exp(-rate * time_step)
+    mean = (1.0 - decay) / (rate * time_step)
+    old, new = mean - decay, 1.0 - mean
+    change = signal - signal[0]
+    followed, _ = lfilter([new, old], [1.0, -decay], change, zi=[0.0])
+    return np.asarray(followed + signal[0], dtype=np.float64)
+
+
+def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads) -> LoadHistory:
+    """Find the loads of a section that moves as prescribed, from equilibrium at the first sample."""
+    step = motion.time_step
+    pitch_rate = np.gradient(motion.incidence, step)
+    heave_rate = np.gradient(motion.deflection, step)
+    rear = motion.incidence + 0.25 * pitch_rate - heave_rate
+    effective = IMMEDIATE_SHARE * rear
+    for amplitude, rate in zip(JONES_AMPLITUDES, LAG_RATES, strict=True):
+        effective = effective + amplitude * follow(rear, rate, step)
+    lags, branches = loads.lags, loads.branches
+    in_lift = adapted_incidence(effective, lags.lift_lag, lags.lift_delay, step)
+    in_moment = adapted_incidence(effective, lags.moment_lag, lags.moment_delay, step)
+    lift = branches.lift_slope * effective - branches.lift_deficit(in_lift)
+    moment = branches.moment_slope * effective - branches.moment_deficit(in_moment)
+    lift = lift + APPARENT_MASS * (pitch_rate - np.gradient(heave_rate, step))
+    moment = moment - PITCH_DAMPING * pitch_rate
+    moment = moment - APPARENT_INERTIA * np.gradient(pitch_rate, step)
+    return LoadHistory(lift, moment, effective)
+
+
+def adapted_incidence(effective: Floats, lag: float, delay: float, time_step: float) -> Floats:
+    """Incidence x (rad) to which the bubble has adapted under a history of alpha_E (rad)."""
+    if lag == 0.0:
+        return effective
+    follower = follow(effective, 1.0 / lag, time_step)
+    return follower - (delay / lag) * (effective - follower)

@@ -1,0 +1,104 @@
+"""Steady states of the strip system: held rigid, in aeroelastic equilibrium, and near them.
+
+Equilibrium is found with Newton's method on the bubble incidences x alone: all other states
+follow linearly from the deficits. Linearised about equilibrium the system is Y' = J Y with
+
+    J = A + B F (1 - E F)^-1 C,    F = diag(dDelta/dx),
+
+whose eigenvalues say whether, at which frequency and how fast a small oscillation grows.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.errors import SolverError
+from equisection.motion.strip_system import StripSystem
+
+Floats = NDArray[np.float64]
+
+NEWTON_STEPS = 50
+NEWTON_TOLERANCE = 1e-12
+"""Largest change of x (rad) in the last step of Newton's method."""
+
+
+def rigid_state(system: StripSystem) -> tuple[Floats, Floats]:
+    """States Y (N, n) and deficits u (N, 2 S) of the beam held rigid at theta_0.
+
+    The structure is undeformed and at rest, every lag in equilibrium with the incidence that
+    the strip then has: the state from which a case is released.
+    """
+    start = system.layout.structural
+    return _steady(system, np.arange(start, system.layout.size))
+
+
+def equilibrium(system: StripSystem) -> tuple[Floats, Floats]:
+    """States Y (N, n) and deficits u (N, 2 S) of static aeroelastic equilibrium.
+
+    Lanes that have none inside the polar (or near which Newton's method does not converge)
+    are NaN.
+    """
+    return _steady(system, np.arange(system.layout.size))
+
+
+def _steady(system: StripSystem, free: NDArray[np.intp]) -> tuple[Floats, Floats]:
+    """Steady state in which only the states ``free`` differ from zero."""
+    n = system.layout.size
+    matrix_a = system.rates[:, free[:, None], free]
+    others = system.rates[:, free, n:]
+    response = -np.linalg.solve(matrix_a, others)
+    probe = system.probe[:, :, n:] + system.probe[:, :, free] @ response
+    gain, offset = probe[:, :, :-1], probe[:, :, -1]
+    x = offset.copy() if not np.any(gain) else np.zeros_like(offset)
+    for _ in range(NEWTON_STEPS):
+        u = system.deficits(x)
+        residual = x - np.einsum("nij,nj->ni", gain, u) - offset
+        jacobian = np.eye(x.shape[1]) - gain * system.deficit_slopes(x)[:, None, :]
+        sane = np.isfinite(residual).all(axis=1) & np.isfinite(jacobian).all(axis=(1, 2))
+        change = np.full_like(x, np.nan)
+        change[sane] = np.linalg.solve(jacobian[sane], residual[sane][:, :, None])[:, :, 0]
+        x = x - change
+        if not np.any(np.abs(change) > NEWTON_TOLERANCE):
+            break
+    else:
+        x[np.any(np.abs(change) > NEWTON_TOLERANCE, axis=1)] = np.nan
+    u = system.deficits(x)
+    states = np.zeros((x.shape[0], n))
+    states[:, free] = np.einsum("nij,nj->ni", response[:, :, :-1], u) + response[:, :, -1]
+    states[np.isnan(u).any(axis=1)] = np.nan
+    return states, u
+
+
+def jacobian(system: StripSystem, states: Floats, deficits: Floats) -> Floats:
+    """J of the linearised system about a steady state, shape (N, n, n)."""
+    n = system.layout.size
+    columns = np.concatenate([states, deficits, np.ones((states.shape[0], 1))], axis=1)
+    x = np.einsum("nij,nj->ni", system.probe, columns)
+    slopes = system.deficit_slopes(x)
+    strips2 = slopes.shape[1]
+    closed = np.eye(strips2) - system.probe[:, :, n:-1] * slopes[:, None, :]
+    seen = np.linalg.solve(closed, system.probe[:, :, :n])
+    return np.asarray(
+        system.rates[:, :, :n] + system.rates[:, :, n:-1] @ (slopes[:, :, None] * seen),
+        dtype=np.float64,
+    )
+
+
+def least_stable_eigenvalue(system: StripSystem) -> NDArray[np.complex128]:
+    """Eigenvalue sigma + i omega (per c/V, omega >= 0) of largest growth sigma, shape (N,).
+
+    About static equilibrium; NaN where there is none inside the polar.
+    """
+    states, deficits = equilibrium(system)
+    found = np.isfinite(states).all(axis=1)
+    result = np.full(states.shape[0], np.nan + 0j, dtype=np.complex128)
+    if not found.any():
+        raise SolverError(
+            "no lane has a static equilibrium inside the polar; extend the polar or stiffen it"
+        )
+    safe_states, safe_deficits = np.nan_to_num(states), np.nan_to_num(deficits)
+    values = np.linalg.eigvals(jacobian(system, safe_states, safe_deficits))
+    chosen = np.take_along_axis(values, values.real.argmax(axis=1)[:, None], axis=1)[:, 0]
+    result[found] = (chosen.real + 1j * np.abs(chosen.imag))[found]
+    return result

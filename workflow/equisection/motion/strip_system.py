@@ -1,0 +1,284 @@
+r"""Structure and aerodynamics of strips as one linear system with a static non-linearity.
+
+A section is one strip with one mode of each kind. A beam has S strips with
+
+    theta(zeta) = sum_i Theta_i f_i(zeta),    w/c = sum_j W_j g_j(zeta),    zeta = z/L,
+
+and per mode, with the weights h_s of the strips (sum 1) and ' = d/ds,
+
+    I_i Theta_i'' + K_i Theta_i = sum_s h_s f_si c_m,s
+    m_j W_j''     + k_j W_j     = sum_s h_s g_sj c_l,s.
+
+I_i, K_i are generalised inertia and stiffness over (rho/2) c^4 and q c^2, m_j, k_j over
+(rho/2) c^2 and q: I*, k*, m*, k_w* where there is one strip. The induced incidence is
+quasi-steady, alpha_i = D c_circ with the circulatory lift c_circ = a_l alpha_E - Delta_l, and is
+solved with the rest instead of lagging a step behind.
+
+With the states Y = (Theta, Theta', W, W', z_1, z_2, y_l, y_m) and the deficits
+u = (Delta_l(x_l), Delta_m(x_m)) of all strips everything else is linear:
+
+    Y' = A Y + B u + e,    x = C Y + E u + g.
+
+Apparent mass is moved to the left of the equations of motion and so is implicit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.aerodynamics.indicial import IMMEDIATE_SHARE, JONES_AMPLITUDES, LAG_RATES
+from equisection.aerodynamics.separation import SLOPE_HALF_STEP
+from equisection.aerodynamics.unsteady_loads import (
+    APPARENT_INERTIA,
+    APPARENT_MASS,
+    PITCH_DAMPING,
+    UnsteadyLoads,
+)
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class StripStructure:
+    """Modes on strips, for N lanes (cases) at once.
+
+    Parameters
+    ----------
+    torsion_shapes, bending_shapes
+        f_si, shape (S, n_t), and g_sj, shape (S, n_b).
+    weights
+        h_s, shape (S,), sum 1.
+    torsion_inertia, torsion_stiffness
+        I_i, K_i, shape (N, n_t).
+    bending_mass, bending_stiffness
+        m_j, k_j, shape (N, n_b).
+    induction
+        D (rad), shape (S, S); all zero for a section.
+    """
+
+    torsion_shapes: Floats
+    bending_shapes: Floats
+    weights: Floats
+    torsion_inertia: Floats
+    torsion_stiffness: Floats
+    bending_mass: Floats
+    bending_stiffness: Floats
+    induction: Floats
+
+    @property
+    def lanes(self) -> int:
+        """Number N of lanes."""
+        return int(self.torsion_inertia.shape[0])
+
+    @property
+    def strips(self) -> int:
+        """Number S of strips."""
+        return int(self.weights.size)
+
+
+@dataclass(frozen=True)
+class StateLayout:
+    """Where each kind of state is in Y."""
+
+    torsion_modes: int
+    bending_modes: int
+    strips: int
+
+    @property
+    def size(self) -> int:
+        """Number n of states."""
+        return 2 * (self.torsion_modes + self.bending_modes) + 4 * self.strips
+
+    @property
+    def structural(self) -> int:
+        """Number of structural states, which come first."""
+        return 2 * (self.torsion_modes + self.bending_modes)
+
+    @property
+    def twist(self) -> slice:
+        """Theta_i."""
+        return slice(0, self.torsion_modes)
+
+    @property
+    def twist_rate(self) -> slice:
+        """Theta_i'."""
+        return slice(self.torsion_modes, 2 * self.torsion_modes)
+
+    @property
+    def deflection(self) -> slice:
+        """W_j."""
+        start = 2 * self.torsion_modes
+        return slice(start, start + self.bending_modes)
+
+    @property
+    def deflection_rate(self) -> slice:
+        """W_j'."""
+        start = 2 * self.torsion_modes + self.bending_modes
+        return slice(start, start + self.bending_modes)
+
+    def lag(self, number: int) -> slice:
+        """z_1, z_2 (number 0, 1) and y_l, y_m (2, 3)."""
+        start = self.structural + number * self.strips
+        return slice(start, start + self.strips)
+
+
+@dataclass(frozen=True)
+class StripSystem:
+    """The system Y' = A Y + B u + e of N lanes, with n states and columns [Y | u | 1].
+
+    Parameters
+    ----------
+    layout
+        Where each state is.
+    structure, loads
+        What the system was assembled from.
+    rates
+        [A | B | e], shape (N, n, n + 2 S + 1).
+    probe
+        [C | E | g], the incidences x_l, x_m of the bubble, shape (N, 2 S, n + 2 S + 1).
+    strip_loads
+        c_l, c_m and alpha_E of the strips, shape (N, 3 S, n + 2 S + 1).
+    """
+
+    layout: StateLayout
+    structure: StripStructure
+    loads: UnsteadyLoads
+    rates: Floats
+    probe: Floats
+    strip_loads: Floats
+
+    def deficits(self, x: Floats) -> Floats:
+        """Deficits u of shape (N, 2 S) at bubble incidences x (rad) of the same shape."""
+        strips = self.layout.strips
+        u = np.empty_like(x)
+        u[:, :strips] = self.loads.branches.lift_deficit(x[:, :strips])
+        u[:, strips:] = self.loads.branches.moment_deficit(x[:, strips:])
+        return u
+
+    def deficit_slopes(self, x: Floats) -> Floats:
+        """Slopes (1/rad) of the deficits at x, by central differences, shape (N, 2 S)."""
+        rise = self.deficits(x + SLOPE_HALF_STEP) - self.deficits(x - SLOPE_HALF_STEP)
+        return rise / (2 * SLOPE_HALF_STEP)
+
+
+def assemble(
+    structure: StripStructure, loads: UnsteadyLoads, incidence_rad: float | Floats
+) -> StripSystem:
+    """Assemble the system at rigid incidence theta_0 (rad), one value or one per lane."""
+    layout = StateLayout(
+        structure.torsion_shapes.shape[1], structure.bending_shapes.shape[1], structure.strips
+    )
+    rows = _strip_rows(layout, structure, loads)
+    twist_acceleration, deflection_acceleration = _accelerations(layout, structure, rows)
+    lanes, strips = structure.lanes, structure.strips
+    rates = np.zeros((lanes, layout.size, rows.columns))
+    unit = np.eye(layout.size, rows.columns)
+    rates[:, layout.twist] = unit[layout.twist_rate]
+    rates[:, layout.twist_rate] = twist_acceleration
+    rates[:, layout.deflection] = unit[layout.deflection_rate]
+    rates[:, layout.deflection_rate] = deflection_acceleration
+    for number, rate in enumerate(LAG_RATES):
+        rates[:, layout.lag(number)] = rate * (rows.rear - unit[layout.lag(number)])
+    for number, lag in enumerate((loads.lags.lift_lag, loads.lags.moment_lag), start=2):
+        rate = 1.0 / lag if lag > 0.0 else 1.0  # without lag the state is not read
+        rates[:, layout.lag(number)] = rate * (rows.effective - unit[layout.lag(number)])
+    strip_loads = np.empty((lanes, 3 * strips, rows.columns))
+    shapes_g, shapes_f = structure.bending_shapes, structure.torsion_shapes
+    strip_loads[:, :strips] = rows.lift - APPARENT_MASS * (shapes_g @ deflection_acceleration)
+    strip_loads[:, strips : 2 * strips] = rows.moment - APPARENT_INERTIA * (
+        shapes_f @ twist_acceleration
+    )
+    strip_loads[:, 2 * strips :] = rows.effective
+    probe = np.broadcast_to(rows.bubble, (lanes, *rows.bubble.shape)).copy()
+    constant = np.broadcast_to(np.asarray(incidence_rad, dtype=np.float64), (lanes,))
+    for matrix in (rates, probe, strip_loads):
+        matrix[:, :, -1] *= constant[:, None]
+    return StripSystem(layout, structure, loads, rates, probe, strip_loads)
+
+
+@dataclass(frozen=True)
+class _StripRows:
+    """Linear expressions in [Y | u | theta_0] at the strips, each of shape (S, columns).
+
+    ``rear`` is alpha_34, ``effective`` alpha_E, ``bubble`` (2 S rows) x_l and x_m; ``lift`` and
+    ``moment`` lack the terms with accelerations.
+    """
+
+    columns: int
+    rear: Floats
+    effective: Floats
+    bubble: Floats
+    lift: Floats
+    moment: Floats
+
+
+def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyLoads) -> _StripRows:
+    strips = layout.strips
+    columns = layout.size + 2 * strips + 1
+    unit = np.eye(columns)
+    lift_deficit = unit[layout.size : layout.size + strips]
+    moment_deficit = unit[layout.size + strips : layout.size + 2 * strips]
+    twist_rate = structure.torsion_shapes @ unit[layout.twist_rate]
+    geometric = (
+        unit[-1]
+        + structure.torsion_shapes @ unit[layout.twist]
+        + 0.25 * twist_rate
+        - structure.bending_shapes @ unit[layout.deflection_rate]
+    )
+    lagging = sum(
+        (a * unit[layout.lag(i)] for i, a in enumerate(JONES_AMPLITUDES)),
+        start=np.zeros((strips, columns)),
+    )
+    lift_slope, moment_slope = loads.branches.lift_slope, loads.branches.moment_slope
+    induction = structure.induction
+    rear = np.linalg.solve(
+        np.eye(strips) + IMMEDIATE_SHARE * lift_slope * induction,
+        geometric - induction @ (lift_slope * lagging - lift_deficit),
+    )
+    effective = IMMEDIATE_SHARE * rear + lagging
+    lags = loads.lags
+    bubble = np.vstack(
+        [
+            _adapted(effective, unit[layout.lag(2)], lags.lift_lag, lags.lift_delay),
+            _adapted(effective, unit[layout.lag(3)], lags.moment_lag, lags.moment_delay),
+        ]
+    )
+    lift = lift_slope * effective - lift_deficit + APPARENT_MASS * twist_rate
+    moment = moment_slope * effective - moment_deficit - PITCH_DAMPING * twist_rate
+    return _StripRows(columns, rear, effective, bubble, lift, moment)
+
+
+def _adapted(effective: Floats, follower: Floats, lag: float, delay: float) -> Floats:
+    if lag == 0.0:
+        return effective
+    return follower - (delay / lag) * (effective - follower)
+
+
+def _accelerations(
+    layout: StateLayout, structure: StripStructure, rows: _StripRows
+) -> tuple[Floats, Floats]:
+    """Theta'' and W'' in [Y | u | theta_0], shapes (N, n_t, columns) and (N, n_b, columns)."""
+    unit = np.eye(layout.size, rows.columns)
+    weighted_f = structure.weights[:, None] * structure.torsion_shapes
+    weighted_g = structure.weights[:, None] * structure.bending_shapes
+    inertia = _diagonal(structure.torsion_inertia) + APPARENT_INERTIA * (
+        weighted_f.T @ structure.torsion_shapes
+    )
+    mass = _diagonal(structure.bending_mass) + APPARENT_MASS * (
+        weighted_g.T @ structure.bending_shapes
+    )
+    torque = (
+        weighted_f.T @ rows.moment - structure.torsion_stiffness[:, :, None] * unit[layout.twist]
+    )
+    force = (
+        weighted_g.T @ rows.lift - structure.bending_stiffness[:, :, None] * unit[layout.deflection]
+    )
+    return np.linalg.solve(inertia, torque), np.linalg.solve(mass, force)
+
+
+def _diagonal(values: Floats) -> Floats:
+    """Diagonal matrices, shape (N, m, m), of values of shape (N, m)."""
+    return np.asarray(values[:, :, None] * np.eye(values.shape[1]), dtype=np.float64)
