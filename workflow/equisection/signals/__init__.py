@@ -1,1 +1,6 @@
-"""Verdict on a history: settled, limit cycle or growing, with its means and frequencies."""
+"""Histories of motion turned into verdicts: what a run shows, and whether it may end."""
+
+from equisection.signals.judgement import assess
+from equisection.signals.verdict import Criteria, Regime, Verdict
+
+__all__ = ["Criteria", "Regime", "Verdict", "assess"]

@@ -1,0 +1,162 @@
+"""What the end of a history looks like, in numbers; nothing is decided here."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from equisection.signals.cycles import Array, Cycles, find_cycles, peak_to_peak
+from equisection.signals.trend import Trend, exponential_trend
+from equisection.signals.verdict import Criteria
+
+# Error of a cycle's amplitude in standard deviations of the noise: five extrema, each the top
+# of a parabola through three or more samples.
+_AMPLITUDE_NOISE = 0.5
+# The oscillation has died when no extremum stands out for this many periods.
+_SILENT_PERIODS = 1.5
+
+
+@dataclass(frozen=True)
+class Observation:
+    """A history with its cycles, seen through the window of the last periods.
+
+    Attributes
+    ----------
+    time, twist, deflection : ndarray, shape (n,)
+        s (c/V), twist (rad), deflection (chords).
+    cycles : Cycles
+        Cycles of the twist.
+    criteria : Criteria
+    natural_frequency : float
+        Hint (f c/V) or NaN.
+    """
+
+    time: Array
+    twist: Array
+    deflection: Array
+    cycles: Cycles
+    criteria: Criteria
+    natural_frequency: float
+
+    @cached_property
+    def first_judged(self) -> int:
+        """Index of the first amplitude after the discarded transient."""
+        after = float(self.time[0]) + self.criteria.discard_time
+        return int(np.searchsorted(self.cycles.amplitude_time, after))
+
+    @cached_property
+    def available(self) -> int:
+        """Half cycles from the first judged extremum to the last."""
+        judged = self.cycles.amplitude.size - self.first_judged
+        return judged + 1 if judged > 0 else 0
+
+    @cached_property
+    def used(self) -> int:
+        """Half cycles in the window: of `Criteria.periods` or, if fewer, all whole periods."""
+        return min(2 * self.criteria.periods, self.available - self.available % 2)
+
+    @property
+    def enough(self) -> bool:
+        """Whether the window has as many periods as are asked for."""
+        return self.used == 2 * self.criteria.periods
+
+    @cached_property
+    def amplitude(self) -> Array:
+        """Amplitudes (rad) of the cycles centred in the window."""
+        return self.cycles.amplitude[-(self.used - 1) :] if self.used else np.empty(0)
+
+    @cached_property
+    def amplitude_time(self) -> Array:
+        """Their times (c/V)."""
+        return self.cycles.amplitude_time[-(self.used - 1) :] if self.used else np.empty(0)
+
+    @property
+    def amplitude_noise(self) -> float:
+        """Standard deviation (rad) that noise gives an amplitude."""
+        return _AMPLITUDE_NOISE * self.cycles.noise
+
+    @cached_property
+    def ringing(self) -> bool:
+        """Whether the twist still oscillates at the end of the record."""
+        if self.cycles.time.size < 3:
+            return False
+        quiet = float(self.time[-1] - self.cycles.time[-1])
+        return quiet < _SILENT_PERIODS * self.cycles.period(2 * self.criteria.periods)
+
+    @cached_property
+    def period(self) -> float:
+        """Period of the twist (c/V): observed, else the hint's, else a guess from the record."""
+        observed = self.cycles.period(max(self.used, 2))
+        if math.isfinite(observed):
+            return observed
+        if self.natural_frequency > 0.0:
+            return 1.0 / self.natural_frequency
+        return float(self.time[-1] - self.time[0]) / (2 * self.criteria.periods)
+
+    @cached_property
+    def window(self) -> tuple[float, float]:
+        """Start and end (c/V) of the window: whole periods of the twist, or as long a time."""
+        if self.ringing and self.used:
+            return float(self.cycles.time[-1 - self.used]), float(self.cycles.time[-1])
+        end = float(self.time[-1])
+        return max(float(self.time[0]), end - self.criteria.periods * self.period), end
+
+    @cached_property
+    def trend(self) -> Trend:
+        """Trend of the amplitude over the window."""
+        return self._trend(0, self.amplitude.size)
+
+    @cached_property
+    def halves(self) -> tuple[Trend, Trend]:
+        """Trends over the first and the last half of the window."""
+        middle = self.amplitude.size // 2
+        return self._trend(0, middle + 1), self._trend(middle, self.amplitude.size)
+
+    @cached_property
+    def last_two_windows(self) -> tuple[Trend, Trend]:
+        """Trends over the window before (as much as there is of it) and the window."""
+        judged = self.cycles.amplitude[self.first_judged :]
+        at = self.cycles.amplitude_time[self.first_judged :]
+        before = slice(max(judged.size - 2 * self.amplitude.size, 0), -self.amplitude.size)
+        if at[before].size < self.amplitude.size // 2:
+            return self.halves
+        return exponential_trend(at[before], judged[before], self.amplitude_noise), self.trend
+
+    def _trend(self, first: int, last: int) -> Trend:
+        part = slice(first, last)
+        return exponential_trend(
+            self.amplitude_time[part], self.amplitude[part], self.amplitude_noise
+        )
+
+    @cached_property
+    def spread(self) -> float:
+        """Largest minus smallest amplitude of the window over their mean, less the noise's."""
+        if self.amplitude.size == 0:
+            return math.inf
+        spread = float(np.ptp(self.amplitude)) - 4.0 * self.amplitude_noise
+        return max(spread, 0.0) / float(np.mean(self.amplitude))
+
+    @cached_property
+    def half_range(self) -> float:
+        """Half the largest minus the smallest twist (rad) in the window, drift and all."""
+        start = int(np.searchsorted(self.time, self.window[0]))
+        return 0.5 * float(np.ptp(self.twist[start:]))
+
+    @cached_property
+    def deflection_amplitude(self) -> float:
+        """Half peak-to-peak (chords) over the last period of the window."""
+        end = self.window[1]
+        start = max(end - self.period, float(self.time[0]))
+        return 0.5 * peak_to_peak(self.time, self.deflection, start, end)
+
+
+def observe(
+    time: Array, twist: Array, deflection: Array, criteria: Criteria, natural_frequency: float
+) -> Observation:
+    """Take a history apart; arguments as in `judgement.assess`."""
+    return Observation(
+        time, twist, deflection, find_cycles(time, twist), criteria, natural_frequency
+    )
