@@ -1,0 +1,232 @@
+"""Beams of a few modes on strips of the span, released from the rigid steady state.
+
+Torsion and bending modes (``motion.strip_system``) carry the unsteady loads of the section polar
+on every strip, and the strips induce incidence on each other through the matrix D of
+``aerodynamics.induction``. Many beams that differ in stiffness run together: a sweep over k* is
+one call.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.motion.march import Failure, Progress, Recording, march
+from equisection.motion.steady_states import rigid_state
+from equisection.motion.strip_system import StripStructure, StripSystem, assemble
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+BEAM_TIME_STEP = 0.05
+"""Default step in convective times; the modes themselves are integrated exactly at any step."""
+
+OUTPUT_INTERVAL = 0.1
+"""Default interval of the histories in convective times."""
+
+
+@dataclass(frozen=True)
+class BeamParameters:
+    """Modes of N beams at the strips.
+
+    Parameters
+    ----------
+    structure
+        Shapes at the strips, their weights, generalised inertias, masses and stiffnesses, and
+        the induction matrix.
+    torsion_at_tip, bending_at_tip
+        Shapes at the tip, shape (n_t,) and (n_b,): where theta and w/c of the histories are
+        taken.
+    """
+
+    structure: StripStructure
+    torsion_at_tip: Floats
+    bending_at_tip: Floats
+
+    @classmethod
+    def from_modes(
+        cls,
+        *,
+        span: Floats,
+        torsion_shapes: Floats,
+        torsion_frequencies: Floats,
+        inertia: Floats,
+        bending_shapes: Floats,
+        bending_frequencies: Floats,
+        mass: Floats,
+        stations: Floats,
+        weights: Floats,
+        induction: Floats | None = None,
+    ) -> BeamParameters:
+        """Take the modes of N uniform beams to S strips.
+
+        Parameters
+        ----------
+        span
+            z/L where the shapes are given, from 0 to 1, shape (m,).
+        torsion_shapes, bending_shapes
+            f_i, g_j, shape (n_t, m) and (n_b, m).
+        torsion_frequencies, bending_frequencies
+            omega c/V, shape (N, n_t) and (N, n_b).
+        inertia, mass
+            Sectional I/(rho c^4/2) and m/(rho c^2/2), shape (N,).
+        stations, weights
+            z/L of the strips and their share of the span (sum 1), shape (S,).
+        induction
+            D (rad) with alpha_i = D c_l, shape (S, S); None for strips in uniform flow.
+
+        Notes
+        -----
+        The tip is where the first shape of each kind is largest (midspan of a beam held at both
+        ends). The generalised inertia of mode i is I int f_i^2 dz/L and its stiffness
+        omega_i^2 times that.
+        """
+        torsion, bending = CubicSpline(span, torsion_shapes.T), CubicSpline(span, bending_shapes.T)
+        torsion_inertia = np.outer(inertia, _square_integral(span, torsion_shapes))
+        bending_mass = np.outer(mass, _square_integral(span, bending_shapes))
+        strips = stations.size
+        structure = StripStructure(
+            torsion_shapes=torsion(stations),
+            bending_shapes=bending(stations),
+            weights=weights,
+            torsion_inertia=torsion_inertia,
+            torsion_stiffness=torsion_inertia * torsion_frequencies**2,
+            bending_mass=bending_mass,
+            bending_stiffness=bending_mass * bending_frequencies**2,
+            induction=np.zeros((strips, strips)) if induction is None else induction,
+        )
+        return cls(
+            structure,
+            torsion_shapes[:, np.abs(torsion_shapes[0]).argmax()],
+            bending_shapes[:, np.abs(bending_shapes[0]).argmax()],
+        )
+
+
+def _square_integral(span: Floats, shapes: Floats) -> Floats:
+    return np.asarray(CubicSpline(span, (shapes**2).T).integrate(0.0, 1.0), dtype=np.float64)
+
+
+@dataclass(frozen=True)
+class BeamHistories:
+    """Histories of N beams; arrays of shape (n_times, N), NaN after the end of a lane.
+
+    Parameters
+    ----------
+    time
+        s = tV/c, shape (n_times,).
+    tip_twist, tip_twist_rate
+        theta (rad) at the tip, d theta/ds.
+    tip_deflection, tip_deflection_rate
+        w/c at the tip, d(w/c)/ds.
+    lift_coefficient, moment_coefficient
+        C_L, and C_M about the moving mid-chords (Eq. 22).
+    effective_incidence
+        alpha_E (rad) of the outermost strip.
+    torsion_amplitudes, bending_amplitudes
+        Theta_i (rad) and W_j (chords), shape (n_times, N, n_t) and (n_times, N, n_b).
+    samples
+        Number of valid times of each beam, shape (N,).
+    failures
+        Beams that left the polar, with time and incidence.
+    """
+
+    time: Floats
+    tip_twist: Floats
+    tip_twist_rate: Floats
+    tip_deflection: Floats
+    tip_deflection_rate: Floats
+    lift_coefficient: Floats
+    moment_coefficient: Floats
+    effective_incidence: Floats
+    torsion_amplitudes: Floats
+    bending_amplitudes: Floats
+    samples: Indices
+    failures: tuple[Failure, ...]
+
+
+BeamMonitor = Callable[[BeamHistories, Indices], Indices]
+"""Called with the histories so far and the running lanes; returns the lanes to stop."""
+
+
+def beam_system(
+    parameters: BeamParameters, loads: UnsteadyLoads, incidence_rad: float | Floats
+) -> StripSystem:
+    """Return the system of N beams at rigid incidence theta_0 (rad), one value or one per beam."""
+    return assemble(parameters.structure, loads, incidence_rad)
+
+
+def release_beams(
+    parameters: BeamParameters,
+    loads: UnsteadyLoads,
+    incidence_rad: float | Floats,
+    duration: float,
+    *,
+    time_step: float = BEAM_TIME_STEP,
+    output_interval: float = OUTPUT_INTERVAL,
+    monitor: BeamMonitor | None = None,
+    progress: Progress | None = None,
+) -> BeamHistories:
+    """Release N beams, at rest and undeformed, from steady flow at theta_0 (rad).
+
+    ``duration``, ``time_step`` and ``output_interval`` are convective times. A beam on which a
+    bubble leaves the polar ends there and is named in ``failures``; the others go on.
+    """
+    system = beam_system(parameters, loads, incidence_rad)
+
+    def stop(recording: Recording, active: Indices) -> Indices:
+        assert monitor is not None
+        return monitor(_histories(recording, system), active)
+
+    recording = march(
+        system,
+        rigid_state(system),
+        _outputs(parameters, system),
+        duration=duration,
+        time_step=time_step,
+        output_interval=output_interval,
+        monitor=None if monitor is None else stop,
+        progress=progress,
+    )
+    return _histories(recording, system)
+
+
+def _outputs(parameters: BeamParameters, system: StripSystem) -> Floats:
+    """Rows: tip theta, theta', w, w', then C_L, C_M, alpha_E of the last strip, Theta, W."""
+    layout, strips = system.layout, system.layout.strips
+    lanes, _, columns = system.rates.shape
+    unit = np.eye(layout.size, columns)
+    tip = np.stack(
+        [
+            parameters.torsion_at_tip @ unit[layout.twist],
+            parameters.torsion_at_tip @ unit[layout.twist_rate],
+            parameters.bending_at_tip @ unit[layout.deflection],
+            parameters.bending_at_tip @ unit[layout.deflection_rate],
+        ]
+    )
+    weights = system.structure.weights
+    loads = system.strip_loads
+    total = np.stack([weights @ loads[:, :strips], weights @ loads[:, strips : 2 * strips]], axis=1)
+    amplitudes = np.concatenate([unit[layout.twist], unit[layout.deflection]])
+
+    def for_all(rows: Floats) -> Floats:
+        return np.broadcast_to(rows, (lanes, *rows.shape))
+
+    return np.concatenate([for_all(tip), total, loads[:, -1:], for_all(amplitudes)], axis=1)
+
+
+def _histories(recording: Recording, system: StripSystem) -> BeamHistories:
+    values = recording.values[: recording.recorded]
+    first_bending = 7 + system.layout.torsion_modes
+    return BeamHistories(
+        recording.time[: recording.recorded],
+        *(values[:, :, row] for row in range(7)),
+        torsion_amplitudes=values[:, :, 7:first_bending],
+        bending_amplitudes=values[:, :, first_bending:],
+        samples=recording.samples,
+        failures=tuple(recording.failures),
+    )
