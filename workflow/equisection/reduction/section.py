@@ -1,0 +1,184 @@
+"""The equivalent section of a beam: Eq. 17 as the paper has it, and in consistent form.
+
+``paper`` divides the torsion pair by A_theta,theta and both bending terms by A_theta,w (what
+the published ratios 9.12 and 0.183 were made with; the A_theta printed under m_2D is a misprint),
+takes K_theta from the slope of the shape (Eq. 7), and reads the section's motion as the tip's.
+``consistent`` divides each pair by its own A, takes both stiffnesses from the natural
+frequencies, and recovers the tip from the section through a and b (see docs/errata.md).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from equisection.conventions import dynamic_pressure
+from equisection.errors import ReductionError
+from equisection.reduction.integrals import Integrals, span_integrals
+from equisection.structure.modes import ModeSet
+from equisection.structure.plate import Plate
+
+Reduction = Literal["paper", "consistent"]
+REDUCTIONS: tuple[Reduction, ...] = ("paper", "consistent")
+
+# Below these the section still has numbers but they stand for little; see `validity_warnings`.
+_LEAST_LIKENESS = 0.9
+_LEAST_PARTICIPATION = 0.3
+
+
+@dataclass(frozen=True)
+class EquivalentSection:
+    """Structural properties of a two-dimensional section, per metre of span.
+
+    Attributes
+    ----------
+    reduction : str
+        ``paper`` or ``consistent``.
+    torsional_stiffness : float
+        k_theta (N m/rad per m).
+    flexural_stiffness : float
+        k_w (N/m per m).
+    inertia : float
+        I_2D about mid-chord (kg m^2/m).
+    mass : float
+        m_2D (kg/m).
+    twist_recovery : float
+        a: the tip's twist is theta_2D/a (-).
+    deflection_recovery : float
+        b: the tip's deflection is w_2D/b (-).
+    """
+
+    reduction: Reduction
+    torsional_stiffness: float
+    flexural_stiffness: float
+    inertia: float
+    mass: float
+    twist_recovery: float
+    deflection_recovery: float
+
+    def k_star(self, density: float, speed: float, chord: float) -> float:
+        """k* = k_theta/(q c^2) (-), Eq. 18; fluid density (kg/m^3), speed (m/s), chord (m)."""
+        return self.torsional_stiffness / (dynamic_pressure(density, speed) * chord**2)
+
+    def k_w_star(self, density: float, speed: float) -> float:
+        """k_w* = k_w/q (-), Eq. 18."""
+        return self.flexural_stiffness / dynamic_pressure(density, speed)
+
+    def i_star(self, density: float, chord: float) -> float:
+        """I* = I_2D/(rho c^4/2) (-), Eq. 18."""
+        return self.inertia / (0.5 * density * chord**4)
+
+    def m_star(self, density: float, chord: float) -> float:
+        """m* = m_2D/(rho c^2/2) (-), Eq. 18."""
+        return self.mass / (0.5 * density * chord**2)
+
+    def inertia_ratio(self, chord: float) -> float:
+        """c^2 m_2D/I_2D (-), 9.12 below Eq. 18."""
+        return chord**2 * self.mass / self.inertia
+
+    def stiffness_ratio(self, chord: float) -> float:
+        """c^2 k_w/k_theta (-), 0.183 below Eq. 18."""
+        return chord**2 * self.flexural_stiffness / self.torsional_stiffness
+
+    def scaled(
+        self, k_star: float, density: float, speed: float, chord: float
+    ) -> EquivalentSection:
+        """The section at another k*: both stiffnesses scale as if Young's modulus varied."""
+        if not k_star > 0.0:
+            raise ReductionError(f"k_star is {k_star}; give a positive number")
+        factor = k_star / self.k_star(density, speed, chord)
+        return replace(
+            self,
+            torsional_stiffness=factor * self.torsional_stiffness,
+            flexural_stiffness=factor * self.flexural_stiffness,
+        )
+
+
+def reduce_beam(plate: Plate, modes: ModeSet, reduction: str = "consistent") -> EquivalentSection:
+    """Equivalent section of a plate from its first modes of torsion and of bending (Eq. 17)."""
+    if reduction not in REDUCTIONS:
+        raise ReductionError(f"reduction is {reduction!r}; choose one of {', '.join(REDUCTIONS)}")
+    integrals = span_integrals(plate, modes, count=1)
+    _require_restraint(plate, integrals)
+    if reduction == "paper":
+        return _paper_section(plate, integrals)
+    return _consistent_section(plate, integrals)
+
+
+def _paper_section(plate: Plate, integrals: Integrals) -> EquivalentSection:
+    a_tt, a_tw = integrals.a_theta_theta[0, 0], integrals.a_theta_w[0, 0]
+    if abs(a_tw) < 1e-6:
+        raise ReductionError(
+            f"A_theta,w is {a_tw:.1e}: first twist and first deflection have orthogonal shapes, "
+            "and the paper's reduction divides by it; use reduction 'consistent'"
+        )
+    spring = plate.root_torsional_stiffness is not None
+    k_theta = integrals.stiffness_theta[0, 0] if spring else integrals.strain_theta[0, 0]
+    return EquivalentSection(
+        reduction="paper",
+        torsional_stiffness=plate.torsional_rigidity / plate.length**2 * float(k_theta / a_tt),
+        flexural_stiffness=plate.bending_rigidity
+        / plate.length**4
+        * float(integrals.stiffness_w[0, 0] / a_tw),
+        inertia=plate.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
+        mass=plate.mass_per_length * float(integrals.mass_w[0, 0] / a_tw),
+        twist_recovery=1.0,
+        deflection_recovery=1.0,
+    )
+
+
+def _consistent_section(plate: Plate, integrals: Integrals) -> EquivalentSection:
+    a_tt, a_ww = integrals.a_theta_theta[0, 0], integrals.a_w_w[0, 0]
+    for name, mean in (("F", integrals.f_mean[0]), ("G", integrals.g_mean[0])):
+        if abs(mean) < 1e-6:
+            raise ReductionError(
+                f"{name}, the span mean of the first shape, is {mean:.1e}: a uniform load does "
+                "not move this mode and the section cannot stand for the beam"
+            )
+    return EquivalentSection(
+        reduction="consistent",
+        torsional_stiffness=plate.torsional_rigidity
+        / plate.length**2
+        * float(integrals.stiffness_theta[0, 0] / a_tt),
+        flexural_stiffness=plate.bending_rigidity
+        / plate.length**4
+        * float(integrals.stiffness_w[0, 0] / a_ww),
+        inertia=plate.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
+        mass=plate.mass_per_length * float(integrals.mass_w[0, 0] / a_ww),
+        twist_recovery=float(a_tt / integrals.f_mean[0]),
+        deflection_recovery=float(a_ww / integrals.g_mean[0]),
+    )
+
+
+def _require_restraint(plate: Plate, integrals: Integrals) -> None:
+    """Refuse a beam that can turn or swing as a rigid body: it has no k_theta or no k_w."""
+    for motion, key, stiffness in (
+        ("twist", "root_torsional_stiffness", integrals.stiffness_theta[0, 0]),
+        ("deflection", "root_bending_stiffness", integrals.stiffness_w[0, 0]),
+    ):
+        if stiffness <= 1e-10:
+            raise ReductionError(
+                f"boundary {plate.boundary!r} leaves {motion} without restraint (its first "
+                f"natural frequency is zero), so that the section would have no spring; give "
+                f"plate.{key} above zero or another boundary"
+            )
+
+
+def validity_warnings(integrals: Integrals) -> tuple[str, ...]:
+    """What makes a section a poor stand-in for its beam, in words; empty when nothing does."""
+    warnings = []
+    if integrals.cos_phi < _LEAST_LIKENESS:
+        warnings.append(
+            f"cos(phi) = {integrals.cos_phi:.3f} is below {_LEAST_LIKENESS}: twist and deflection "
+            "have unlike shapes, and the section misjudges how one loads the other"
+        )
+    for name, share, load in (
+        ("F^2/A_theta,theta", integrals.twist_participation, "moment"),
+        ("G^2/A_w,w", integrals.deflection_participation, "lift"),
+    ):
+        if share < _LEAST_PARTICIPATION:
+            warnings.append(
+                f"{name} = {share:.3f} is below {_LEAST_PARTICIPATION}: a uniform {load} moves "
+                "other modes more than the first, which is the only one that the section has"
+            )
+    return tuple(warnings)

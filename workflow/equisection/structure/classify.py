@@ -1,0 +1,77 @@
+"""What a mode of the solid plate is: bending, torsion, in-plane, extension or chordwise.
+
+At each station along the span the displacement of the mid-surface is split into the motions of
+a rigid section and the rest:
+
+    u_y(x) = w - x theta + rest,    u_x(x) = u + rest,    u_z(x) = s - x u' + rest,
+
+and the kind is that of the largest share of the integral of |displacement|^2, which for a
+homogeneous plate is its share of the kinetic energy. "chordwise" is what no beam has: a section
+that changes its form.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import simpson
+
+Floats = NDArray[np.float64]
+
+KINDS = ("bending", "torsion", "in-plane", "extension", "chordwise")
+
+
+@dataclass(frozen=True)
+class Classified:
+    """Kinds, shares of motion and span-wise shapes of n modes.
+
+    Attributes
+    ----------
+    kind : tuple of str, length n
+        One of `KINDS` for each mode.
+    share : (n, 5) array
+        Share of motion of each kind (-), in the order of `KINDS`; rows sum to 1.
+    shape : (n, m) array
+        The section's motion that the kind names along the span, not normalised: w (m), theta
+        (rad), u (m), s (m), and the largest rest of u_y (m) for "chordwise".
+    """
+
+    kind: tuple[str, ...]
+    share: Floats
+    shape: Floats
+
+
+def classify(chord_position: Floats, span: Floats, displacement: Floats) -> Classified:
+    """Split displacements (n, m, p, 3) on x (p,) and z/L (m,) into motions of a section."""
+
+    def over_chord(values: Floats) -> Floats:
+        width = chord_position[-1] - chord_position[0]
+        return np.asarray(simpson(values, x=chord_position, axis=-1)) / width
+
+    x = chord_position
+    radius_squared = over_chord(x**2)
+    u_x, u_y, u_z = (displacement[..., d] for d in range(3))
+    w, u, s = over_chord(u_y), over_chord(u_x), over_chord(u_z)
+    theta = -over_chord(u_y * x) / radius_squared  # nose up: u_y = -x theta (Eq. 3)
+    lean = over_chord(u_z * x) / radius_squared
+    whole = over_chord(u_x**2 + u_y**2 + u_z**2)
+    parts = [w**2, theta**2 * radius_squared, u**2 + lean**2 * radius_squared, s**2]
+    energy = np.stack([*parts, whole - sum(parts)])
+    total = simpson(energy, x=span, axis=-1)
+    share = (total / total.sum(axis=0)).T
+    rest = u_y - w[..., None] + x * theta[..., None]
+    index = np.argmax(share, axis=1)
+    motions = np.stack([w, theta, u, s, _largest(rest)])
+    return Classified(
+        kind=tuple(KINDS[i] for i in index),
+        share=share,
+        shape=motions[index, np.arange(len(index))],
+    )
+
+
+def _largest(rest: Floats) -> Floats:
+    """The value of largest size along the chord (last axis), with its sign."""
+    index = np.abs(rest).argmax(axis=-1)
+    return np.take_along_axis(rest, index[..., None], axis=-1)[..., 0]

@@ -1,0 +1,195 @@
+"""The modes of a plate by any of three methods, in one form.
+
+``solid`` (quadratic hexahedra) is what the paper does; ``beam`` (one-dimensional elements)
+and ``analytic`` cover every boundary and differ from it by what a beam leaves out: restrained
+warping and Poisson contraction at a clamp.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.errors import ModesError
+from equisection.structure import analytic, beam_elements
+from equisection.structure.classify import classify
+from equisection.structure.plate import Plate
+from equisection.structure.solid import solid_modes
+from equisection.structure.span import derivative, integrate, normalise
+
+Floats = NDArray[np.float64]
+
+METHODS = ("solid", "beam", "analytic")
+
+
+@dataclass(frozen=True)
+class ModeSet:
+    """Natural modes of a plate, in order of frequency.
+
+    Attributes
+    ----------
+    frequency : (n,) array
+        Natural frequencies (Hz).
+    kind : tuple of str, length n
+        ``bending``, ``torsion``, ``in-plane``, ``extension`` or ``chordwise``.
+    span : (m,) array
+        z/L in [0, 1].
+    shape : (n, m) array
+        Largest absolute value 1, positive at the tip (or at the largest value where the tip is
+        held): w for bending, theta (nose up) for torsion, u for in-plane.
+    method : str
+        ``solid``, ``beam`` or ``analytic``.
+    elements : str
+        Label of the mesh, as in ``24 x 89 x 2``.
+    """
+
+    frequency: Floats
+    kind: tuple[str, ...]
+    span: Floats
+    shape: Floats
+    method: str
+    elements: str
+
+    def bending(self, count: int) -> ModeSet:
+        """First bending modes."""
+        return self._of_kind("bending", count)
+
+    def torsion(self, count: int) -> ModeSet:
+        """First torsion modes."""
+        return self._of_kind("torsion", count)
+
+    def _of_kind(self, kind: str, count: int) -> ModeSet:
+        found = [i for i, this in enumerate(self.kind) if this == kind]
+        if len(found) < count:
+            raise ModesError(
+                f"{count} {kind} modes are needed and {len(found)} are among the "
+                f"{len(self.kind)} computed by method {self.method!r} ({self.elements}); "
+                "compute more modes (a larger count)"
+            )
+        chosen = found[:count]
+        return ModeSet(
+            self.frequency[chosen],
+            tuple(self.kind[i] for i in chosen),
+            self.span,
+            self.shape[chosen],
+            self.method,
+            self.elements,
+        )
+
+
+def compute_modes(
+    plate: Plate,
+    method: str = "solid",
+    elements: tuple[int, int, int] = (24, 89, 2),
+    count: int = 12,
+) -> ModeSet:
+    """Lowest modes of a plate.
+
+    Parameters
+    ----------
+    plate : Plate
+        Geometry, material and boundary.
+    method : str
+        One of `METHODS`.
+    elements : tuple of int
+        Elements along chord, span and thickness. ``beam`` uses those along the span only, and
+        ``analytic`` takes its stations from them (ends and middles of the elements).
+    count : int
+        Number of modes. For the paper's plate, 12 hold four of bending, four of torsion.
+    """
+    if count < 1:
+        raise ModesError(f"count is {count}; ask for at least one mode")
+    if method == "solid":
+        solid = solid_modes(plate, elements, count)
+        sorted_out = classify(solid.chord_position, solid.span, solid.displacement)
+        label = " x ".join(str(n) for n in elements)
+        shape = normalise(sorted_out.shape)
+        return ModeSet(solid.frequency, sorted_out.kind, solid.span, shape, method, label)
+    along_span = elements[1]
+    span = np.linspace(0.0, 1.0, 2 * along_span + 1)
+    if method == "beam":
+        bending = beam_elements.bending_modes(plate, along_span, count)
+        torsion = beam_elements.torsion_modes(plate, along_span, count)
+    elif method == "analytic":
+        bending = analytic.bending_modes(plate, span, count)
+        torsion = analytic.torsion_modes(plate, span, count)
+    else:
+        raise ModesError(f"modes.method is {method!r}; choose one of {', '.join(METHODS)}")
+    frequency = np.concatenate([bending[0], torsion[0]])
+    kind = ("bending",) * len(bending[0]) + ("torsion",) * len(torsion[0])
+    order = np.argsort(frequency, kind="stable")[:count]
+    return ModeSet(
+        frequency[order],
+        tuple(kind[i] for i in order),
+        span,
+        normalise(np.concatenate([bending[1], torsion[1]]))[order],
+        method,
+        f"{along_span} along the span" if method == "beam" else "none",
+    )
+
+
+def torsion_strain(modes: ModeSet) -> float:
+    """K_theta^11/M_theta^11 from the slope of the first torsion shape (-), Eqs. 6 and 7."""
+    first = modes.torsion(1)
+    slope = derivative(first.span, first.shape)
+    return float((integrate(first.span, slope**2) / integrate(first.span, first.shape**2)).item())
+
+
+def frequency_constants(modes: ModeSet, plate: Plate) -> Floats:
+    """C_i of Eq. 23 for each mode (-): f_i c/V = C_i (L/h) sqrt(k*/I*).
+
+    k* is that of Eq. 17 with the slope of the computed torsion shape, which is what reproduces
+    Table 2. The constants hold for this L/h only: L/h has no place in Eq. 23, since
+    sqrt(k*/I*) is already omega_theta c/V.
+    """
+    stiffness = plate.torsional_rigidity / plate.length**2 * torsion_strain(modes)
+    radian_rate = np.sqrt(stiffness / plate.inertia_per_length)
+    return np.asarray(modes.frequency / radian_rate * plate.thickness / plate.length)
+
+
+@dataclass(frozen=True)
+class MeshStudy:
+    """Frequencies of the same modes on finer and finer meshes.
+
+    Attributes
+    ----------
+    elements : tuple of (chord, span, thickness)
+        Levels, coarse to fine.
+    kind : tuple of str
+        Kinds on the finest level.
+    frequency : (levels, n) array
+        Natural frequencies (Hz).
+    """
+
+    elements: tuple[tuple[int, int, int], ...]
+    kind: tuple[str, ...]
+    frequency: Floats
+
+    @property
+    def change(self) -> Floats:
+        """Relative change of each frequency from the level before, (levels - 1, n)."""
+        return self.frequency[1:] / self.frequency[:-1] - 1.0
+
+    @property
+    def error(self) -> Floats:
+        """Frequency over that of the finest level, less 1, (levels, n)."""
+        return self.frequency / self.frequency[-1] - 1.0
+
+
+def mesh_study(
+    plate: Plate, levels: Sequence[tuple[int, int, int]], method: str = "solid", count: int = 8
+) -> MeshStudy:
+    """Solve on each mesh level (coarse to fine) and compare the first ``count`` frequencies."""
+    solved = [compute_modes(plate, method, level, count) for level in levels]
+    for level, modes in zip(levels, solved, strict=True):
+        if modes.kind != solved[-1].kind:
+            raise ModesError(
+                f"on {level} elements the modes are {', '.join(modes.kind)}, on {levels[-1]} "
+                f"{', '.join(solved[-1].kind)}; the coarse mesh does not resolve them, refine it"
+            )
+    return MeshStudy(
+        tuple(levels), solved[-1].kind, np.array([modes.frequency for modes in solved])
+    )
