@@ -83,7 +83,7 @@ class EquivalentSection:
     def scaled(
         self, k_star: float, density: float, speed: float, chord: float
     ) -> EquivalentSection:
-        """The section at another k*: both stiffnesses scale as if Young's modulus varied."""
+        """Scale to another k*: both stiffnesses change as if Young's modulus did."""
         if not k_star > 0.0:
             raise ReductionError(f"k_star is {k_star}; give a positive number")
         factor = k_star / self.k_star(density, speed, chord)
@@ -165,7 +165,7 @@ def _require_restraint(plate: Plate, integrals: Integrals) -> None:
 
 
 def validity_warnings(integrals: Integrals) -> tuple[str, ...]:
-    """What makes a section a poor stand-in for its beam, in words; empty when nothing does."""
+    """Say what makes a section a poor stand-in for its beam; empty when nothing does."""
     warnings = []
     if integrals.cos_phi < _LEAST_LIKENESS:
         warnings.append(

@@ -92,7 +92,7 @@ def _characteristic(ends: tuple[str, str], spring: float) -> Callable[[Floats], 
 
 
 def _basis(root: float, s: Floats, order: int) -> Floats:
-    """Derivative ``order`` (over beta^order) of cos, sin and two decaying exponentials, (4, m).
+    """Cosine, sine and two decaying exponentials, differentiated ``order`` times over beta, (4, m).
 
     Exponentials that decay from either end stay of order one where cosh would overflow.
     """
@@ -128,7 +128,7 @@ def _bending_shape(ends: tuple[str, str], spring: float, root: float, span: Floa
 def _sprung_torsion_roots(spring: float, count: int) -> Floats:
     """Roots of gamma tan(gamma) = kappa, one in each [n pi, (n + 1/2) pi)."""
     if spring == 0.0:
-        return np.arange(count) * np.pi
+        return np.arange(count, dtype=np.float64) * np.pi
 
     def equation(gamma: float) -> float:
         return float(gamma * np.sin(gamma) - spring * np.cos(gamma))

@@ -23,17 +23,14 @@ from equisection.structure.plate import Plate
 Floats = NDArray[np.float64]
 
 
-@BilinearForm
 def _curvature(u: Any, v: Any, _: Any) -> Any:
     return ddot(dd(u), dd(v))
 
 
-@BilinearForm
 def _twist_rate(u: Any, v: Any, _: Any) -> Any:
     return dot(grad(u), grad(v))
 
 
-@BilinearForm
 def _product(u: Any, v: Any, _: Any) -> Any:
     return u * v
 
@@ -43,8 +40,8 @@ def bending_modes(plate: Plate, elements: int, count: int) -> tuple[Floats, Floa
     mesh = MeshLine(np.linspace(0.0, 1.0, elements + 1))
     basis = Basis(mesh, ElementLineHermite(), intorder=6)
     deflection, slope = basis.dofs.nodal_dofs
-    stiffness = _curvature.assemble(basis).toarray()
-    mass = _product.assemble(basis).toarray()
+    stiffness = BilinearForm(_curvature).assemble(basis).toarray()
+    mass = BilinearForm(_product).assemble(basis).toarray()
     if plate.root_bending_stiffness is not None:
         root = slope[0]
         spring = plate.root_bending_stiffness * plate.length / plate.bending_rigidity
@@ -67,8 +64,8 @@ def torsion_modes(plate: Plate, elements: int, count: int) -> tuple[Floats, Floa
     mesh = MeshLine(np.linspace(0.0, 1.0, elements + 1))
     basis = Basis(mesh, ElementLineP2(), intorder=4)
     nodes, middles = basis.dofs.nodal_dofs[0], basis.dofs.interior_dofs[0]
-    stiffness = _twist_rate.assemble(basis).toarray()
-    mass = _product.assemble(basis).toarray()
+    stiffness = BilinearForm(_twist_rate).assemble(basis).toarray()
+    mass = BilinearForm(_product).assemble(basis).toarray()
     if plate.root_torsional_stiffness is not None:
         root = nodes[0]
         spring = plate.root_torsional_stiffness * plate.length / plate.torsional_rigidity

@@ -48,7 +48,7 @@ def classify(chord_position: Floats, span: Floats, displacement: Floats) -> Clas
 
     def over_chord(values: Floats) -> Floats:
         width = chord_position[-1] - chord_position[0]
-        return np.asarray(simpson(values, x=chord_position, axis=-1)) / width
+        return np.asarray(simpson(values, x=chord_position, axis=-1) / width, dtype=np.float64)
 
     x = chord_position
     radius_squared = over_chord(x**2)
@@ -72,6 +72,6 @@ def classify(chord_position: Floats, span: Floats, displacement: Floats) -> Clas
 
 
 def _largest(rest: Floats) -> Floats:
-    """The value of largest size along the chord (last axis), with its sign."""
+    """Value of largest size along the chord (last axis), with its sign."""
     index = np.abs(rest).argmax(axis=-1)
     return np.take_along_axis(rest, index[..., None], axis=-1)[..., 0]

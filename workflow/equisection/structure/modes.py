@@ -171,12 +171,12 @@ class MeshStudy:
     @property
     def change(self) -> Floats:
         """Relative change of each frequency from the level before, (levels - 1, n)."""
-        return self.frequency[1:] / self.frequency[:-1] - 1.0
+        return np.asarray(self.frequency[1:] / self.frequency[:-1] - 1.0)
 
     @property
     def error(self) -> Floats:
         """Frequency over that of the finest level, less 1, (levels, n)."""
-        return self.frequency / self.frequency[-1] - 1.0
+        return np.asarray(self.frequency / self.frequency[-1] - 1.0)
 
 
 def mesh_study(

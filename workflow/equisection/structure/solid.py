@@ -91,9 +91,10 @@ def solid_modes(plate: Plate, elements: tuple[int, int, int], count: int) -> Sol
         raise ModesError(
             f"elements is {elements}; give three counts of at least 1 (chord, span, thickness)"
         )
+    element = _one_element(plate, elements)
     frequencies, fields = [], []
     for parity in _CLASSES:
-        frequency, field = _class_modes(plate, elements, parity, count)
+        frequency, field = _class_modes(plate, element, elements, parity, count)
         frequencies.append(frequency)
         fields.append(field)
     frequency = np.concatenate(frequencies)
@@ -107,19 +108,26 @@ def solid_modes(plate: Plate, elements: tuple[int, int, int], count: int) -> Sol
     )
 
 
-def _element_matrices(
-    plate: Plate, elements: tuple[int, int, int]
-) -> tuple[Floats, Floats, Ints, Ints]:
-    """Stiffness (N/m) and mass (kg) of one element, with each unknown's place and component.
+@dataclass(frozen=True)
+class _Element:
+    """The one element of the mesh.
 
-    Returns
-    -------
-    stiffness, mass : (81, 81) arrays
-    place : (3, 81) array
-        Half-element coordinate 0, 1 or 2 along x, y, z.
-    component : (81,) array
-        0, 1, 2 for u_x, u_y, u_z.
+    ``stiffness`` (N/m) and ``mass`` (kg) are (81, 81); ``place`` (3, 81) is each unknown's
+    half-element coordinate 0, 1 or 2 along x, y, z and ``component`` (81,) is 0, 1, 2 for
+    u_x, u_y, u_z.
     """
+
+    stiffness: Floats
+    mass: Floats
+    place: Ints
+    component: Ints
+
+
+def _product(u: Any, v: Any, _: Any) -> Any:
+    return dot(u, v)
+
+
+def _one_element(plate: Plate, elements: tuple[int, int, int]) -> _Element:
     along_chord, along_span, through = elements
     size = np.array(
         [plate.chord / along_chord, plate.thickness / through, plate.length / along_span]
@@ -128,18 +136,14 @@ def _element_matrices(
     lame = lame_parameters(plate.youngs_modulus, plate.poisson_ratio)
     stiffness = linear_elasticity(*lame).assemble(basis).toarray()
 
-    @BilinearForm
-    def inertia(u: Any, v: Any, _: Any) -> Any:
-        return plate.density * dot(u, v)
-
-    mass = inertia.assemble(basis).toarray()
+    mass = plate.density * BilinearForm(_product).assemble(basis).toarray()
     place = np.rint(2.0 * basis.doflocs / size[:, None]).astype(np.int64)
     component = np.empty(basis.N, dtype=np.int64)
     dofs = basis.dofs
     for table in (dofs.nodal_dofs, dofs.edge_dofs, dofs.facet_dofs, dofs.interior_dofs):
         for row, numbers in enumerate(table):
             component[numbers] = row
-    return stiffness, mass, place, component
+    return _Element(stiffness, mass, place, component)
 
 
 @dataclass(frozen=True)
@@ -156,7 +160,7 @@ class _Folding:
 
 
 def _fold(plate: Plate, elements: tuple[int, int, int], parity: tuple[int, int]) -> _Folding:
-    """Number the unknowns of a quarter and mirror them onto the whole mesh."""
+    """Assign numbers to the unknowns of a quarter and mirror them onto the whole mesh."""
     nx, nz, ny = (2 * n for n in elements)
     shape = (nz + 1, nx + 1, ny + 1, 3)
     # Parity of u_y is given; u_x differs from it in the chord's mirror, u_y in the thickness's
@@ -178,10 +182,9 @@ def _fold(plate: Plate, elements: tuple[int, int, int], parity: tuple[int, int])
 
 
 def _class_matrices(
-    plate: Plate, elements: tuple[int, int, int], folding: _Folding
+    element: _Element, elements: tuple[int, int, int], folding: _Folding
 ) -> tuple[csc_matrix, csc_matrix]:
     """Stiffness and mass of one class of modes: one element's matrices, scattered."""
-    stiffness, mass, place, component = _element_matrices(plate, elements)
     along_chord, along_span, through = elements
     ex, ey, ez = np.meshgrid(
         np.arange((along_chord + 1) // 2),
@@ -193,26 +196,30 @@ def _class_matrices(
     # An element and its images contribute alike; one on a mirror is its own image.
     images = np.where(2 * origin[0] + 1 == along_chord, 1.0, 2.0)
     images *= np.where(2 * origin[1] + 1 == through, 1.0, 2.0)
-    x, y, z = (2 * origin[d][:, None] + place[d] for d in range(3))
-    number = folding.number[z, x, y, component]
-    sign = folding.sign[z, x, y, component]
+    x, y, z = (2 * origin[d][:, None] + element.place[d] for d in range(3))
+    number = folding.number[z, x, y, element.component]
+    sign = folding.sign[z, x, y, element.component]
     rows = np.repeat(number[:, :, None], number.shape[1], axis=2)
     weight = images[:, None, None] * sign[:, :, None] * sign[:, None, :]
     kept = weight != 0.0
     index = rows[kept], rows.transpose(0, 2, 1)[kept]
     size = (folding.unknowns, folding.unknowns)
     return (
-        coo_matrix(((weight * stiffness)[kept], index), shape=size).tocsc(),
-        coo_matrix(((weight * mass)[kept], index), shape=size).tocsc(),
+        coo_matrix(((weight * element.stiffness)[kept], index), shape=size).tocsc(),
+        coo_matrix(((weight * element.mass)[kept], index), shape=size).tocsc(),
     )
 
 
 def _class_modes(
-    plate: Plate, elements: tuple[int, int, int], parity: tuple[int, int], count: int
+    plate: Plate,
+    element: _Element,
+    elements: tuple[int, int, int],
+    parity: tuple[int, int],
+    count: int,
 ) -> tuple[Floats, Floats]:
     """Frequencies (Hz) and mid-thickness displacements of one class of modes."""
     folding = _fold(plate, elements, parity)
-    stiffness, mass = _class_matrices(plate, elements, folding)
+    stiffness, mass = _class_matrices(element, elements, folding)
     # A shift just below zero keeps the factor regular where a class can move rigidly (pinned-pinned
     # slides along the span). The scale is that of the first bending frequency of a beam.
     scale = plate.bending_rigidity / plate.mass_per_length / plate.length**4

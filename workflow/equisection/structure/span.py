@@ -24,7 +24,7 @@ def gram(span: Floats, first: Floats, second: Floats) -> Floats:
 
 
 def derivative(span: Floats, values: Floats) -> Floats:
-    """Derivative with respect to z/L at the stations, along the last axis."""
+    """Differentiate with respect to z/L at the stations, along the last axis."""
     return np.asarray(CubicSpline(span, values, axis=-1)(span, 1))
 
 
@@ -40,4 +40,5 @@ def normalise(shape: Floats) -> Floats:
     deciding = np.where(
         size[:, -1] > 1e-6 * largest[:, 0], shape[:, -1], shape[rows, first_largest]
     )
-    return shape / largest * np.where(deciding < 0.0, -1.0, 1.0)[:, None]
+    sign = np.where(deciding < 0.0, -1.0, 1.0)[:, None]
+    return np.asarray(shape / largest * sign, dtype=np.float64)
