@@ -195,6 +195,16 @@ class SectionPolar:
         """c_d at ``alpha`` (rad, any shape); NaN outside the data."""
         return self._drag.read(alpha)
 
+    @property
+    def lift_cubic(self) -> PchipInterpolator:
+        """c_l as the piecewise cubic itself, for roots and quotients; no limit of range."""
+        return self._lift.cubic
+
+    @property
+    def moment_cubic(self) -> PchipInterpolator:
+        """c_m as the piecewise cubic itself, for roots and quotients; no limit of range."""
+        return self._moment.cubic
+
     def lift_slope(self, alpha: float = 0.0) -> float:
         """dc_l/dalpha (1/rad) at ``alpha`` (rad)."""
         self.require(alpha)

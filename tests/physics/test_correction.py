@@ -1,0 +1,166 @@
+"""Correction for the finite span: limits, identity, divergence and the paper's Table 1."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar_file import read_polar
+from equisection.errors import IncidenceOutOfRangeError, ReductionError
+from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
+
+POLARS = Path(__file__).parents[2] / "config" / "polars"
+SECTION = read_polar(POLARS / "plate_2d_10398.csv")
+BEAM = read_polar(POLARS / "plate_3d_82520.csv")
+PLATE = CorrectionFactors(SECTION, BEAM)
+THIN_PLATE = SectionPolar.flat_plate(0.5)
+THETA_0 = np.radians(2.5)
+RATIO = 0.183  # c^2 k_w/k_theta of the paper
+
+TABLE_1_DEG = [0, 2.5, 5, 10]  # the paper's Table 1, C_L and C_M of 4.7e6 and 15e6 cells
+TABLE_1 = {
+    "4.7e6": ([0, 0.2554, 0.4945, 0.5727], [0, 0.0585, 0.0804, 0.0687]),
+    "15e6": ([0, 0.2613, 0.4826, 0.5684], [0, 0.0602, 0.0697, 0.0659]),
+}
+
+
+def table_1(cells: str) -> SectionPolar:
+    """Table 1 with straight lines between its angles, drawn with many points."""
+    lift, moment = TABLE_1[cells]
+    degrees = np.linspace(0, 10, 401)
+    return SectionPolar(
+        np.radians(degrees),
+        np.full(401, 0.05),
+        np.interp(degrees, TABLE_1_DEG, lift),
+        np.interp(degrees, TABLE_1_DEG, moment),
+        f"Table 1, {cells} cells",
+    ).mirrored()
+
+
+def scaled(polar: SectionPolar, lift: float, moment: float) -> SectionPolar:
+    return SectionPolar(
+        polar.incidence, polar.drag, lift * polar.lift, moment * polar.moment, "scaled"
+    )
+
+
+@pytest.mark.parametrize(
+    ("k_star", "cells", "twist_deg", "deflection"),
+    [
+        (21, "4.7e6", 0.164, 0.071), (21, "15e6", 0.166, 0.072),
+        (10, "4.7e6", 0.353, 0.158), (10, "15e6", 0.353, 0.160),
+        (6.44, "4.7e6", 0.564, 0.263), (6.44, "15e6", 0.554, 0.263),
+        (5.5, "4.7e6", 0.671, 0.318), (5.5, "15e6", 0.653, 0.317),
+    ],
+)  # fmt: skip
+def test_equilibria_of_table_1(
+    k_star: float, cells: str, twist_deg: float, deflection: float
+) -> None:
+    """By hand: intersection of k* theta with the straight lines between the table's angles."""
+    factors = CorrectionFactors(SECTION, table_1(cells))
+    equilibrium = corrected_equilibrium(factors, THETA_0, k_star, RATIO)
+    assert np.degrees(equilibrium.twist_rad[0]) == pytest.approx(twist_deg, abs=6e-4)
+    assert equilibrium.deflection_chords[0] == pytest.approx(deflection, abs=6e-4)
+
+
+def test_corrected_section_is_in_equilibrium() -> None:
+    """With factor times stiffness on the left and the section's own loads on the right."""
+    k_star = np.array([3.0, 5.5, 10.0, 21.0])
+    found = corrected_equilibrium(PLATE, THETA_0, k_star, RATIO)
+    incidence = THETA_0 + found.twist_rad
+    assert found.moment_factor * k_star * found.twist_rad == pytest.approx(
+        SECTION.moment_coefficient(incidence), abs=1e-6
+    )
+    assert found.lift_factor * RATIO * k_star * found.deflection_chords == pytest.approx(
+        SECTION.lift_coefficient(incidence), abs=1e-6
+    )
+
+
+def test_factors_of_equal_polars_are_one() -> None:
+    same = CorrectionFactors(SECTION, SECTION)
+    alpha = np.radians(np.linspace(-12, 12, 49))
+    assert same.lift_factor(alpha) == pytest.approx(1, rel=1e-14)
+    assert same.moment_factor(alpha) == pytest.approx(1, rel=1e-14)
+
+
+def test_factors_of_proportional_polars_are_the_proportion() -> None:
+    factors = CorrectionFactors(SECTION, scaled(SECTION, 0.8, 0.5))
+    alpha = np.radians([-7, 0, 1e-9, 3, 11])
+    assert factors.lift_factor(alpha) == pytest.approx(1 / 0.8)
+    assert factors.moment_factor(alpha) == pytest.approx(2)
+
+
+@pytest.mark.parametrize("distance", [1e-3, 1e-5, 1e-7])
+def test_factor_is_continuous_through_zero_incidence(distance: float) -> None:
+    left, middle, right = PLATE.moment_factor([-distance, 0.0, distance])
+    assert middle == pytest.approx(SECTION.moment_slope() / BEAM.moment_slope(), rel=1e-12)
+    assert left == pytest.approx(right, rel=1e-7)
+    assert abs(right - middle) < 10 * distance
+
+
+@given(st.floats(0, np.radians(10)))
+def test_factors_are_even_and_positive(alpha: float) -> None:
+    assert PLATE.lift_factor(-alpha) == pytest.approx(PLATE.lift_factor(alpha), rel=1e-6)
+    assert PLATE.moment_factor(alpha) > 0
+
+
+def test_beam_coefficient_that_vanishes_alone_is_named() -> None:
+    degrees = np.radians([0, 1, 2, 3, 4])
+    flat, rising = np.array([0, 0.1, 0.2, 0.2, 0.2]), np.array([0, 0.1, 0.0, -0.1, -0.1])
+    beam = SectionPolar(degrees, flat, flat, rising, "beam").mirrored()
+    section = SectionPolar(degrees, flat, flat, flat, "section").mirrored()
+    factors = CorrectionFactors(section, beam)
+    assert factors.lift_factor(np.radians(2)) == pytest.approx(1)
+    with pytest.raises(ReductionError, match=r"c_m/C_M .* at an incidence of 2 deg.* C_M is 0,"):
+        factors.moment_factor(np.radians([1, 2]))
+    with pytest.raises(ReductionError, match=r"C_M is -0\.1"):
+        factors.moment_factor(np.radians(3))
+
+
+def test_incidence_beyond_either_polar_is_refused() -> None:
+    with pytest.raises(IncidenceOutOfRangeError, match="plate_3d_82520"):
+        PLATE.lift_factor(np.radians(11))
+
+
+@pytest.mark.parametrize("k_star", [1.7, 3.0, 20.0])
+def test_thin_plate_twists_as_the_formula_says(k_star: float) -> None:
+    """theta = s theta_0/(k* - s) with s = pi/2: diverges at k* = s."""
+    thin = CorrectionFactors(THIN_PLATE, THIN_PLATE)
+    slope = 0.5 * np.pi
+    found = corrected_equilibrium(thin, 0.01, k_star, RATIO)
+    assert found.twist_rad == pytest.approx(slope * 0.01 / (k_star - slope), rel=1e-9)
+    mirrored = corrected_equilibrium(thin, -0.01, k_star, RATIO)
+    assert mirrored.twist_rad == pytest.approx(-found.twist_rad, rel=1e-9)
+
+
+@pytest.mark.parametrize("k_star", [0.5 * np.pi, 0.5 * np.pi * 0.999, 0.5])
+@pytest.mark.parametrize("theta_0", [0.01, 0.0, -0.01])
+def test_divergence_is_an_error_with_k_star_and_range(k_star: float, theta_0: float) -> None:
+    thin = CorrectionFactors(THIN_PLATE, THIN_PLATE)
+    with pytest.raises(ReductionError, match=rf"k\* = {k_star:.4g} .*-28.65 to 28.65 deg"):
+        corrected_equilibrium(thin, theta_0, [21.0, k_star], RATIO)
+
+
+def test_no_incidence_no_twist() -> None:
+    found = corrected_equilibrium(PLATE, 0.0, [5.5, 21.0], RATIO)
+    assert np.all(found.twist_rad == 0)
+    assert np.all(found.deflection_chords == 0)
+    assert found.moment_factor == pytest.approx(SECTION.moment_slope() / BEAM.moment_slope())
+
+
+def test_first_of_several_roots_is_taken() -> None:
+    """A moment that levels off and rises again cuts k* theta three times."""
+    degrees = np.radians([0, 1, 2, 4, 6, 7, 8, 12])
+    moment = np.array([0, 0.02, 0.03, 0.03, 0.05, 0.2, 0.25, 0.26])
+    beam = SectionPolar(degrees, 0 * moment, moment, moment, "wavy").mirrored()
+    k_star = 1.5
+    found = corrected_equilibrium(CorrectionFactors(beam, beam), np.radians(1), k_star, RATIO)
+    twist = np.linspace(0, np.radians(11), 20001)
+    balance = k_star * twist - beam.moment_coefficient(np.radians(1) + twist)
+    crossings = twist[1:][np.diff(np.sign(balance)) != 0]
+    assert crossings.size == 3
+    assert found.twist_rad[0] == pytest.approx(crossings[0], abs=1e-4)

@@ -1,0 +1,181 @@
+"""Correction of the section for the finite span (Eq. 20), and the incidence it is taken at.
+
+The aerodynamic coefficients of the beam replace those of the section when mass and stiffness of
+the section are multiplied by
+
+    lift factor = c_l(alpha)/C_L(alpha),    moment factor = c_m(alpha)/C_M(alpha)
+
+(Eqs. 19, 20), the first for m_2D and k_w, the second for I_2D and k_theta. A symmetric section
+has 0/0 at zero incidence. The quotient is continuous there: it is that of c_l/alpha and C_L/alpha,
+which tend to the slopes. Where only the coefficient of the beam vanishes, or the two differ in
+sign, the corrected mass would be infinite or negative and there is no equivalent section.
+
+Taken at every instant the factors would make the mass depend on the angle. They are taken once,
+at the aeroelastic equilibrium, where the corrected section obeys
+
+    (c_m/C_M) k* theta = c_m(theta_0 + theta)     or     k* theta = C_M(theta_0 + theta),
+    (c_l/C_L) k_w* w/c = c_l(theta_0 + theta)     or     k_w* w/c = C_L(theta_0 + theta),
+
+so the equilibrium follows from the beam's polar alone. Of several roots the one is taken that is
+met first when theta grows from zero in the direction of the moment. There k* exceeds the slope
+of C_M: it is statically stable. No root inside the polar means divergence, or a short polar.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import PchipInterpolator, PPoly
+
+from equisection.aerodynamics.polar import SectionPolar
+from equisection.errors import ReductionError
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class CorrectionFactors:
+    """Factors of Eq. 20 against incidence.
+
+    Attributes
+    ----------
+    section
+        c_l, c_m of the two-dimensional section.
+    beam
+        C_L, C_M of the rigid, untwisted beam.
+    """
+
+    section: SectionPolar
+    beam: SectionPolar
+
+    def lift_factor(self, alpha: ArrayLike) -> Floats:
+        """c_l/C_L (1) at ``alpha`` (rad, any shape): the factor of m_2D and k_w."""
+        self._require(alpha)
+        return _quotient(self.section.lift_cubic, self.beam.lift_cubic, alpha, "C_L")
+
+    def moment_factor(self, alpha: ArrayLike) -> Floats:
+        """c_m/C_M (1) at ``alpha`` (rad, any shape): the factor of I_2D and k_theta."""
+        self._require(alpha)
+        return _quotient(self.section.moment_cubic, self.beam.moment_cubic, alpha, "C_M")
+
+    def _require(self, alpha: ArrayLike) -> None:
+        self.section.require(alpha)
+        self.beam.require(alpha)
+
+
+@dataclass(frozen=True, eq=False)
+class CorrectedEquilibrium:
+    """The corrected section at rest in the flow, one entry for each k*.
+
+    Attributes
+    ----------
+    k_star
+        k* (1) of the uncorrected structural stiffness, shape (m,).
+    twist_rad
+        theta (rad), nose up, beyond theta_0, shape (m,).
+    deflection_chords
+        w/c (1), shape (m,).
+    lift_factor, moment_factor
+        Eq. 20 at theta_0 + theta, shape (m,).
+    """
+
+    k_star: Floats
+    twist_rad: Floats
+    deflection_chords: Floats
+    lift_factor: Floats
+    moment_factor: Floats
+
+
+def corrected_equilibrium(
+    factors: CorrectionFactors, incidence_rad: float, k_star: ArrayLike, stiffness_ratio: float
+) -> CorrectedEquilibrium:
+    """Find the static equilibrium of the corrected section, and the factors there.
+
+    Parameters
+    ----------
+    factors
+        Polars of section and beam.
+    incidence_rad
+        theta_0 (rad).
+    k_star
+        k* (1), scalar or shape (m,).
+    stiffness_ratio
+        c^2 k_w/k_theta = k_w*/k* (1).
+    """
+    stiffness = np.atleast_1d(np.asarray(k_star, dtype=np.float64))
+    factors.beam.require(incidence_rad)
+    twist = np.array([_first_twist(factors.beam, incidence_rad, float(k)) for k in stiffness])
+    incidence = incidence_rad + twist
+    return CorrectedEquilibrium(
+        k_star=stiffness,
+        twist_rad=twist,
+        deflection_chords=factors.beam.lift_cubic(incidence) / (stiffness_ratio * stiffness),
+        lift_factor=factors.lift_factor(incidence),
+        moment_factor=factors.moment_factor(incidence),
+    )
+
+
+def _quotient(
+    section: PchipInterpolator, beam: PchipInterpolator, alpha: ArrayLike, name: str
+) -> Floats:
+    incidence = np.asarray(alpha, dtype=np.float64)
+    if section(0.0) == 0 and beam(0.0) == 0:
+        above, below = _mean_slope(section, incidence), _mean_slope(beam, incidence)
+    else:
+        above, below = section(incidence), beam(incidence)
+    bad = ~(above * below > 0)
+    if np.any(bad):
+        worst = float(incidence[bad][0])
+        raise ReductionError(
+            f"the correction factor {name.lower()}/{name} is not a positive number at an "
+            f"incidence of {np.degrees(worst):.4g} deg: the beam's {name} is "
+            f"{float(beam(worst)):.4g}, the section's {name.lower()} {float(section(worst)):.4g}; "
+            "choose another incidence, or run without the correction"
+        )
+    quotient: Floats = np.asarray(above / below)
+    return quotient
+
+
+def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
+    """c(alpha)/alpha (1/rad) of a curve through zero, with its limit at alpha = 0.
+
+    It is the mean of the slope between zero and alpha. Up to the first knot the slope is
+    quadratic and Gauss' rule of two points is exact, without the division of zero by zero.
+    """
+    first_knot = np.min(np.abs(curve.x[curve.x != 0]))
+    near = np.abs(incidence) <= first_knot
+    lower, upper = 0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)
+    mean = 0.5 * (curve(lower * incidence, 1) + curve(upper * incidence, 1))
+    secant: Floats = np.where(near, mean, curve(incidence) / np.where(near, 1.0, incidence))
+    return secant
+
+
+def _first_twist(beam: SectionPolar, incidence_rad: float, k_star: float) -> float:
+    """First root theta of k* theta = C_M(theta_0 + theta) from zero on (rad)."""
+    cubic = beam.moment_cubic
+    moment, slope = float(cubic(incidence_rad)), float(cubic(incidence_rad, 1))
+    if moment == 0.0:
+        if k_star > slope:
+            return 0.0
+        raise _no_equilibrium(beam, incidence_rad, k_star)
+    coefficients = cubic.c.copy()  # of C_M(alpha) - k* (alpha - theta_0), knot by knot
+    coefficients[2] -= k_star
+    coefficients[3] -= k_star * (cubic.x[:-1] - incidence_rad)
+    roots = PPoly(coefficients, cubic.x).roots(extrapolate=False)
+    twists = (roots - incidence_rad) * np.sign(moment)
+    ahead = twists[twists > 0]
+    if ahead.size == 0:
+        raise _no_equilibrium(beam, incidence_rad, k_star)
+    return float(np.min(ahead) * np.sign(moment))
+
+
+def _no_equilibrium(beam: SectionPolar, incidence_rad: float, k_star: float) -> ReductionError:
+    least, greatest = np.degrees(beam.incidence_range)
+    return ReductionError(
+        f"no static equilibrium at k* = {k_star:.4g} from theta_0 = "
+        f"{np.degrees(incidence_rad):.4g} deg inside polar {beam.label!r} ({least:.4g} to "
+        f"{greatest:.4g} deg): the moment outgrows the stiffness (divergence) or the polar is "
+        "too short; raise k* or extend the polar"
+    )
