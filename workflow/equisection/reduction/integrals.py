@@ -3,8 +3,8 @@
 Stiffness comes in two forms. Eq. 7 squares derivatives of the shapes; for the exact modes of a
 beam it equals M omega^2 made dimensionless. For modes of a solid the two differ, because the
 clamp restrains warping (in torsion) and Poisson contraction (in bending) and the strain energy of
-that is in the frequency but not in f' or g''. `stiffness_*` are from the frequencies,
-`strain_theta` is Eq. 7 for torsion. Eq. 7 for bending is not offered: a second derivative of a
+that is in the frequency but not in f' or g''. ``stiffness_*`` are from the frequencies,
+``strain_theta`` is Eq. 7 for torsion. Eq. 7 for bending is not offered: a second derivative of a
 finite-element shape is noise.
 """
 
@@ -15,9 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.structure.modes import ModeSet
+from equisection.structure.modes import ModeSet, torsion_strain
 from equisection.structure.plate import Plate
-from equisection.structure.span import derivative, gram, integrate
+from equisection.structure.span import gram, integrate
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ class Integrals:
         K_theta, K_w (Eq. 7) as omega_i omega_j M_ij over GJ/(L^2 rho c^3 h/12) and
         EI/(L^4 rho c h). Springs at the root count as stiffness.
     strain_theta : (n, n) array
-        K_theta (Eq. 7) from the derivatives of the shapes, without root springs.
+        K_theta (Eq. 7) from the slopes of the shapes. Springs at the root count as stiffness.
     a_theta_theta, a_theta_w, a_w_w : (n, n) arrays
         A of Eq. 12. Row of A_theta,w: torsion; column: bending.
     f_mean, g_mean : (n,) arrays
@@ -80,7 +80,6 @@ def span_integrals(plate: Plate, modes: ModeSet, count: int = 4) -> Integrals:
     """
     torsion, bending = modes.torsion(count), modes.bending(count)
     z, f, g = modes.span, torsion.shape, bending.shape
-    slope = derivative(z, f)
     a_theta_theta, a_w_w = gram(z, f, f), gram(z, g, g)
     omega_theta = 2.0 * np.pi * torsion.frequency
     omega_w = 2.0 * np.pi * bending.frequency
@@ -91,7 +90,7 @@ def span_integrals(plate: Plate, modes: ModeSet, count: int = 4) -> Integrals:
         mass_w=a_w_w,
         stiffness_theta=np.outer(omega_theta, omega_theta) * a_theta_theta / rate_theta,
         stiffness_w=np.outer(omega_w, omega_w) * a_w_w / rate_w,
-        strain_theta=gram(z, slope, slope),
+        strain_theta=torsion_strain(modes, plate, count),
         a_theta_theta=a_theta_theta,
         a_theta_w=gram(z, f, g),
         a_w_w=a_w_w,

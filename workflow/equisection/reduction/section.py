@@ -2,7 +2,8 @@
 
 ``paper`` divides the torsion pair by A_theta,theta and both bending terms by A_theta,w (what
 the published ratios 9.12 and 0.183 were made with; the A_theta printed under m_2D is a misprint),
-takes K_theta from the slope of the shape (Eq. 7), and reads the section's motion as the tip's.
+takes K_theta from the slope of the shape (Eq. 7), which is what makes the plate of the paper
+"k* = 21", and reads the section's motion as the tip's.
 ``consistent`` divides each pair by its own A, takes both stiffnesses from the natural
 frequencies, and recovers the tip from the section through a and b (see docs/errata.md).
 """
@@ -112,11 +113,11 @@ def _paper_section(plate: Plate, integrals: Integrals) -> EquivalentSection:
             f"A_theta,w is {a_tw:.1e}: first twist and first deflection have orthogonal shapes, "
             "and the paper's reduction divides by it; use reduction 'consistent'"
         )
-    spring = plate.root_torsional_stiffness is not None
-    k_theta = integrals.stiffness_theta[0, 0] if spring else integrals.strain_theta[0, 0]
     return EquivalentSection(
         reduction="paper",
-        torsional_stiffness=plate.torsional_rigidity / plate.length**2 * float(k_theta / a_tt),
+        torsional_stiffness=plate.torsional_rigidity
+        / plate.length**2
+        * float(integrals.strain_theta[0, 0] / a_tt),
         flexural_stiffness=plate.bending_rigidity
         / plate.length**4
         * float(integrals.stiffness_w[0, 0] / a_tw),

@@ -18,7 +18,7 @@ from equisection.structure import analytic, beam_elements
 from equisection.structure.classify import classify
 from equisection.structure.plate import Plate
 from equisection.structure.solid import solid_modes
-from equisection.structure.span import derivative, integrate, normalise
+from equisection.structure.span import derivative, gram, normalise
 
 Floats = NDArray[np.float64]
 
@@ -131,11 +131,16 @@ def compute_modes(
     )
 
 
-def torsion_strain(modes: ModeSet) -> float:
-    """K_theta^11/M_theta^11 from the slope of the first torsion shape (-), Eqs. 6 and 7."""
-    first = modes.torsion(1)
-    slope = derivative(first.span, first.shape)
-    return float((integrate(first.span, slope**2) / integrate(first.span, first.shape**2)).item())
+def torsion_strain(modes: ModeSet, plate: Plate, count: int) -> Floats:
+    """K_theta of Eq. 7 from the slopes of the torsion shapes, (count, count), dimensionless.
+
+    A spring that holds the root adds its energy, (k_t L/GJ) f_i(0) f_j(0).
+    """
+    shape = modes.torsion(count).shape
+    slope = derivative(modes.span, shape)
+    spring = (plate.root_torsional_stiffness or 0.0) * plate.length / plate.torsional_rigidity
+    root = shape[:, 0]
+    return np.asarray(gram(modes.span, slope, slope) + spring * np.outer(root, root))
 
 
 def frequency_constants(modes: ModeSet, plate: Plate) -> Floats:
@@ -145,7 +150,9 @@ def frequency_constants(modes: ModeSet, plate: Plate) -> Floats:
     Table 2. The constants hold for this L/h only: L/h has no place in Eq. 23, since
     sqrt(k*/I*) is already omega_theta c/V.
     """
-    stiffness = plate.torsional_rigidity / plate.length**2 * torsion_strain(modes)
+    first = modes.torsion(1).shape
+    strain = (torsion_strain(modes, plate, 1) / gram(modes.span, first, first)).item()
+    stiffness = plate.torsional_rigidity / plate.length**2 * strain
     radian_rate = np.sqrt(stiffness / plate.inertia_per_length)
     return np.asarray(modes.frequency / radian_rate * plate.thickness / plate.length)
 
