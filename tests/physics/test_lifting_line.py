@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from equisection.aerodynamics import lifting_line
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine, SpanwiseLoads
 from equisection.aerodynamics.polar import SectionPolar
@@ -193,6 +194,13 @@ def test_saw_tooth_of_stalled_strips_is_an_error_and_not_a_number() -> None:
     with pytest.raises(SolverError, match=r"'stalling' alternates .* at 11 deg"):
         cantilever(40, STALLING).solve(np.radians(11))
     assert cantilever(16, STALLING).solve(np.radians(11)).lift == pytest.approx(0.623, abs=2e-3)
+
+
+def test_no_convergence_is_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lifting_line, "_NEWTON_STEPS", 1)
+    monkeypatch.setattr(lifting_line, "_CHORD_STEPS", 1)
+    with pytest.raises(SolverError, match=r"'stalling' does not converge at 5 deg with 20 strips"):
+        cantilever(20, STALLING).solve(np.radians(5))
 
 
 def test_beam_longer_than_the_channel_is_refused() -> None:

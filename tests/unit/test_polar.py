@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -62,9 +64,11 @@ def test_interpolation_adds_no_peak(alpha: float) -> None:
 
 def test_outside_the_data_is_nan_and_leaves_the_other_lanes_alone() -> None:
     greatest = WHOLE.incidence_range[1]
-    alpha = np.array([0.01, greatest, greatest + 1e-9, -0.3, np.nan, np.inf])
-    inside = np.isfinite(WHOLE.lift_coefficient(alpha))
-    assert inside.tolist() == [True, True, False, False, False, False]
+    alpha = np.array([0.01, greatest, greatest + 1e-9, -0.3, np.nan, np.inf, -1e305])
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        inside = np.isfinite(WHOLE.lift_coefficient(alpha))
+    assert inside.tolist() == [True, True, False, False, False, False, False]
 
 
 def test_shape_is_kept() -> None:

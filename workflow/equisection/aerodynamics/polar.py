@@ -61,11 +61,11 @@ class _Curve:
     def read(self, alpha: ArrayLike) -> Floats:
         """Coefficient at ``alpha`` (rad, any shape); NaN outside the data and for NaN."""
         angles = np.asarray(alpha, dtype=np.float64)
-        position = angles / TABLE_STEP - self._first_node
-        with np.errstate(invalid="ignore"):  # NaN has no cell; its value is NaN all the same
+        with np.errstate(invalid="ignore", over="ignore"):  # a lane that failed has no cell
+            position = angles / TABLE_STEP - self._first_node
             cell = position.astype(np.intp)
-        value = self._nodes.take(cell, mode="clip")
-        value = value + (position - cell) * self._rises.take(cell, mode="clip")
+            value = self._nodes.take(cell, mode="clip")
+            value = value + (position - cell) * self._rises.take(cell, mode="clip")
         inside = (angles >= self.incidence[0]) & (angles <= self.incidence[-1])
         return np.where(inside, value, np.nan)
 

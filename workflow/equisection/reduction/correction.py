@@ -7,7 +7,8 @@ the section are multiplied by
 
 (Eqs. 19, 20), the first for m_2D and k_w, the second for I_2D and k_theta. A symmetric section
 has 0/0 at zero incidence. The quotient is continuous there: it is that of c_l/alpha and C_L/alpha,
-which tend to the slopes. Where only the coefficient of the beam vanishes, or the two differ in
+which tend to the slopes (even, with the kink that the curvature of the monotone cubic at its
+first point leaves). Where only the coefficient of the beam vanishes, or the two differ in
 sign, the corrected mass would be infinite or negative and there is no equivalent section.
 
 Taken at every instant the factors would make the mass depend on the angle. They are taken once,
