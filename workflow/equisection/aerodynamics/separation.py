@@ -1,22 +1,29 @@
 """The separation bubble: branches of the measured polar, and the lags between them.
 
 Branches
-    The *attached* branch is linear, c_l = a_l alpha and c_m = a_m alpha. What the measured polar
-    lacks of it is the *deficit* of the bubble,
+    The *attached* branch is linear, c_l = a_l alpha and c_m = a_m alpha, with the slopes that
+    the polar has at zero incidence. What the polar lacks of it is the *deficit* of the bubble,
 
         Delta_l(alpha) = a_l alpha - c_l(alpha),    Delta_m(alpha) = a_m alpha - c_m(alpha),
 
-    whatever its sign, so that attached minus deficit is the polar at every incidence.
+    so that attached minus deficit is the measured polar at every incidence.
 State
     x is the incidence to which the bubble has adapted: the incidence whose steady bubble is the
-    one there is now. It follows the incidence alpha_d that feeds the bubble with the two
-    lags of Goman and Khrabrov (J. Aircraft 31(5), 1994, Eq. 2),
+    one there is now. It follows the effective incidence alpha_E with the two lags of Goman and
+    Khrabrov (J. Aircraft 31(5), 1994),
 
-        tau_1 x' + x = alpha_d - tau_2 alpha_d',
+        tau_1 x' + x = alpha_E - tau_2 alpha_E',
 
-    who write x_0(alpha_d - tau_2 alpha_d') on the right with a degree of attachment x_0 instead
-    of the incidence that has it. Labelling the same bubble by its incidence needs no fitted
+    who write x_0(alpha - tau_2 alpha') on the right, with a degree of attachment x_0 instead of
+    the incidence that has it. Labelling the same bubble by its incidence needs no fitted
     x_0(alpha), and a polar that is non-linear from one degree on offers nothing to fit it to.
+Lift
+    Leading-edge suction, and so most of the moment, answers at once; the circulation has to wait
+    until what the bubble sheds has passed the trailing edge. The circulatory lift follows with
+
+        tau_3 c' + c = a_l alpha_E - Delta_l(x).
+
+Zero lags are a steady polar behind Wagner's lag; x and c are then no states.
 """
 
 from __future__ import annotations
@@ -36,47 +43,48 @@ SLOPE_HALF_STEP = 5e-4
 
 @dataclass(frozen=True)
 class SeparationLags:
-    """Lags of the bubble in convective times, for its deficit of moment and of lift.
+    """Lags of the bubble in convective times.
 
-    ``moment_lag`` and ``moment_delay`` are tau_1 and tau_2 of the deficit of moment,
-    ``lift_lag`` and ``lift_delay`` those of the deficit of lift. All zero is a bubble that
-    follows at once.
+    Parameters
+    ----------
+    relaxation
+        tau_1, not negative; zero only together with ``delay``.
+    delay
+        tau_2.
+    lift_lag
+        tau_3, not negative.
+    provenance
+        Where the values come from.
     """
 
-    moment_lag: float
-    moment_delay: float
+    relaxation: float
+    delay: float
     lift_lag: float
-    lift_delay: float
     provenance: str = "given by the user"
 
     def __post_init__(self) -> None:
-        for part in ("moment", "lift"):
-            lag = getattr(self, f"{part}_lag")
-            delay = getattr(self, f"{part}_delay")
-            if not (np.isfinite(lag) and np.isfinite(delay) and lag >= 0.0):
+        for name in ("relaxation", "delay", "lift_lag"):
+            value = getattr(self, name)
+            if not np.isfinite(value) or (value < 0.0 and name != "delay"):
                 raise ValueError(
-                    f"{part}_lag = {lag!r} and {part}_delay = {delay!r}: two finite numbers are "
-                    "wanted, the lag not negative"
+                    f"{name} = {value!r}: a finite number of convective times is wanted"
+                    + ("" if name == "delay" else ", not negative")
                 )
-            if lag == 0.0 and delay != 0.0:
-                raise ValueError(
-                    f"{part}_delay = {delay!r} with {part}_lag = 0: a delay alone is a derivative "
-                    f"of the incidence; give {part}_lag a value above 0 as well"
-                )
+        if self.relaxation == 0.0 and self.delay != 0.0:
+            raise ValueError(
+                f"delay = {self.delay!r} with relaxation = 0 would be a derivative of the "
+                "incidence; give relaxation a value above 0 as well"
+            )
 
     @classmethod
     def none(cls) -> SeparationLags:
         """Return a bubble without lag: the steady polar behind the attached flow's own lag."""
-        return cls(0.0, 0.0, 0.0, 0.0, "no separation lag")
+        return cls(0.0, 0.0, 0.0, "no separation lag")
 
 
 @dataclass(frozen=True)
 class Branches:
-    """Attached branch and deficit of one polar.
-
-    ``lift_slope`` a_l and ``moment_slope`` a_m (1/rad) default to the slopes of the polar at
-    zero incidence.
-    """
+    """Attached branch and deficit of a polar; ``lift_slope`` a_l, ``moment_slope`` a_m (1/rad)."""
 
     polar: SectionPolar
     lift_slope: float
@@ -97,10 +105,14 @@ class Branches:
 
 
 IDENTIFIED_LAGS = SeparationLags(
-    moment_lag=2.98,
-    moment_delay=0.63,
-    lift_lag=2.98,
-    lift_delay=0.63,
-    provenance="preliminary",
+    relaxation=2.94,
+    delay=1.17,
+    lift_lag=0.85,
+    provenance=(
+        "identified from the loads of one free release of the plate (h = 0.04 c, sharp edges, "
+        "Re 1.27e5, theta_0 = 2.5 deg, k* = 10): OpenFOAM v1912, k-omega SST, 10398 cells, "
+        "polar of the same mesh; results/reference/prototype/release_k10.nc, "
+        "aerodynamics.identification.identify_lags"
+    ),
 )
-"""Lags of the plate's bubble (h = 0.04 c, sharp edges, Re 1.27e5)."""
+"""Lags of the plate's bubble; tests/physics/test_identification.py identifies them again."""

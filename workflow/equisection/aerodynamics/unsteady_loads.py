@@ -4,23 +4,23 @@ At each strip, with theta the twist, w the deflection in chords and ' = d/ds,
 
     alpha_34 = theta_0 + theta + theta'/4 - w' - alpha_i          incidence at 3/4 chord
     z_i'     = 2 b_i (alpha_34 - z_i),  i = 1, 2                   Wagner lag (``indicial``)
-    alpha_E  = (1 - A_1 - A_2) alpha_34 + A_1 z_1 + A_2 z_2
-    tau_1 x' + x = alpha_E - tau_2 alpha_E'                        bubble (``separation``),
-                                                                   once for lift, once for moment
-    c_l = a_l alpha_E - Delta_l(x_l) + (pi/2) (theta' - w'')
-    c_m = a_m alpha_E - Delta_m(x_m) - (pi/8) theta' - (pi/64) theta''
+    alpha_E  = (1 - A_1 - A_2) alpha_34 + A_1 z_1 + A_2 z_2        effective incidence
+    tau_1 x' + x = alpha_E - tau_2 alpha_E'                        bubble (``separation``)
+    tau_3 c' + c = a_l alpha_E - Delta_l(x)                        circulatory lift
+    c_l = c + (pi/2) (theta' - w'')
+    c_m = a_m alpha_E - Delta_m(x) - (pi/8) theta' - (pi/64) theta''
 
 alpha_i is the incidence that the wake of a finite beam induces; zero for a section. The terms
 with pi are Theodorsen's apparent-mass and pitch-rate terms about mid-chord (NACA Report 496 with
-a = 0), those of a thin plate in free air. With a_l = 2 pi, a_m = pi/2 and no deficit this *is*
-Theodorsen's theory.
+a = 0), those of a thin plate in free air. With a_l = 2 pi, a_m = pi/2, no deficit and no lag of
+the bubble this *is* Theodorsen's theory.
 
 The derivative of alpha_E is not needed: with y' = (alpha_E - y)/tau_1,
 
     x = (1 + tau_2/tau_1) y - (tau_2/tau_1) alpha_E.
 
-So all states are linear and the only non-linear functions are Delta_l(x_l) and Delta_m(x_m);
-the time loop makes use of that.
+So all states are linear and the only non-linear functions are Delta_l(x) and Delta_m(x); the
+time loop makes use of that.
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ def follow(signal: Floats, rate: float, time_step: float) -> Floats:
 
 
 def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads) -> LoadHistory:
-    """Find the loads of a section that moves as prescribed, from equilibrium at the first sample."""
+    """Find the loads under prescribed motion, from equilibrium at the first sample."""
     step = motion.time_step
     pitch_rate = np.gradient(motion.incidence, step)
     heave_rate = np.gradient(motion.deflection, step)
@@ -123,19 +123,20 @@ def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads) -> LoadHistory:
     for amplitude, rate in zip(JONES_AMPLITUDES, LAG_RATES, strict=True):
         effective = effective + amplitude * follow(rear, rate, step)
     lags, branches = loads.lags, loads.branches
-    in_lift = adapted_incidence(effective, lags.lift_lag, lags.lift_delay, step)
-    in_moment = adapted_incidence(effective, lags.moment_lag, lags.moment_delay, step)
-    lift = branches.lift_slope * effective - branches.lift_deficit(in_lift)
-    moment = branches.moment_slope * effective - branches.moment_deficit(in_moment)
+    bubble = adapted_incidence(effective, lags, step)
+    lift = branches.lift_slope * effective - branches.lift_deficit(bubble)
+    if lags.lift_lag > 0.0:
+        lift = follow(lift, 1.0 / lags.lift_lag, step)
+    moment = branches.moment_slope * effective - branches.moment_deficit(bubble)
     lift = lift + APPARENT_MASS * (pitch_rate - np.gradient(heave_rate, step))
     moment = moment - PITCH_DAMPING * pitch_rate
     moment = moment - APPARENT_INERTIA * np.gradient(pitch_rate, step)
     return LoadHistory(lift, moment, effective)
 
 
-def adapted_incidence(effective: Floats, lag: float, delay: float, time_step: float) -> Floats:
+def adapted_incidence(effective: Floats, lags: SeparationLags, time_step: float) -> Floats:
     """Incidence x (rad) to which the bubble has adapted under a history of alpha_E (rad)."""
-    if lag == 0.0:
+    if lags.relaxation == 0.0:
         return effective
-    follower = follow(effective, 1.0 / lag, time_step)
-    return follower - (delay / lag) * (effective - follower)
+    follower = follow(effective, 1.0 / lags.relaxation, time_step)
+    return follower - (lags.delay / lags.relaxation) * (effective - follower)

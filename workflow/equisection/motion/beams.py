@@ -221,10 +221,17 @@ def _outputs(parameters: BeamParameters, system: StripSystem) -> Floats:
 
 def _histories(recording: Recording, system: StripSystem) -> BeamHistories:
     values = recording.values[: recording.recorded]
+    rows = np.moveaxis(values, 2, 0)
     first_bending = 7 + system.layout.torsion_modes
     return BeamHistories(
-        recording.time[: recording.recorded],
-        *(values[:, :, row] for row in range(7)),
+        time=recording.time[: recording.recorded],
+        tip_twist=rows[0],
+        tip_twist_rate=rows[1],
+        tip_deflection=rows[2],
+        tip_deflection_rate=rows[3],
+        lift_coefficient=rows[4],
+        moment_coefficient=rows[5],
+        effective_incidence=rows[6],
         torsion_amplitudes=values[:, :, 7:first_bending],
         bending_amplitudes=values[:, :, first_bending:],
         samples=recording.samples,

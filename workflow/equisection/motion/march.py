@@ -149,7 +149,7 @@ def march(
     count = 1 + math.ceil(duration / output_interval - 1e-9)
     lanes = start[0].shape[0]
     recording = Recording(
-        time=output_interval * np.arange(count),
+        time=np.asarray(output_interval * np.arange(count), dtype=np.float64),
         values=np.full((count, lanes, outputs.shape[1]), np.nan),
         samples=np.zeros(lanes, dtype=np.intp),
         recorded=0,
@@ -214,10 +214,10 @@ class _Run:
             x = self._step()
             if math.isfinite(float(np.sum(self.deficits))):
                 continue
-            lost = ~np.isfinite(self.deficits).all(axis=1)
+            lost = np.asarray(~np.isfinite(self.deficits).all(axis=1))
             for row in np.flatnonzero(lost):
                 worst = float(x[row][np.argmax(np.abs(x[row]))])
-                failures.append(Failure(int(self.active[row]), time + number * step, worst))
+                failures.append(Failure(int(self.active[row]), float(time + number * step), worst))
             self.keep(~lost)
 
     def _step(self) -> Floats:

@@ -83,7 +83,7 @@ class SectionHistories:
     effective_incidence
         alpha_E (rad), which sets the circulation.
     bubble_incidence
-        x_m (rad), to which the bubble has adapted.
+        x (rad), to which the bubble has adapted.
     samples
         Number of valid times of each section, shape (N,).
     failures
@@ -143,7 +143,7 @@ def release_sections(
     """
     system = section_system(parameters, loads, incidence_rad)
     states = np.eye(4, system.rates.shape[2])[None].repeat(system.structure.lanes, axis=0)
-    outputs = np.concatenate([states, system.strip_loads, system.probe[:, 1:]], axis=1)
+    outputs = np.concatenate([states, system.strip_loads, system.probe], axis=1)
 
     def stop(recording: Recording, active: Indices) -> Indices:
         assert monitor is not None
@@ -163,12 +163,18 @@ def release_sections(
 
 
 def _histories(recording: Recording) -> SectionHistories:
-    values = recording.values[: recording.recorded]
-    # rows: Theta, Theta', W, W' as in the layout of the states, then c_l, c_m, alpha_E, x_m
-    columns = [values[:, :, row] for row in range(values.shape[2])]
+    # rows: Theta, Theta', W, W' as in the layout of the states, then c_l, c_m, alpha_E, x
+    rows = np.moveaxis(recording.values[: recording.recorded], 2, 0)
     return SectionHistories(
-        recording.time[: recording.recorded],
-        *columns,
+        time=recording.time[: recording.recorded],
+        twist=rows[0],
+        twist_rate=rows[1],
+        deflection=rows[2],
+        deflection_rate=rows[3],
+        lift_coefficient=rows[4],
+        moment_coefficient=rows[5],
+        effective_incidence=rows[6],
+        bubble_incidence=rows[7],
         samples=recording.samples,
         failures=tuple(recording.failures),
     )

@@ -3,7 +3,7 @@
 Equilibrium is found with Newton's method on the bubble incidences x alone: all other states
 follow linearly from the deficits. Linearised about equilibrium the system is Y' = J Y with
 
-    J = A + B F (1 - E F)^-1 C,    F = diag(dDelta/dx),
+    J = A + B F (1 - E F)^-1 C,    F = du/dx,
 
 whose eigenvalues say whether, at which frequency and how fast a small oscillation grows.
 """
@@ -54,7 +54,7 @@ def _steady(system: StripSystem, free: NDArray[np.intp]) -> tuple[Floats, Floats
     for _ in range(NEWTON_STEPS):
         u = system.deficits(x)
         residual = x - np.einsum("nij,nj->ni", gain, u) - offset
-        jacobian = np.eye(x.shape[1]) - gain * system.deficit_slopes(x)[:, None, :]
+        jacobian = np.eye(x.shape[1]) - gain @ system.deficit_slopes(x)
         sane = np.isfinite(residual).all(axis=1) & np.isfinite(jacobian).all(axis=(1, 2))
         change = np.full_like(x, np.nan)
         change[sane] = np.linalg.solve(jacobian[sane], residual[sane][:, :, None])[:, :, 0]
@@ -76,12 +76,10 @@ def jacobian(system: StripSystem, states: Floats, deficits: Floats) -> Floats:
     columns = np.concatenate([states, deficits, np.ones((states.shape[0], 1))], axis=1)
     x = np.einsum("nij,nj->ni", system.probe, columns)
     slopes = system.deficit_slopes(x)
-    strips2 = slopes.shape[1]
-    closed = np.eye(strips2) - system.probe[:, :, n:-1] * slopes[:, None, :]
+    closed = np.eye(x.shape[1]) - system.probe[:, :, n:-1] @ slopes
     seen = np.linalg.solve(closed, system.probe[:, :, :n])
     return np.asarray(
-        system.rates[:, :, :n] + system.rates[:, :, n:-1] @ (slopes[:, :, None] * seen),
-        dtype=np.float64,
+        system.rates[:, :, :n] + system.rates[:, :, n:-1] @ slopes @ seen, dtype=np.float64
     )
 
 
@@ -91,14 +89,14 @@ def least_stable_eigenvalue(system: StripSystem) -> NDArray[np.complex128]:
     About static equilibrium; NaN where there is none inside the polar.
     """
     states, deficits = equilibrium(system)
-    found = np.isfinite(states).all(axis=1)
+    found = np.asarray(np.isfinite(states).all(axis=1))
     result = np.full(states.shape[0], np.nan + 0j, dtype=np.complex128)
     if not found.any():
         raise SolverError(
             "no lane has a static equilibrium inside the polar; extend the polar or stiffen it"
         )
-    safe_states, safe_deficits = np.nan_to_num(states), np.nan_to_num(deficits)
-    values = np.linalg.eigvals(jacobian(system, safe_states, safe_deficits))
+    linear = jacobian(system.of(found), states[found], deficits[found])
+    values = np.asarray(np.linalg.eigvals(linear), dtype=np.complex128)
     chosen = np.take_along_axis(values, values.real.argmax(axis=1)[:, None], axis=1)[:, 0]
-    result[found] = (chosen.real + 1j * np.abs(chosen.imag))[found]
+    result[found] = chosen.real + 1j * np.abs(chosen.imag)
     return result

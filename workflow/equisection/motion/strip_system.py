@@ -11,11 +11,11 @@ and per mode, with the weights h_s of the strips (sum 1) and ' = d/ds,
 
 I_i, K_i are generalised inertia and stiffness over (rho/2) c^4 and q c^2, m_j, k_j over
 (rho/2) c^2 and q: I*, k*, m*, k_w* where there is one strip. The induced incidence is
-quasi-steady, alpha_i = D c_circ with the circulatory lift c_circ = a_l alpha_E - Delta_l, and is
-solved with the rest instead of lagging a step behind.
+quasi-steady, alpha_i = D c with the circulatory lift c, and is solved with the rest instead of
+lagging a step behind.
 
-With the states Y = (Theta, Theta', W, W', z_1, z_2, y_l, y_m) and the deficits
-u = (Delta_l(x_l), Delta_m(x_m)) of all strips everything else is linear:
+With the states Y = (Theta, Theta', W, W', z_1, z_2, y, c) and the deficits
+u = (Delta_l(x), Delta_m(x)) of all strips everything else is linear:
 
     Y' = A Y + B u + e,    x = C Y + E u + g.
 
@@ -24,7 +24,7 @@ Apparent mass is moved to the left of the equations of motion and so is implicit
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -120,7 +120,7 @@ class StateLayout:
         return slice(start, start + self.bending_modes)
 
     def lag(self, number: int) -> slice:
-        """z_1, z_2 (number 0, 1) and y_l, y_m (2, 3)."""
+        """z_1, z_2 (number 0, 1), the bubble's y (2) and the circulatory lift c (3)."""
         start = self.structural + number * self.strips
         return slice(start, start + self.strips)
 
@@ -138,7 +138,7 @@ class StripSystem:
     rates
         [A | B | e], shape (N, n, n + 2 S + 1).
     probe
-        [C | E | g], the incidences x_l, x_m of the bubble, shape (N, 2 S, n + 2 S + 1).
+        [C | E | g], the incidences x of the bubbles, shape (N, S, n + 2 S + 1).
     strip_loads
         c_l, c_m and alpha_E of the strips, shape (N, 3 S, n + 2 S + 1).
     """
@@ -151,17 +151,27 @@ class StripSystem:
     strip_loads: Floats
 
     def deficits(self, x: Floats) -> Floats:
-        """Deficits u of shape (N, 2 S) at bubble incidences x (rad) of the same shape."""
-        strips = self.layout.strips
-        u = np.empty_like(x)
-        u[:, :strips] = self.loads.branches.lift_deficit(x[:, :strips])
-        u[:, strips:] = self.loads.branches.moment_deficit(x[:, strips:])
+        """Deficits u, shape (N, 2 S), at bubble incidences x (rad), shape (N, S)."""
+        strips = x.shape[1]
+        u = np.empty((x.shape[0], 2 * strips))
+        u[:, :strips] = self.loads.branches.lift_deficit(x)
+        u[:, strips:] = self.loads.branches.moment_deficit(x)
         return u
 
     def deficit_slopes(self, x: Floats) -> Floats:
-        """Slopes (1/rad) of the deficits at x, by central differences, shape (N, 2 S)."""
+        """Slopes du/dx (1/rad) at x, by central differences, shape (N, 2 S, S)."""
         rise = self.deficits(x + SLOPE_HALF_STEP) - self.deficits(x - SLOPE_HALF_STEP)
-        return rise / (2 * SLOPE_HALF_STEP)
+        own_strip = np.vstack([np.eye(x.shape[1])] * 2)
+        return rise[:, :, None] / (2 * SLOPE_HALF_STEP) * own_strip
+
+    def of(self, lanes: NDArray[np.bool_]) -> StripSystem:
+        """Keep some of the lanes (their matrices only)."""
+        return replace(
+            self,
+            rates=self.rates[lanes],
+            probe=self.probe[lanes],
+            strip_loads=self.strip_loads[lanes],
+        )
 
 
 def assemble(
@@ -182,9 +192,10 @@ def assemble(
     rates[:, layout.deflection_rate] = deflection_acceleration
     for number, rate in enumerate(LAG_RATES):
         rates[:, layout.lag(number)] = rate * (rows.rear - unit[layout.lag(number)])
-    for number, lag in enumerate((loads.lags.lift_lag, loads.lags.moment_lag), start=2):
+    followed = ((loads.lags.relaxation, rows.effective), (loads.lags.lift_lag, rows.target))
+    for number, (lag, target) in enumerate(followed, start=2):
         rate = 1.0 / lag if lag > 0.0 else 1.0  # without lag the state is not read
-        rates[:, layout.lag(number)] = rate * (rows.effective - unit[layout.lag(number)])
+        rates[:, layout.lag(number)] = rate * (target - unit[layout.lag(number)])
     strip_loads = np.empty((lanes, 3 * strips, rows.columns))
     shapes_g, shapes_f = structure.bending_shapes, structure.torsion_shapes
     strip_loads[:, :strips] = rows.lift - APPARENT_MASS * (shapes_g @ deflection_acceleration)
@@ -203,14 +214,15 @@ def assemble(
 class _StripRows:
     """Linear expressions in [Y | u | theta_0] at the strips, each of shape (S, columns).
 
-    ``rear`` is alpha_34, ``effective`` alpha_E, ``bubble`` (2 S rows) x_l and x_m; ``lift`` and
-    ``moment`` lack the terms with accelerations.
+    ``rear`` is alpha_34, ``effective`` alpha_E, ``bubble`` x, ``target`` what the circulatory
+    lift c follows; ``lift`` and ``moment`` lack the terms with accelerations.
     """
 
     columns: int
     rear: Floats
     effective: Floats
     bubble: Floats
+    target: Floats
     lift: Floats
     moment: Floats
 
@@ -232,29 +244,24 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
         (a * unit[layout.lag(i)] for i, a in enumerate(JONES_AMPLITUDES)),
         start=np.zeros((strips, columns)),
     )
-    lift_slope, moment_slope = loads.branches.lift_slope, loads.branches.moment_slope
-    induction = structure.induction
-    rear = np.linalg.solve(
-        np.eye(strips) + IMMEDIATE_SHARE * lift_slope * induction,
-        geometric - induction @ (lift_slope * lagging - lift_deficit),
-    )
+    slope, lags = loads.branches.lift_slope, loads.lags
+    if lags.lift_lag > 0.0:
+        rear = geometric - structure.induction @ unit[layout.lag(3)]
+    else:
+        rear = np.linalg.solve(
+            np.eye(strips) + IMMEDIATE_SHARE * slope * structure.induction,
+            geometric - structure.induction @ (slope * lagging - lift_deficit),
+        )
     effective = IMMEDIATE_SHARE * rear + lagging
-    lags = loads.lags
-    bubble = np.vstack(
-        [
-            _adapted(effective, unit[layout.lag(2)], lags.lift_lag, lags.lift_delay),
-            _adapted(effective, unit[layout.lag(3)], lags.moment_lag, lags.moment_delay),
-        ]
-    )
-    lift = lift_slope * effective - lift_deficit + APPARENT_MASS * twist_rate
-    moment = moment_slope * effective - moment_deficit - PITCH_DAMPING * twist_rate
-    return _StripRows(columns, rear, effective, bubble, lift, moment)
-
-
-def _adapted(effective: Floats, follower: Floats, lag: float, delay: float) -> Floats:
-    if lag == 0.0:
-        return effective
-    return follower - (delay / lag) * (effective - follower)
+    bubble = effective
+    if lags.relaxation > 0.0:
+        follower = unit[layout.lag(2)]
+        bubble = follower - (lags.delay / lags.relaxation) * (effective - follower)
+    target = slope * effective - lift_deficit
+    circulatory = unit[layout.lag(3)] if lags.lift_lag > 0.0 else target
+    lift = circulatory + APPARENT_MASS * twist_rate
+    moment = loads.branches.moment_slope * effective - moment_deficit - PITCH_DAMPING * twist_rate
+    return _StripRows(columns, rear, effective, bubble, target, lift, moment)
 
 
 def _accelerations(
@@ -276,7 +283,9 @@ def _accelerations(
     force = (
         weighted_g.T @ rows.lift - structure.bending_stiffness[:, :, None] * unit[layout.deflection]
     )
-    return np.linalg.solve(inertia, torque), np.linalg.solve(mass, force)
+    twist: Floats = np.linalg.solve(inertia, torque)
+    deflection: Floats = np.linalg.solve(mass, force)
+    return twist, deflection
 
 
 def _diagonal(values: Floats) -> Floats:

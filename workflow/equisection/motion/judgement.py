@@ -1,0 +1,89 @@
+"""Judgement of the embedded solver on a release that its lags were not identified from."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.aerodynamics.reference_history import ReferenceHistory
+from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.motion.sections import SectionParameters, release_sections
+from equisection.signals.cycles import find_cycles
+
+Floats = NDArray[np.float64]
+
+JUDGED_FROM = 20.0
+"""Convective times after the release from which growth, frequency and means are taken."""
+
+
+@dataclass(frozen=True)
+class ReleaseNumbers:
+    """What characterises one release.
+
+    Parameters
+    ----------
+    growth_rate
+        Of the twist amplitude, least squares of its logarithm (per c/V).
+    frequency
+        omega c/V of the twist.
+    mean_twist_deg, mean_deflection_chords
+        Means from ``JUDGED_FROM`` on.
+    last_amplitude_deg
+        Half the peak-to-peak twist of the last whole cycle.
+    """
+
+    growth_rate: float
+    frequency: float
+    mean_twist_deg: float
+    mean_deflection_chords: float
+    last_amplitude_deg: float
+
+
+@dataclass(frozen=True)
+class ReleaseJudgement:
+    """Numbers of the recorded release and of the model's, of the same duration."""
+
+    k_star: float
+    recorded: ReleaseNumbers
+    modelled: ReleaseNumbers
+
+    @property
+    def same_side_of_onset(self) -> bool:
+        """Whether both grow or both decay."""
+        return (self.recorded.growth_rate > 0.0) == (self.modelled.growth_rate > 0.0)
+
+
+def judge_release(history: ReferenceHistory, loads: UnsteadyLoads) -> ReleaseJudgement:
+    """Release the section of ``history`` with the model and compare."""
+    parameters = SectionParameters.from_ratios(
+        history.k_star, history.i_star, history.mass_ratio, history.stiffness_ratio
+    )
+    run = release_sections(parameters, loads, history.incidence_rad, float(history.time[-1]))
+    valid = slice(0, int(run.samples[0]))
+    return ReleaseJudgement(
+        history.k_star,
+        release_numbers(history.time, history.twist, history.deflection),
+        release_numbers(run.time[valid], run.twist[valid, 0], run.deflection[valid, 0]),
+    )
+
+
+def release_numbers(time: Floats, twist: Floats, deflection: Floats) -> ReleaseNumbers:
+    """Characterise a release by its histories of twist (rad) and w/c, each of shape (n,)."""
+    late = time > JUDGED_FROM
+    cycles = find_cycles(time[late], twist[late])
+    if cycles.amplitude.size < 2:
+        growth = frequency = last = float("nan")
+    else:
+        growth = float(np.polyfit(cycles.amplitude_time, np.log(cycles.amplitude), 1)[0])
+        frequency = 2.0 * math.pi / cycles.period(cycles.time.size)
+        last = math.degrees(float(cycles.amplitude[-1]))
+    return ReleaseNumbers(
+        growth,
+        frequency,
+        math.degrees(float(twist[late].mean())),
+        float(deflection[late].mean()),
+        last,
+    )
