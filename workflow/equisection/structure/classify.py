@@ -35,7 +35,7 @@ class Classified:
         Share of motion of each kind (-), in the order of `KINDS`; rows sum to 1.
     shape : (n, m) array
         The section's motion that the kind names along the span, not normalised: w (m), theta
-        (rad), u (m), s (m), and the largest rest of u_y (m) for "chordwise".
+        (rad), u (m), s (m), and the root mean square of the rest (m) for "chordwise".
     """
 
     kind: tuple[str, ...]
@@ -61,17 +61,11 @@ def classify(chord_position: Floats, span: Floats, displacement: Floats) -> Clas
     energy = np.stack([*parts, whole - sum(parts)])
     total = simpson(energy, x=span, axis=-1)
     share = (total / total.sum(axis=0)).T
-    rest = u_y - w[..., None] + x * theta[..., None]
+    rest = np.sqrt(np.maximum(energy[-1], 0.0))
     index = np.argmax(share, axis=1)
-    motions = np.stack([w, theta, u, s, _largest(rest)])
+    motions = np.stack([w, theta, u, s, rest])
     return Classified(
         kind=tuple(KINDS[i] for i in index),
         share=share,
         shape=motions[index, np.arange(len(index))],
     )
-
-
-def _largest(rest: Floats) -> Floats:
-    """Value of largest size along the chord (last axis), with its sign."""
-    index = np.abs(rest).argmax(axis=-1)
-    return np.take_along_axis(rest, index[..., None], axis=-1)[..., 0]
