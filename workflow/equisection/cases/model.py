@@ -33,7 +33,7 @@ class Geometry(Block):
     chord: float  # m
     span: float  # L/c
     thickness: float  # h/c
-    wall_to_wall: bool  # both ends held (no free tip)
+    root_on_wall: bool  # a wall at the root mirrors the flow
     channel_height: float | None
     tip_gap: float | None
     upstream: float | None
@@ -93,7 +93,7 @@ class Criteria(Block):
     """When the run ends and what it is called."""
 
     settled_amplitude_deg: float
-    growing_bound_deg: float
+    growing_amplitude_deg: float
     steadiness: float
     periods: int
 
@@ -116,9 +116,12 @@ class UnsteadyCase(Block):
     output_interval: float  # c/V
     criteria: Criteria
     solver: SolverBlock
+    refusal: str = ""  # why there is no structure to move; such a case fails without a run
 
     @model_validator(mode="after")
     def _one_structure(self) -> UnsteadyCase:
+        if self.refusal:
+            return self
         wanted = "section" if self.dimension == "2d" else "beam"
         if getattr(self, wanted) is None or (self.section is None) == (self.beam is None):
             raise ValueError(f"a case of dimension {self.dimension} holds '{wanted}' alone")

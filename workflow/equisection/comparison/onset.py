@@ -21,6 +21,8 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import pandas as pd
+
 _SIGNIFICANT_DIGITS = 4
 
 
@@ -155,3 +157,29 @@ def refinement_points(bracket: OnsetBracket, tolerance: float, count: int = 1) -
 def _rounded(value: float) -> float:
     """Round to the digits that a case's name carries."""
     return float(f"{value:.{_SIGNIFICANT_DIGITS}g}")
+
+
+def bracket_of(summary: pd.DataFrame) -> OnsetBracket:
+    """Bracket the onset of the one model of a summary."""
+    return onset_bracket(
+        summary["k_star"].tolist(),
+        summary["regime"].tolist(),
+        summary["twist_amplitude_deg"].tolist(),
+    )
+
+
+def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
+    """Return ``comparison/onset.csv``: the bracket of each model of a summary."""
+    rows = []
+    for model, runs in summary.groupby("model", sort=False):
+        bracket = bracket_of(runs)
+        rows.append(
+            {
+                "model": model,
+                "k_star_stable": bracket.k_stable,
+                "k_star_unstable": bracket.k_unstable,
+                "failed_inside": " ".join(f"{k:g}" for k in bracket.failed),
+                "stable_below": " ".join(f"{k:g}" for k in bracket.islands),
+            }
+        )
+    return pd.DataFrame(rows)

@@ -143,6 +143,11 @@ class Flow(Section):
     incidence_deg: float = Field(
         2.5, gt=-90, lt=90, description="Rigid incidence theta_0 (deg), nose up."
     )
+    root_on_wall: bool = Field(
+        True,
+        description="Whether the root stands on a wall, which mirrors the flow. In a channel it "
+        "is one of the side walls; without, the beam ends in free air.",
+    )
     channel: Channel | None = Field(
         default_factory=Channel, description="The channel; `null` for free air."
     )
@@ -219,7 +224,9 @@ class Steady(Section):
     def _distinct(self) -> Steady:
         names = (self.resolution, *self.study)
         if len(set(names)) != len(names):
-            raise ValueError(f"study: {list(self.study)} repeats a resolution; each once is allowed")
+            raise ValueError(
+                f"study: {list(self.study)} repeats a resolution; each once is allowed"
+            )
         return self
 
 
@@ -265,7 +272,9 @@ class Sweep(Section):
         description="`refine` runs further k* inside the bracket of the onset of each model "
         "until it is narrower than `onset_tolerance`.",
     )
-    onset_tolerance: Positive = Field(0.1, description="Width of the onset's bracket in k*.")
+    onset_tolerance: Positive = Field(
+        0.02, description="Width of the onset's bracket, relative to its unstable k*."
+    )
     onset_points: int = Field(
         3, ge=1, le=50, description="Values of k* that one round of refinement runs at once."
     )
@@ -299,18 +308,27 @@ class Sweep(Section):
 
 
 class Verdict(Section):
-    """When an unsteady run ends, and what it is called."""
+    """When an unsteady run ends, and what it is called; amplitudes are those of the tip."""
 
     settled_amplitude_deg: Positive = Field(
-        0.02, description="Twist amplitude (deg) below which a run has settled."
+        0.05, description="Twist amplitude (deg) below which a run has settled."
     )
-    growing_bound_deg: Positive = Field(
+    growing_amplitude_deg: Positive = Field(
         6.0, description="Twist amplitude (deg) beyond which a run is growing, and ends."
     )
     steadiness: Annotated[float, Field(gt=0, lt=0.5)] = Field(
         0.02, description="Relative change of amplitude that a limit cycle may still have."
     )
-    periods: int = Field(4, ge=2, le=50, description="Periods that a verdict rests on.")
+    periods: int = Field(5, ge=2, le=50, description="Periods that a verdict rests on.")
+
+    @model_validator(mode="after")
+    def _ordered(self) -> Verdict:
+        if self.growing_amplitude_deg <= self.settled_amplitude_deg:
+            raise ValueError(
+                f"growing_amplitude_deg: {self.growing_amplitude_deg:g} is not above "
+                f"settled_amplitude_deg {self.settled_amplitude_deg:g}"
+            )
+        return self
 
 
 class Unsteady(Section):
@@ -341,6 +359,14 @@ class Unsteady(Section):
         return self
 
 
+class Separation(Section):
+    """Lags of the separation bubble (c/V); the defaults are identified from CFD histories."""
+
+    relaxation: NotNegative = Field(2.86, description="tau_1 of the bubble (c/V).")
+    delay: float = Field(1.10, allow_inf_nan=False, description="tau_2 of the bubble (c/V).")
+    lift_lag: NotNegative = Field(0.84, description="tau_3 of the lift behind the bubble (c/V).")
+
+
 class Embedded(Section):
     """The embedded solver."""
 
@@ -353,4 +379,7 @@ class Embedded(Section):
     symmetric: bool = Field(
         True, description="The files hold non-negative incidences of a symmetric section."
     )
-    strips: int = Field(40, ge=4, le=400, description="Strips along the span.")
+    separation: Separation = Field(
+        default_factory=Separation, description="Lags of the separation bubble."
+    )
+    strips: int = Field(20, ge=4, le=100, description="Strips along the span.")

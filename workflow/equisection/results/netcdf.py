@@ -6,7 +6,6 @@ it and, for the result of a case, the case's hash. Attributes are strings and nu
 
 from __future__ import annotations
 
-import struct
 from pathlib import Path
 from typing import Any
 
@@ -17,11 +16,9 @@ import xarray as xr
 import equisection
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
+from equisection.results.whole import is_whole
 
 SCHEMA_VERSION = 1
-_HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
-#: Where the superblock of each version keeps the address at which the file ends.
-_END_OF_FILE_OFFSET = {0: 40, 1: 44, 2: 28, 3: 28}
 
 
 def write_dataset(path: Path, dataset: xr.Dataset) -> None:
@@ -67,7 +64,9 @@ def read_dataset(path: Path, case_hash: str | None = None) -> xr.Dataset:
         with xr.open_dataset(path, engine="netcdf4") as opened:
             dataset = opened.load()
     except (OSError, ValueError, RuntimeError) as error:
-        raise ResultFileError(f"{path}: cannot be read ({error}); delete it and run again") from None
+        raise ResultFileError(
+            f"{path}: cannot be read ({error}); delete it and run again"
+        ) from None
     _require_provenance(path, dataset.attrs, case_hash)
     _require_finite(path, dataset)
     return dataset
@@ -87,28 +86,11 @@ def read_attributes(path: Path, case_hash: str | None = None) -> dict[str, Any]:
         with netCDF4.Dataset(path) as opened:
             attributes = {name: opened.getncattr(name) for name in opened.ncattrs()}
     except (OSError, RuntimeError) as error:
-        raise ResultFileError(f"{path}: cannot be read ({error}); delete it and run again") from None
+        raise ResultFileError(
+            f"{path}: cannot be read ({error}); delete it and run again"
+        ) from None
     _require_provenance(path, attributes, case_hash)
     return attributes
-
-
-def is_whole(path: Path) -> bool:
-    """Tell from the first bytes and the size whether an HDF5 file is as long as it says.
-
-    Cheap (one read of 64 bytes), so that a workflow can look at thousands of files. The
-    layout is that of the HDF5 file format specification, "Superblock", with 8-byte addresses
-    as the library writes them.
-    """
-    try:
-        with path.open("rb") as stream:
-            head = stream.read(64)
-        size = path.stat().st_size
-    except OSError:
-        return False
-    if len(head) < 64 or head[:8] != _HDF5_SIGNATURE or head[8] not in _END_OF_FILE_OFFSET:
-        return False
-    (end,) = struct.unpack_from("<Q", head, _END_OF_FILE_OFFSET[head[8]])
-    return bool(size >= end > 0)
 
 
 def _require_provenance(path: Path, attributes: dict[str, Any], case_hash: str | None) -> None:

@@ -67,6 +67,4 @@ class SteadyResult:
                 self.section_moment,
                 {"units": "1", "long_name": "sectional moment coefficient about mid-chord"},
             )
-        return xr.Dataset(
-            data, coordinates, attrs={"method": self.method, "failure": self.failure}
-        )
+        return xr.Dataset(data, coordinates, attrs={"method": self.method, "failure": self.failure})

@@ -8,7 +8,8 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from equisection.cases import SteadyCase, UnsteadyCase
-from equisection.results import SteadyResult, UnsteadyResult
+from equisection.results.steady import SteadyResult
+from equisection.results.unsteady import UnsteadyResult
 
 
 class Capability(StrEnum):
@@ -24,7 +25,7 @@ Progress = Callable[[float, float], None]
 
 
 class Solver(Protocol):
-    """Runs cases.
+    """Runs cases at one resolution.
 
     ``version`` is that of the numerics: it changes whenever the same case would give another
     result, and is part of the case.
@@ -38,7 +39,7 @@ class Solver(Protocol):
         """Return everything of the solver's set-up that decides a result, in builtin types."""
         ...
 
-    def describe(self, resolution: str) -> str:
+    def describe(self) -> str:
         """Return solver and resolution in words, as they stand in every figure."""
         ...
 

@@ -1,0 +1,26 @@
+"""Correct the section's loads for the finite beam (Eq. 20)."""
+
+from pathlib import Path
+
+from equisection.reduction.correction import CorrectionFactors
+from equisection.results.correction import factors_to_dataset
+from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.results.polar import polar_at
+from equisection.script import logged
+
+
+def main(polar_2d: Path, polar_3d: Path, resolution: str, output: Path) -> None:
+    """Divide the section's coefficients by the beam's, at the run's resolution."""
+    section = polar_at(read_dataset(polar_2d), resolution)
+    beam = polar_at(read_dataset(polar_3d), resolution)
+    write_dataset(output, factors_to_dataset(CorrectionFactors(section, beam)))
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            Path(snakemake.input.polar_2d),
+            Path(snakemake.input.polar_3d),
+            snakemake.params.resolution,
+            Path(snakemake.output[0]),
+        )

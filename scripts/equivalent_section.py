@@ -1,0 +1,43 @@
+"""Reduce the beam to its equivalent section, in both forms."""
+
+import logging
+from pathlib import Path
+
+from equisection.config.sections import Beam, Flow
+from equisection.reduction.integrals import span_integrals
+from equisection.reduction.section import REDUCTIONS, reduce_beam, validity_warnings
+from equisection.results.equivalent import equivalent_to_dataset
+from equisection.results.modes import modes_from_dataset
+from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.script import logged
+from equisection.structure.plate import Plate
+
+
+def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
+    """Reduce the modes of the beam (Eqs. 6, 7, 12 and 17)."""
+    plate = Plate(**beam.model_dump())
+    modes = modes_from_dataset(read_dataset(modes_file))
+    count = min(modes.kind.count("bending"), modes.kind.count("torsion"))
+    integrals = span_integrals(plate, modes, count)
+    warnings = validity_warnings(integrals)
+    for warning in warnings:
+        logging.warning(warning)
+    dataset = equivalent_to_dataset(
+        [reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS],
+        integrals,
+        warnings,
+        density=flow.density,
+        speed=flow.speed,
+        chord=beam.chord,
+    )
+    write_dataset(output, dataset)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            Beam(**snakemake.params.beam),
+            Flow(**snakemake.params.flow),
+            Path(snakemake.input.modes),
+            Path(snakemake.output[0]),
+        )

@@ -1,0 +1,40 @@
+"""Mode computation: natural frequencies and shapes of the beam."""
+
+import logging
+from pathlib import Path
+
+from equisection.config.sections import Beam, Structure
+from equisection.results.modes import modes_to_dataset
+from equisection.results.netcdf import write_dataset
+from equisection.script import logged
+from equisection.structure.modes import compute_modes, frequency_constants
+from equisection.structure.plate import Plate
+
+#: Modes computed beside those of bending and torsion that are wanted, since some are in-plane.
+OTHER_MODES = 4
+
+
+def main(beam: Beam, structure: Structure, output: Path) -> None:
+    """Compute the modes that the configuration asks for."""
+    plate = Plate(**beam.model_dump())
+    elements = structure.elements
+    modes = compute_modes(
+        plate,
+        structure.method,
+        (elements.chord, elements.span, elements.thickness),
+        count=structure.bending_modes + structure.torsion_modes + OTHER_MODES,
+    )
+    modes.bending(structure.bending_modes)
+    modes.torsion(structure.torsion_modes)
+    for frequency, kind in zip(modes.frequency, modes.kind, strict=True):
+        logging.info("%9.3f Hz %s", frequency, kind)
+    write_dataset(output, modes_to_dataset(modes, list(frequency_constants(modes, plate))))
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            Beam(**snakemake.params.beam),
+            Structure(**snakemake.params.structure),
+            Path(snakemake.output[0]),
+        )

@@ -1,0 +1,178 @@
+"""Cases from the configuration, the modes, the equivalent section and the correction.
+
+Here the arrows of Fig. 1 meet: everything that decides a run is put into its case file.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import xarray as xr
+
+from equisection.cases import (
+    BeamModes,
+    Criteria,
+    Geometry,
+    Medium,
+    SectionProperties,
+    SolverBlock,
+    SteadyCase,
+    UnsteadyCase,
+)
+from equisection.config import Config
+from equisection.errors import EquisectionError
+from equisection.plan import Model
+from equisection.reduction.correction import corrected_equilibrium
+from equisection.reduction.section import EquivalentSection, Reduction
+from equisection.results.correction import factors_from_dataset
+from equisection.results.equivalent import section_from_dataset
+from equisection.results.modes import modes_from_dataset
+from equisection.solvers.protocol import Solver
+from equisection.structure.plate import Plate
+
+
+def steady_case(
+    config: Config, dimension: str, incidence_deg: float, resolution: str, solver: Solver
+) -> SteadyCase:
+    """Return the case of the rigid section (``2d``) or beam (``3d``) at an incidence (deg)."""
+    return SteadyCase(
+        dimension=dimension,  # type: ignore[arg-type]  # a wildcard; pydantic checks it
+        incidence_deg=incidence_deg,
+        resolution=resolution,
+        geometry=_geometry(config),
+        medium=_medium(config),
+        solver=_solver_block(solver),
+    )
+
+
+def unsteady_case(
+    config: Config, model: Model, k_star: float, data: Mapping[str, xr.Dataset], solver: Solver
+) -> UnsteadyCase:
+    """Return the case of a model at a k*.
+
+    Parameters
+    ----------
+    config
+        The configuration.
+    model
+        The model of the sweep.
+    k_star
+        k* of the uncorrected structural stiffness.
+    data
+        ``modes`` in 3D; ``equivalent`` in 2D, with ``correction`` for a corrected model.
+    solver
+        The solver that is to run it.
+
+    Notes
+    -----
+    A corrected section without a static equilibrium inside the polars (divergence) is refused:
+    its case says why and its result is ``failed``, so that the other k* go on.
+    """
+    section, beam, refusal = None, None, ""
+    if model.dimension == "3d":
+        beam = _beam_modes(config, data["modes"], k_star)
+    else:
+        try:
+            section = _section(config, model, data, k_star)
+        except EquisectionError as error:
+            refusal = str(error)
+    unsteady = config.unsteady
+    return UnsteadyCase(
+        dimension=model.dimension,  # type: ignore[arg-type]
+        k_star=k_star,
+        incidence_deg=config.flow.incidence_deg,
+        resolution=config.steady.resolution,
+        geometry=_geometry(config),
+        medium=_medium(config),
+        section=section,
+        beam=beam,
+        duration=unsteady.duration,
+        time_step=unsteady.time_step,
+        output_interval=unsteady.output_interval,
+        criteria=Criteria(**unsteady.verdict.model_dump()),
+        solver=_solver_block(solver),
+        refusal=refusal,
+    )
+
+
+def _geometry(config: Config) -> Geometry:
+    beam, flow = config.beam, config.flow
+    channel = flow.channel
+    return Geometry(
+        chord=beam.chord,
+        span=beam.length / beam.chord,
+        thickness=beam.thickness / beam.chord,
+        root_on_wall=flow.root_on_wall,
+        channel_height=channel.height_chords if channel else None,
+        tip_gap=channel.tip_gap_chords if channel else None,
+        upstream=channel.upstream_chords if channel else None,
+        downstream=channel.downstream_chords if channel else None,
+    )
+
+
+def _medium(config: Config) -> Medium:
+    flow = config.flow
+    return Medium(speed=flow.speed, density=flow.density, dynamic_viscosity=flow.dynamic_viscosity)
+
+
+def _solver_block(solver: Solver) -> SolverBlock:
+    return SolverBlock(name=solver.name, version=solver.version, settings=solver.settings())
+
+
+def _section(
+    config: Config, model: Model, data: Mapping[str, xr.Dataset], k_star: float
+) -> SectionProperties:
+    flow, chord = config.flow, config.beam.chord
+    reduction: Reduction = "paper" if model.reduction == "paper" else "consistent"
+    section = section_from_dataset(data["equivalent"], reduction).scaled(
+        k_star, flow.density, flow.speed, chord
+    )
+    lift_factor, moment_factor = 1.0, 1.0
+    if model.corrected:
+        lift_factor, moment_factor = _factors(config, section, data["correction"], k_star)
+    return SectionProperties(
+        torsional_stiffness=moment_factor * k_star,
+        flexural_stiffness=lift_factor * section.k_w_star(flow.density, flow.speed),
+        inertia=moment_factor * section.i_star(flow.density, chord),
+        mass=lift_factor * section.m_star(flow.density, chord),
+        twist_recovery=section.twist_recovery,
+        deflection_recovery=section.deflection_recovery,
+    )
+
+
+def _factors(
+    config: Config, section: EquivalentSection, correction: xr.Dataset, k_star: float
+) -> tuple[float, float]:
+    """Return the factors of Eq. 20 of lift and moment at the aeroelastic equilibrium of k*."""
+    equilibrium = corrected_equilibrium(
+        factors_from_dataset(correction),
+        math.radians(config.flow.incidence_deg),
+        k_star,
+        section.stiffness_ratio(config.beam.chord),
+    )
+    return float(equilibrium.lift_factor[0]), float(equilibrium.moment_factor[0])
+
+
+def _beam_modes(config: Config, dataset: xr.Dataset, k_star: float) -> BeamModes:
+    """Return the beam's modes with its stiffness scaled to a k*, as if E varied.
+
+    k* = omega_theta^2 I*, with the first torsion frequency, is that of the consistent section;
+    frequencies scale with the square root of the stiffness.
+    """
+    plate = Plate(**config.beam.model_dump())
+    modes = modes_from_dataset(dataset)
+    bending = modes.bending(config.structure.bending_modes)
+    torsion = modes.torsion(config.structure.torsion_modes)
+    flow, chord = config.flow, config.beam.chord
+    inertia = plate.inertia_per_length / (0.5 * flow.density * chord**4)
+    first = math.sqrt(k_star / inertia)  # omega_theta1 c/V
+    return BeamModes(
+        span=tuple(modes.span),
+        bending_frequency=tuple(first * bending.frequency / torsion.frequency[0]),
+        bending_shape=tuple(map(tuple, bending.shape)),
+        torsion_frequency=tuple(first * torsion.frequency / torsion.frequency[0]),
+        torsion_shape=tuple(map(tuple, torsion.shape)),
+        inertia=inertia,
+        mass=plate.mass_per_length / (0.5 * flow.density * chord**2),
+    )

@@ -1,0 +1,135 @@
+"""The plan of a run: which cases there are, what they are called and where their files go.
+
+Everything comes from the validated configuration, nothing from a result, so that the graph
+can be built on a fresh clone. Names of cases are made and read here and nowhere else.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from equisection.config import Config
+from equisection.files import write_text
+
+#: Patterns of the wildcards of the rules.
+MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
+CASE_PATTERN = r"k[0-9][0-9.e+-]*"
+DIMENSION_PATTERN = r"[23]d"
+
+
+@dataclass(frozen=True)
+class Model:
+    """A model of the sweep, taken apart."""
+
+    name: str
+    dimension: str  # '2d' or '3d'
+    corrected: bool
+    reduction: str  # 'consistent' or 'paper'; without meaning in 3D
+
+
+def model(name: str, default_reduction: str) -> Model:
+    """Take a model's name apart, for instance ``2d-corrected-paper``."""
+    parts = name.split("-")
+    reduction = parts[-1] if parts[-1] in ("paper", "consistent") else default_reduction
+    return Model(name, parts[0], "corrected" in parts, reduction)
+
+
+def case_name(k_star: float) -> str:
+    """Return the name of the unsteady case of a k*, for instance ``k6.44``."""
+    return f"k{k_star:.6g}"
+
+
+def k_star_of(name: str) -> float:
+    """Return the k* that a case's name stands for."""
+    return float(name.removeprefix("k"))
+
+
+def sweep_cases(config: Config) -> list[str]:
+    """Return the names of the cases of the sweep, by ascending k*."""
+    return [case_name(k_star) for k_star in config.sweep.values()]
+
+
+def angle_name(resolution: str, incidence_deg: float) -> str:
+    """Return the name of a steady case, for instance ``coarse_a2.5``."""
+    return f"{resolution}_a{incidence_deg:.6g}"
+
+
+def steady_cases(config: Config) -> list[str]:
+    """Return the names of the steady cases of either dimension, resolution by resolution."""
+    return [
+        angle_name(resolution, angle)
+        for resolution in resolutions(config)
+        for angle in config.steady.incidence_deg
+    ]
+
+
+def resolutions(config: Config) -> tuple[str, ...]:
+    """Return the resolutions of the steady cases: that of the run, then those of the study."""
+    return (config.steady.resolution, *config.steady.study)
+
+
+def angle_of(name: str) -> tuple[str, float]:
+    """Return resolution and incidence (deg) of a steady case."""
+    resolution, _, angle = name.rpartition("_a")
+    return resolution, float(angle)
+
+
+def refinement_rounds(config: Config) -> int:
+    """Return how many rounds narrow the widest bracket of the sweep to the tolerance.
+
+    Each round of n points leaves at most one of n + 1 equal parts.
+    """
+    if config.sweep.onset != "refine":
+        return 0
+    values = config.sweep.values()
+    widest = max(((b - a) / a for a, b in zip(values, values[1:], strict=False)), default=0.0)
+    if widest <= config.sweep.onset_tolerance:
+        return 0
+    parts = config.sweep.onset_points + 1
+    return math.ceil(math.log(widest / config.sweep.onset_tolerance) / math.log(parts) - 1e-9)
+
+
+def is_case_name(name: str) -> bool:
+    """Tell whether a name is that of an unsteady case."""
+    return re.fullmatch(CASE_PATTERN, name) is not None
+
+
+def write_refinement(path: Path, k_star: Sequence[float]) -> None:
+    """Write the k* that a round of refinement chose."""
+    write_text(path, json.dumps({"cases": [case_name(value) for value in k_star]}) + "\n")
+
+
+def read_refinement(path: Path) -> list[str]:
+    """Return the names of the cases that a round of refinement chose."""
+    names: list[str] = json.loads(path.read_text(encoding="utf-8"))["cases"]
+    return names
+
+
+#: Figures of every run, by the paper's number.
+FIGURES = (
+    "fig01-workflow",
+    "fig03-modes",
+    "fig06-section-polar",
+    "fig10-spanwise-loads",
+    "fig13-lift-correction",
+    "fig14-moment-correction",
+    "fig16-response",
+)
+#: Figures that show a model, drawn only where it is run.
+FIGURES_OF_MODEL = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d-corrected"}
+
+
+def figures(config: Config) -> list[str]:
+    """Return the names of the run's figures."""
+    of_models = [name for name, model in FIGURES_OF_MODEL.items() if model in config.sweep.models]
+    return sorted([*FIGURES, *of_models])
+
+
+def reference_case(config: Config) -> str:
+    """Return the stiffest case of the sweep, the paper's reference plate (k* = 21) by default."""
+    return sweep_cases(config)[-1]

@@ -1,0 +1,69 @@
+"""Correction factors over incidence, with the polars that they come from, as a data set."""
+
+from __future__ import annotations
+
+import numpy as np
+import xarray as xr
+
+from equisection.aerodynamics.polar import SectionPolar
+from equisection.reduction.correction import CorrectionFactors
+
+_COEFFICIENTS = {"drag": "cd", "lift": "cl", "moment": "cm"}
+
+
+def factors_to_dataset(factors: CorrectionFactors) -> xr.Dataset:
+    """Return ``steady/correction.nc`` on the incidences that both polars cover."""
+    section, beam = factors.section, factors.beam
+    low = max(section.incidence_range[0], beam.incidence_range[0])
+    high = min(section.incidence_range[1], beam.incidence_range[1])
+    incidence = np.union1d(section.incidence, beam.incidence)
+    incidence = incidence[(incidence >= low) & (incidence <= high)]
+    variables: dict[str, object] = {
+        "lift_factor": (
+            "incidence_deg",
+            factors.lift_factor(incidence),
+            {"units": "1", "long_name": "c_l/C_L, factor of mass and flexural stiffness"},
+        ),
+        "moment_factor": (
+            "incidence_deg",
+            factors.moment_factor(incidence),
+            {"units": "1", "long_name": "c_m/C_M, factor of inertia and torsional stiffness"},
+        ),
+    }
+    for whole, polar in (("section", section), ("beam", beam)):
+        axis = f"{whole}_incidence_deg"
+        for name, short in _COEFFICIENTS.items():
+            variables[f"{whole}_{short}"] = (
+                axis,
+                getattr(polar, name),
+                {"units": "1", "long_name": f"{name} coefficient of the {whole}"},
+            )
+    degrees = {"units": "deg", "long_name": "incidence"}
+    return xr.Dataset(
+        variables,
+        {
+            "incidence_deg": ("incidence_deg", np.degrees(incidence), degrees),
+            "section_incidence_deg": (
+                "section_incidence_deg",
+                np.degrees(section.incidence),
+                degrees,
+            ),
+            "beam_incidence_deg": ("beam_incidence_deg", np.degrees(beam.incidence), degrees),
+        },
+        attrs={"section_label": section.label, "beam_label": beam.label},
+    )
+
+
+def factors_from_dataset(dataset: xr.Dataset) -> CorrectionFactors:
+    """Return the factors of ``steady/correction.nc``."""
+    polars = {
+        whole: SectionPolar(
+            incidence=np.radians(dataset[f"{whole}_incidence_deg"].values),
+            drag=dataset[f"{whole}_cd"].values,
+            lift=dataset[f"{whole}_cl"].values,
+            moment=dataset[f"{whole}_cm"].values,
+            label=str(dataset.attrs[f"{whole}_label"]),
+        )
+        for whole in ("section", "beam")
+    }
+    return CorrectionFactors(**polars)

@@ -1,0 +1,98 @@
+"""Polars gathered from steady results, as data sets over resolution and incidence."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import xarray as xr
+
+from equisection.aerodynamics.polar import SectionPolar
+from equisection.errors import ResultFileError
+
+_COEFFICIENTS = {
+    "cd": "drag coefficient",
+    "cl": "lift coefficient",
+    "cm": "moment coefficient about mid-chord, nose up",
+}
+_SECTIONAL = {
+    "cl_section": "sectional lift coefficient",
+    "cm_section": "sectional moment coefficient about mid-chord, nose up",
+}
+
+
+def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
+    """Gather steady results into one data set.
+
+    Parameters
+    ----------
+    results
+        Result of each resolution and incidence (deg).
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``resolution`` and ``incidence_deg``; in 3D also over ``span``. A case that failed
+        is NaN, with the reason in the attribute ``failures``.
+    """
+    resolutions = list(dict.fromkeys(resolution for resolution, _ in results))
+    angles = sorted({angle for _, angle in results})
+    parts = []
+    for resolution in resolutions:
+        row = [results[resolution, angle].expand_dims(incidence_deg=[angle]) for angle in angles]
+        joined = xr.concat(row, "incidence_deg", data_vars="all", combine_attrs="drop")
+        parts.append(joined.expand_dims(resolution=[resolution]))
+    polar = xr.concat(parts, "resolution", data_vars="all", combine_attrs="drop")
+    names = {**_COEFFICIENTS, **_SECTIONAL}
+    for name in polar.data_vars:
+        polar[name].attrs = {
+            "units": "1",
+            "long_name": names[str(name)],
+            "missing_allowed": "1",
+        }
+    polar["incidence_deg"].attrs = {"units": "deg", "long_name": "incidence"}
+    polar["resolution"].attrs = {"units": "1", "long_name": "resolution"}
+    if "span" in polar.coords:
+        polar["span"].attrs = {"units": "1", "long_name": "position along the span z/L"}
+    failures = [
+        f"{resolution} {angle:g} deg: {data.attrs['failure']}"
+        for (resolution, angle), data in results.items()
+        if data.attrs.get("failure")
+    ]
+    solvers = {
+        resolution: next(
+            str(data.attrs["solver_description"])
+            for (name, _), data in results.items()
+            if name == resolution
+        )
+        for resolution in resolutions
+    }
+    return polar.assign_attrs(
+        failures="; ".join(failures),
+        **{f"solver_{name}": text for name, text in solvers.items()},
+    )
+
+
+def polar_at(dataset: xr.Dataset, resolution: str) -> SectionPolar:
+    """Return the polar of one resolution, without the incidences that failed.
+
+    Raises
+    ------
+    ResultFileError
+        Fewer than four incidences have a result.
+    """
+    chosen = dataset.sel(resolution=resolution)
+    there = np.isfinite(chosen["cl"].values)
+    if there.sum() < 4:
+        raise ResultFileError(
+            f"the polar at resolution '{resolution}' has {there.sum()} incidences with a result, "
+            f"at least 4 are needed ({dataset.attrs.get('failures') or 'add incidences'})"
+        )
+    polar = SectionPolar(
+        incidence=np.radians(chosen["incidence_deg"].values[there]),
+        drag=chosen["cd"].values[there],
+        lift=chosen["cl"].values[there],
+        moment=chosen["cm"].values[there],
+        label=str(dataset.attrs[f"solver_{resolution}"]),
+    )
+    return polar

@@ -1,0 +1,314 @@
+"""The embedded solver: steady and unsteady loads from section polars, with nothing but Python.
+
+Section polar, lifting line and lagged separation stand in the place of CFD. What it gives is
+labelled as what it is wherever it is shown.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.aerodynamics.induction import SpanStrips, cosine_strips, induction_matrix
+from equisection.aerodynamics.lifting_line import LiftingLine
+from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar_file import read_polar
+from equisection.aerodynamics.separation import SeparationLags
+from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.cases import Geometry, SteadyCase, UnsteadyCase
+from equisection.config import Config
+from equisection.errors import IncidenceOutOfRangeError, SolverError
+from equisection.motion.beams import BeamHistories, BeamParameters, release_beams
+from equisection.motion.march import Failure
+from equisection.motion.sections import SectionHistories, SectionParameters, release_sections
+from equisection.results.steady import SteadyResult
+from equisection.results.unsteady import UnsteadyResult
+from equisection.solvers.protocol import Capability, Progress
+from equisection.solvers.verdicts import Motion, judge, monitor_of
+
+Floats = NDArray[np.float64]
+
+#: Incidences that the thin analytic plate covers (rad).
+FLAT_PLATE_LIMIT = math.radians(30.0)
+#: Cases that run together; bounds the memory of their histories.
+LANES = 500
+
+
+class Adapter:
+    """The embedded solver on one section polar; fulfils the solver protocol."""
+
+    name = "embedded"
+    version = "1"
+    provides = frozenset({Capability.BATCH})
+
+    def __init__(self, polar: SectionPolar, strips: int, lags: SeparationLags) -> None:
+        self._polar = polar
+        self._strips = strips
+        self._lags = lags
+
+    @classmethod
+    def from_config(cls, config: Config, resolution: str) -> Adapter:
+        """Return the solver on the polar of a resolution.
+
+        Raises
+        ------
+        PolarFileError
+            The polar file cannot be used.
+        """
+        section = config.embedded
+        source = section.polars[resolution]
+        if source == "flat-plate":
+            polar = SectionPolar.flat_plate(FLAT_PLATE_LIMIT)
+        else:
+            polar = read_polar(Path(source), section.symmetric)
+        lags = SeparationLags(**section.separation.model_dump(), provenance="configuration")
+        return cls(polar, section.strips, lags)
+
+    @classmethod
+    def from_settings(cls, settings: dict[str, Any]) -> Adapter:
+        """Return the solver of a case."""
+        data = settings["polar"]
+        polar = SectionPolar(
+            np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
+        )
+        return cls(polar, settings["strips"], SeparationLags(**settings["separation"]))
+
+    def settings(self) -> dict[str, Any]:
+        """Return the polar, the strips and the lags of the separation."""
+        lags = asdict(self._lags)
+        del lags["provenance"]
+        return {
+            "polar": {
+                "label": self._polar.label,
+                "incidence_deg": np.degrees(self._polar.incidence).tolist(),
+                "cd": self._polar.drag.tolist(),
+                "cl": self._polar.lift.tolist(),
+                "cm": self._polar.moment.tolist(),
+            },
+            "strips": self._strips,
+            "separation": lags,
+        }
+
+    def describe(self) -> str:
+        """Return solver and resolution in words."""
+        return f"embedded solver, polar {self._polar.label}"
+
+    def run_steady(
+        self, cases: Sequence[SteadyCase], work: Path, progress: Progress
+    ) -> list[SteadyResult]:
+        """Read the polar (2D) or solve the lifting line on it (3D) at each incidence."""
+        del work
+        results = []
+        for number, case in enumerate(cases, start=1):
+            try:
+                run = self._section if case.dimension == "2d" else self._beam
+                results.append(run(case))
+            except (IncidenceOutOfRangeError, SolverError) as error:
+                results.append(_no_value(str(error)))
+            progress(number, len(cases))
+        return results
+
+    def run_unsteady(
+        self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
+    ) -> list[UnsteadyResult]:
+        """Release sections or beams together, each until its verdict is in."""
+        del work
+        total = sum(case.duration for case in cases)
+        results: dict[int, UnsteadyResult] = {}
+        done = 0.0
+        for group in _groups(cases):
+            members = [cases[index] for index in group]
+            share = sum(case.duration for case in members)
+
+            def tell(now: float, end: float, share: float = share, before: float = done) -> None:
+                progress(before + share * now / end, total)
+
+            run = self._sections if members[0].dimension == "2d" else self._beams
+            results.update(zip(group, run(members, tell), strict=True))
+            done += share
+        return [results[index] for index in range(len(cases))]
+
+    def _section(self, case: SteadyCase) -> SteadyResult:
+        alpha = math.radians(case.incidence_deg)
+        self._polar.require(alpha)
+        return SteadyResult(
+            drag=float(self._polar.drag_coefficient(alpha)),
+            lift=float(self._polar.lift_coefficient(alpha)),
+            moment=float(self._polar.moment_coefficient(alpha)),
+            span=np.empty(0),
+            section_lift=np.empty(0),
+            section_moment=np.empty(0),
+            method="section polar",
+        )
+
+    def _beam(self, case: SteadyCase) -> SteadyResult:
+        strips, matrix = self._induction(case.geometry)
+        loads = LiftingLine(self._polar, strips, matrix).solve(math.radians(case.incidence_deg))
+        return SteadyResult(
+            drag=loads.drag,
+            lift=loads.lift,
+            moment=loads.moment,
+            span=strips.stations,
+            section_lift=loads.cl_section,
+            section_moment=loads.cm_section,
+            method="lifting line on the section polar",
+        )
+
+    def _induction(self, geometry: Geometry) -> tuple[SpanStrips, Floats]:
+        strips = cosine_strips(self._strips, geometry.root_on_wall)
+        width = None if geometry.tip_gap is None else geometry.span + geometry.tip_gap
+        matrix = induction_matrix(
+            strips,
+            1.0,
+            geometry.span,
+            width,
+            geometry.channel_height,
+            root_on_wall=geometry.root_on_wall,
+        )
+        return strips, matrix
+
+    def _sections(self, cases: list[UnsteadyCase], progress: Progress) -> Iterable[UnsteadyResult]:
+        section = [case.section for case in cases]
+        parameters = SectionParameters(
+            inertia=np.array([s.inertia for s in section if s]),
+            torsional_stiffness=np.array([s.torsional_stiffness for s in section if s]),
+            mass=np.array([s.mass for s in section if s]),
+            heave_stiffness=np.array([s.flexural_stiffness for s in section if s]),
+        )
+        first = cases[0]
+        histories = release_sections(
+            parameters,
+            UnsteadyLoads.from_polar(self._polar, self._lags),
+            math.radians(first.incidence_deg),
+            first.duration,
+            time_step=first.time_step,
+            output_interval=first.output_interval,
+            monitor=monitor_of(cases, _section_lane),
+            progress=progress,
+        )
+        for lane, case in enumerate(cases):
+            yield _section_result(case, histories, lane)
+
+    def _beams(self, cases: list[UnsteadyCase], progress: Progress) -> Iterable[UnsteadyResult]:
+        first = cases[0]
+        strips, matrix = self._induction(first.geometry)
+        modes = [case.beam for case in cases if case.beam]
+        parameters = BeamParameters.from_modes(
+            span=np.array(modes[0].span),
+            torsion_shapes=np.array(modes[0].torsion_shape),
+            torsion_frequencies=np.array([beam.torsion_frequency for beam in modes]),
+            inertia=np.array([beam.inertia for beam in modes]),
+            bending_shapes=np.array(modes[0].bending_shape),
+            bending_frequencies=np.array([beam.bending_frequency for beam in modes]),
+            mass=np.array([beam.mass for beam in modes]),
+            stations=strips.stations,
+            weights=strips.weights,
+            induction=matrix,
+        )
+        histories = release_beams(
+            parameters,
+            UnsteadyLoads.from_polar(self._polar, self._lags),
+            math.radians(first.incidence_deg),
+            first.duration,
+            time_step=first.time_step,
+            output_interval=first.output_interval,
+            monitor=monitor_of(cases, _beam_lane),
+            progress=progress,
+        )
+        for lane, case in enumerate(cases):
+            yield _beam_result(case, histories, lane)
+
+
+def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:
+    """Group cases that differ in their structure's numbers alone, a bounded number at a time."""
+
+    def what_they_share(index: int) -> str:
+        case = cases[index]
+        lanes = {
+            "k_star": True,
+            "section": True,
+            "beam": {"torsion_frequency", "bending_frequency"},
+        }
+        return case.model_dump_json(exclude=lanes)
+
+    order = sorted(range(len(cases)), key=what_they_share)
+    groups = []
+    for _, same in itertools.groupby(order, key=what_they_share):
+        members = list(same)
+        groups += [members[at : at + LANES] for at in range(0, len(members), LANES)]
+    return groups
+
+
+def _no_value(reason: str) -> SteadyResult:
+    nothing = np.empty(0)
+    return SteadyResult(
+        math.nan, math.nan, math.nan, nothing, nothing, nothing, "none", failure=reason
+    )
+
+
+def _section_lane(histories: SectionHistories, case: UnsteadyCase, lane: int) -> Motion:
+    assert case.section is not None
+    return Motion(
+        histories.time,
+        histories.twist[:, lane] / case.section.twist_recovery,
+        histories.deflection[:, lane] / case.section.deflection_recovery,
+    )
+
+
+def _beam_lane(histories: BeamHistories, case: UnsteadyCase, lane: int) -> Motion:
+    del case
+    return Motion(histories.time, histories.tip_twist[:, lane], histories.tip_deflection[:, lane])
+
+
+def _section_result(case: UnsteadyCase, histories: SectionHistories, lane: int) -> UnsteadyResult:
+    end = int(histories.samples[lane])
+    tip = _section_lane(histories, case, lane).until(end)
+    twist = histories.twist[:end, lane]
+    return UnsteadyResult(
+        time=tip.time,
+        twist=twist,
+        deflection=histories.deflection[:end, lane],
+        tip_twist=tip.twist,
+        tip_deflection=tip.deflection,
+        lift=histories.lift_coefficient[:end, lane],
+        moment=histories.moment_coefficient[:end, lane],
+        incidence=math.radians(case.incidence_deg) + twist,
+        verdict=judge(case, tip, _failure(histories.failures, lane)),
+    )
+
+
+def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> UnsteadyResult:
+    end = int(histories.samples[lane])
+    tip = _beam_lane(histories, case, lane).until(end)
+    return UnsteadyResult(
+        time=tip.time,
+        twist=tip.twist,
+        deflection=tip.deflection,
+        tip_twist=tip.twist,
+        tip_deflection=tip.deflection,
+        lift=histories.lift_coefficient[:end, lane],
+        moment=histories.moment_coefficient[:end, lane],
+        incidence=math.radians(case.incidence_deg) + tip.twist,
+        verdict=judge(case, tip, _failure(histories.failures, lane)),
+        torsion_amplitudes=histories.torsion_amplitudes[:end, lane].T,
+        bending_amplitudes=histories.bending_amplitudes[:end, lane].T,
+    )
+
+
+def _failure(failures: Iterable[Failure], lane: int) -> str:
+    """Return why a lane ended early, or nothing."""
+    for failure in failures:
+        if failure.lane == lane:
+            return (
+                f"at {failure.time:.4g} c/V an incidence of "
+                f"{math.degrees(failure.incidence_rad):.4g} deg left the section polar; extend "
+                "the polar or lower unsteady.verdict.growing_amplitude_deg"
+            )
+    return ""

@@ -1,0 +1,155 @@
+"""Run the cases of one job: take what the store has, compute the rest, publish all.
+
+The store keeps each result under the hash of its case, in ``<store>/<hash>/result.nc``, beside
+the solver's own working directory. It is no declared output of a rule, so it survives a kill
+and a change of the sweep: a case that was ever finished is not computed again. Whatever it
+holds is validated before it is published.
+"""
+
+from __future__ import annotations
+
+import logging
+import os
+import shutil
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import xarray as xr
+
+from equisection.cases import Case, SteadyCase, UnsteadyCase, case_hash, read_case
+from equisection.errors import ResultFileError, SolverError
+from equisection.files import written_whole
+from equisection.progress import JobProgress
+from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.results.steady import SteadyResult
+from equisection.results.unsteady import UnsteadyResult
+from equisection.solvers.protocol import Solver
+from equisection.solvers.registry import solver_from_case
+from equisection.solvers.verdicts import refused
+
+logger = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Task:
+    """One case of a job, and where its result goes."""
+
+    case: Case
+    hash: str
+    output: Path
+
+
+def run_cases(
+    case_files: Sequence[Path], outputs: Sequence[Path], store: Path, progress_file: Path
+) -> None:
+    """Run the cases that the store does not have, and publish the results of all.
+
+    Parameters
+    ----------
+    case_files, outputs
+        Case files and the result file of each, in the same order; all for one solver.
+    store
+        Folder of the results by hash.
+    progress_file
+        Where the job says how far it is.
+
+    Raises
+    ------
+    CaseFileError
+        A case file cannot be read, or asks for another solver than the first.
+    SolverError
+        The solver could not run, or left a case without a result.
+    """
+    tasks = [
+        Task(case, case_hash(case), output)
+        for case, output in zip(map(read_case, case_files), outputs, strict=True)
+    ]
+    missing = {task.hash: task for task in tasks if not _in_store(store, task.hash)}
+    logger.info("%d cases, %d of them in the store", len(tasks), len(tasks) - len(missing))
+    for group in _alike(list(missing.values())):
+        _compute(group, store, progress_file)
+    for task in tasks:
+        _publish(store / task.hash / "result.nc", task.output)
+
+
+def _in_store(store: Path, wanted: str) -> bool:
+    path = store / wanted / "result.nc"
+    if not path.exists():
+        return False
+    try:
+        read_dataset(path, wanted).close()
+    except ResultFileError as error:
+        logger.warning("%s; it is computed again", error)
+        return False
+    return True
+
+
+def _alike(tasks: list[Task]) -> list[list[Task]]:
+    """Group the tasks by solver and its settings: one adapter runs one group."""
+    groups: dict[str, list[Task]] = {}
+    for task in tasks:
+        groups.setdefault(task.case.solver.model_dump_json(), []).append(task)
+    return list(groups.values())
+
+
+def _compute(tasks: list[Task], store: Path, progress_file: Path) -> None:
+    solver = solver_from_case(tasks[0].case.solver)
+    work = store / tasks[0].hash
+    work.mkdir(parents=True, exist_ok=True)
+    wall, cpu = time.perf_counter(), time.process_time()
+    with JobProgress(progress_file, [task.hash for task in tasks], solver.describe()) as progress:
+        results = _run(solver, [task.case for task in tasks], work, progress)
+    if len(results) != len(tasks):
+        raise SolverError(
+            f"solver '{solver.name}' returned {len(results)} results for {len(tasks)} cases"
+        )
+    cost = {
+        "wall_seconds": (time.perf_counter() - wall) / len(tasks),
+        "cpu_seconds": (time.process_time() - cpu) / len(tasks),
+        "batch_cases": len(tasks),
+    }
+    for task, result in zip(tasks, results, strict=True):
+        dataset = _dataset(task.case, result).assign_attrs(
+            case_hash=task.hash,
+            solver=solver.name,
+            solver_version=solver.version,
+            solver_description=solver.describe(),
+            resolution=task.case.resolution,
+            **cost,
+        )
+        write_dataset(store / task.hash / "result.nc", dataset)
+
+
+def _run(
+    solver: Solver, cases: list[Case], work: Path, progress: JobProgress
+) -> list[SteadyResult] | list[UnsteadyResult]:
+    steady = [case for case in cases if isinstance(case, SteadyCase)]
+    unsteady = [case for case in cases if isinstance(case, UnsteadyCase)]
+    if steady and unsteady:
+        raise SolverError("a job holds steady and unsteady cases; one kind is allowed")
+    if steady:
+        return solver.run_steady(steady, work, progress.update)
+    possible = [case for case in unsteady if not case.refusal]
+    ran = iter(solver.run_unsteady(possible, work, progress.update) if possible else [])
+    return [refused(case.refusal) if case.refusal else next(ran) for case in unsteady]
+
+
+def _dataset(case: Case, result: SteadyResult | UnsteadyResult) -> xr.Dataset:
+    if isinstance(result, SteadyResult):
+        return result.to_dataset().assign_attrs(incidence_deg=case.incidence_deg)
+    return result.to_dataset(case.geometry.chord).assign_attrs(
+        k_star=getattr(case, "k_star", float("nan"))
+    )
+
+
+def _publish(stored: Path, output: Path) -> None:
+    """Put a result where the workflow wants it: a second name of the file, or a copy."""
+    output.parent.mkdir(parents=True, exist_ok=True)
+    with written_whole(output) as aside:
+        aside.unlink()
+        try:
+            os.link(stored, aside)
+        except OSError:
+            shutil.copyfile(stored, aside)

@@ -1,0 +1,60 @@
+"""The solvers that a configuration can name, loaded only when they are used.
+
+The workflow reads what a solver provides while it builds its graph, where importing numerics
+for each job would cost more than the job; so that much stands here.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from importlib import import_module
+from typing import Any
+
+from equisection.cases import SolverBlock
+from equisection.config import Config
+from equisection.errors import CaseFileError
+from equisection.solvers.protocol import Capability, Solver
+
+
+@dataclass(frozen=True)
+class Entry:
+    """Where an adapter is, and what it provides."""
+
+    module: str
+    provides: frozenset[Capability]
+
+
+SOLVERS: dict[str, Entry] = {
+    "embedded": Entry("equisection.solvers.embedded", frozenset({Capability.BATCH})),
+}
+
+
+def solver_from_config(config: Config, resolution: str) -> Solver:
+    """Return the configured solver at a resolution."""
+    return _adapter(config.solver).from_config(config, resolution)  # type: ignore[no-any-return]
+
+
+def solver_from_case(block: SolverBlock) -> Solver:
+    """Return the solver that a case asks for.
+
+    Raises
+    ------
+    CaseFileError
+        The solver is unknown here, or the case was written for another version of it.
+    """
+    if block.name not in SOLVERS:
+        raise CaseFileError(
+            f"solver '{block.name}' is not known; allowed are {', '.join(sorted(SOLVERS))}"
+        )
+    solver: Solver = _adapter(block.name).from_settings(block.settings)
+    if solver.version != block.version:
+        raise CaseFileError(
+            f"the case is for version {block.version} of solver '{block.name}', installed is "
+            f"{solver.version}; delete the run's folder 'cases' and run again"
+        )
+    return solver
+
+
+def _adapter(name: str) -> Any:
+    """Return the class named ``Adapter`` of the solver's module."""
+    return import_module(SOLVERS[name].module).Adapter

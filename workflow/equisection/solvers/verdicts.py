@@ -1,0 +1,116 @@
+"""The verdict of a run, for every solver alike: judged on the motion of the tip.
+
+The section's twist and deflection are recovered to the tip's first, so that the same criteria
+mean the same motion in two and in three dimensions.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.cases import UnsteadyCase
+from equisection.errors import ResultFileError
+from equisection.results.unsteady import Regime, UnsteadyResult
+from equisection.signals import Criteria, assess
+
+Floats = NDArray[np.float64]
+Indices = NDArray[np.intp]
+Histories = TypeVar("Histories")
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Twist (rad) and deflection (chords) of the tip over convective time, shape (n,)."""
+
+    time: Floats
+    twist: Floats
+    deflection: Floats
+
+    def until(self, samples: int) -> Motion:
+        """Return the first samples."""
+        return Motion(self.time[:samples], self.twist[:samples], self.deflection[:samples])
+
+
+def criteria_of(case: UnsteadyCase) -> Criteria:
+    """Return the criteria that a case asks for."""
+    return Criteria(**case.criteria.model_dump())
+
+
+def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
+    """Return the attributes of the verdict on a run that has ended.
+
+    Parameters
+    ----------
+    case
+        The case.
+    tip
+        Its whole history.
+    failure
+        Why the run ended early, if it did; its regime is then ``failed``.
+    """
+    if failure:
+        return _failed(failure)
+    try:
+        verdict = assess(tip.time, tip.twist, tip.deflection, criteria_of(case), final=True)
+    except ResultFileError as error:
+        return _failed(str(error))
+    return {
+        "regime": str(Regime(verdict.regime)),
+        "reason": verdict.reason,
+        "periods_used": verdict.periods_used,
+        "window_start": verdict.start_time,
+        "mean_twist_deg": math.degrees(verdict.mean_twist),
+        "mean_deflection_chords": verdict.mean_deflection,
+        "twist_amplitude_deg": math.degrees(verdict.twist_amplitude),
+        "frequency_strouhal": verdict.frequency,
+        "growth_rate": verdict.growth_rate,
+    }
+
+
+def refused(reason: str) -> UnsteadyResult:
+    """Return the result of a case that has no structure to move: no history, regime failed."""
+    nothing = np.empty(0)
+    return UnsteadyResult(*[nothing] * 8, verdict=_failed(reason))
+
+
+def monitor_of(
+    cases: Sequence[UnsteadyCase], lane_of: Callable[[Any, UnsteadyCase, int], Motion]
+) -> Callable[[Any, Indices], Indices]:
+    """Return a monitor that ends each lane of a batch when its verdict is in."""
+
+    def monitor(histories: Any, active: Indices) -> Indices:
+        done = [
+            lane
+            for lane in active
+            if _decided(cases[lane], lane_of(histories, cases[lane], int(lane)))
+        ]
+        return np.array(done, dtype=np.intp)
+
+    return monitor
+
+
+def _decided(case: UnsteadyCase, tip: Motion) -> bool:
+    return assess(tip.time, tip.twist, tip.deflection, criteria_of(case)).decided
+
+
+def _failed(reason: str) -> dict[str, Any]:
+    unknown = (
+        "window_start",
+        "mean_twist_deg",
+        "mean_deflection_chords",
+        "twist_amplitude_deg",
+        "frequency_strouhal",
+        "growth_rate",
+    )
+    return {
+        "regime": str(Regime.FAILED),
+        "reason": reason,
+        "periods_used": 0.0,
+        **dict.fromkeys(unknown, math.nan),
+    }

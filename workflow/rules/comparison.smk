@@ -1,0 +1,112 @@
+"""Summary of all runs, the bracket of the onset, and the numbers that the paper states."""
+
+
+rule config_resolved:
+    """The configuration with every default filled in."""
+    input:
+        sources=sources("config"),
+    output:
+        f"{RESULTS}/config.resolved.yaml",
+    log:
+        f"{LOGS}/config_resolved.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        config=RESOLVED,
+    message:
+        "resolved configuration"
+    script:
+        "../../scripts/config_resolved.py"
+
+
+rule summary:
+    """One line for each run of each model."""
+    input:
+        unpack(results_of_sweep),
+        sources=sources("comparison/summary.py", "results"),
+    output:
+        f"{RESULTS}/comparison/summary.csv",
+    log:
+        f"{LOGS}/summary.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        models=list(CONFIG.sweep.models),
+    message:
+        "summary"
+    script:
+        "../../scripts/summary.py"
+
+
+rule onset:
+    """The bracket of the onset of each model."""
+    input:
+        summary=f"{RESULTS}/comparison/summary.csv",
+        sources=sources("comparison/onset.py"),
+    output:
+        f"{RESULTS}/comparison/onset.csv",
+    log:
+        f"{LOGS}/onset.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    message:
+        "onset of the instability"
+    script:
+        "../../scripts/onset.py"
+
+
+rule paper_comparison:
+    """Every number that the paper states, beside that of this run."""
+    input:
+        modes=f"{RESULTS}/structure/modes.nc",
+        equivalent=f"{RESULTS}/structure/equivalent.nc",
+        mesh_study=f"{RESULTS}/structure/mesh_study.nc",
+        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        correction=f"{RESULTS}/steady/correction.nc",
+        summary=f"{RESULTS}/comparison/summary.csv",
+        onset=f"{RESULTS}/comparison/onset.csv",
+        sources=sources("comparison"),
+    output:
+        paper=report(
+            f"{RESULTS}/comparison/paper.csv",
+            caption="../report/paper.rst",
+            category="Tables",
+        ),
+        table1=report(
+            f"{RESULTS}/tables/table1.csv",
+            caption="../report/table1.rst",
+            category="Tables",
+        ),
+        table2=report(
+            f"{RESULTS}/tables/table2.csv",
+            caption="../report/table2.rst",
+            category="Tables",
+        ),
+    log:
+        f"{LOGS}/paper_comparison.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        is_paper_case=CONFIG.is_paper_case,
+        config=RESOLVED,
+    message:
+        "comparison with the paper"
+    script:
+        "../../scripts/paper_comparison.py"

@@ -1,0 +1,50 @@
+"""Equivalent properties of the section, and the correction factors for the finite beam."""
+
+
+rule equivalent_section:
+    """Reduce the beam to its equivalent section, in both forms."""
+    input:
+        modes=f"{RESULTS}/structure/modes.nc",
+        sources=sources("reduction", "results/modes.py", "results/equivalent.py"),
+    output:
+        f"{RESULTS}/structure/equivalent.nc",
+    log:
+        f"{LOGS}/equivalent_section.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        beam=RESOLVED["beam"],
+        flow=RESOLVED["flow"],
+    message:
+        "equivalent section"
+    script:
+        "../../scripts/equivalent_section.py"
+
+
+rule correction_factors:
+    """Correct the section's loads for the finite beam (Eq. 20)."""
+    input:
+        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        equivalent=f"{RESULTS}/structure/equivalent.nc",
+        sources=sources("reduction/correction.py", "results/polar.py"),
+    output:
+        f"{RESULTS}/steady/correction.nc",
+    log:
+        f"{LOGS}/correction_factors.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        resolution=CONFIG.steady.resolution,
+    message:
+        "correction factors"
+    script:
+        "../../scripts/correction_factors.py"

@@ -1,0 +1,267 @@
+"""The paper's figures, one rule each, named by the paper's number."""
+
+
+rule fig01_workflow:
+    """Block diagram of the procedure: the rules and what flows between them (Fig. 1)."""
+    input:
+        config=f"{RESULTS}/config.resolved.yaml",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig01-workflow.png",
+            caption="../report/fig01.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig01-workflow.svg",
+        pdf=f"{RESULTS}/figures/fig01-workflow.pdf",
+    log:
+        f"{LOGS}/fig01_workflow.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "Fig. 1, the workflow"
+    script:
+        "../../scripts/fig01_workflow.py"
+
+
+rule fig03_modes:
+    """Deformation modes along the span (Fig. 3)."""
+    input:
+        modes=f"{RESULTS}/structure/modes.nc",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig03-modes.png",
+            caption="../report/fig03.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig03-modes.svg",
+        pdf=f"{RESULTS}/figures/fig03-modes.pdf",
+    log:
+        f"{LOGS}/fig03_modes.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "Fig. 3, modes"
+    script:
+        "../../scripts/fig03_modes.py"
+
+
+rule fig06_section_polar:
+    """Section polars at each resolution (Fig. 6)."""
+    input:
+        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig06-section-polar.png",
+            caption="../report/fig06.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig06-section-polar.svg",
+        pdf=f"{RESULTS}/figures/fig06-section-polar.pdf",
+    log:
+        f"{LOGS}/fig06_section_polar.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "Fig. 6, section polars"
+    script:
+        "../../scripts/fig06_section_polar.py"
+
+
+rule fig10_spanwise_loads:
+    """Lift and moment along the span (Fig. 10)."""
+    input:
+        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig10-spanwise-loads.png",
+            caption="../report/fig10.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig10-spanwise-loads.svg",
+        pdf=f"{RESULTS}/figures/fig10-spanwise-loads.pdf",
+    log:
+        f"{LOGS}/fig10_spanwise_loads.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        resolution=CONFIG.steady.resolution,
+    message:
+        "Fig. 10, spanwise loads"
+    script:
+        "../../scripts/fig10_spanwise_loads.py"
+
+
+rule fig13_lift_correction:
+    """Lift of section, root and beam, and its correction factor (Fig. 13)."""
+    input:
+        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        correction=f"{RESULTS}/steady/correction.nc",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig13-lift-correction.png",
+            caption="../report/fig13.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig13-lift-correction.svg",
+        pdf=f"{RESULTS}/figures/fig13-lift-correction.pdf",
+    log:
+        f"{LOGS}/fig13_lift_correction.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        resolution=CONFIG.steady.resolution,
+    message:
+        "Fig. 13, correction of the lift"
+    script:
+        "../../scripts/fig13_lift_correction.py"
+
+
+rule fig14_moment_correction:
+    """Moment of section, root and beam, and its correction factor (Fig. 14)."""
+    input:
+        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        correction=f"{RESULTS}/steady/correction.nc",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig14-moment-correction.png",
+            caption="../report/fig14.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig14-moment-correction.svg",
+        pdf=f"{RESULTS}/figures/fig14-moment-correction.pdf",
+    log:
+        f"{LOGS}/fig14_moment_correction.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        resolution=CONFIG.steady.resolution,
+    message:
+        "Fig. 14, correction of the moment"
+    script:
+        "../../scripts/fig14_moment_correction.py"
+
+
+rule fig15_modal_contributions:
+    """Contribution of each mode to the deformation (Fig. 15)."""
+    input:
+        modes=f"{RESULTS}/structure/modes.nc",
+        run=f"{RESULTS}/unsteady/3d/{plan.reference_case(CONFIG)}.nc",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig15-modal-contributions.png",
+            caption="../report/fig15.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig15-modal-contributions.svg",
+        pdf=f"{RESULTS}/figures/fig15-modal-contributions.pdf",
+    log:
+        f"{LOGS}/fig15_modal_contributions.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "Fig. 15, modal contributions"
+    script:
+        "../../scripts/fig15_modal_contributions.py"
+
+
+rule fig16_response:
+    """Mean deformation over k*, and histories of the twist (Fig. 16)."""
+    input:
+        unpack(results_of_sweep),
+        summary=f"{RESULTS}/comparison/summary.csv",
+        onset=f"{RESULTS}/comparison/onset.csv",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig16-response.png",
+            caption="../report/fig16.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig16-response.svg",
+        pdf=f"{RESULTS}/figures/fig16-response.pdf",
+    log:
+        f"{LOGS}/fig16_response.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "Fig. 16, response"
+    script:
+        "../../scripts/fig16_response.py"
+
+
+rule fig17_hysteresis:
+    """Hysteresis loops and phase portraits (Fig. 17)."""
+    input:
+        unpack(results_of_sweep),
+        summary=f"{RESULTS}/comparison/summary.csv",
+        style="envs/equisection.mplstyle",
+        sources=sources("figures"),
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig17-hysteresis.png",
+            caption="../report/fig17.rst",
+            category="Figures",
+        ),
+        svg=f"{RESULTS}/figures/fig17-hysteresis.svg",
+        pdf=f"{RESULTS}/figures/fig17-hysteresis.pdf",
+    log:
+        f"{LOGS}/fig17_hysteresis.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    message:
+        "Fig. 17, hysteresis"
+    script:
+        "../../scripts/fig17_hysteresis.py"

@@ -1,0 +1,113 @@
+"""Steady polars of the section (2D) and of the rigid beam (3D)."""
+
+
+rule steady_cases:
+    """Write the case file of each incidence and resolution."""
+    input:
+        polars=solver_input_files(),
+        sources=sources("cases", "solvers", "plan.py"),
+    output:
+        expand(
+            f"{RESULTS}/cases/steady/{{dimension}}/{{case}}.json",
+            case=STEADY,
+            allow_missing=True,
+        ),
+    log:
+        f"{LOGS}/steady_cases_{{dimension}}.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        config=RESOLVED,
+    message:
+        "case files of the steady {wildcards.dimension} polar"
+    script:
+        "../../scripts/steady_cases.py"
+
+
+if Capability.BATCH in PROVIDES:
+
+    rule steady_batch:
+        """Run all incidences of a dimension in one job."""
+        input:
+            expand(
+                f"{RESULTS}/cases/steady/{{dimension}}/{{case}}.json",
+                case=STEADY,
+                allow_missing=True,
+            ),
+        output:
+            expand(
+                f"{RESULTS}/steady/{{dimension}}/{{case}}.nc",
+                case=STEADY,
+                allow_missing=True,
+            ),
+        log:
+            f"{LOGS}/steady_{{dimension}}.log",
+        conda:
+            ENVIRONMENT
+        threads: 1
+        resources:
+            mem_mb=1000,
+            runtime=10,
+        params:
+            store=STORE,
+        message:
+            "steady {wildcards.dimension} cases"
+        script:
+            "../../scripts/run_cases.py"
+
+else:
+
+    rule steady_case:
+        """Run one incidence."""
+        input:
+            f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
+        output:
+            f"{RESULTS}/steady/{{dimension}}/{{angle}}.nc",
+        log:
+            f"{LOGS}/steady_{{dimension}}_{{angle}}.log",
+        conda:
+            ENVIRONMENT
+        threads: 1
+        resources:
+            mem_mb=2000,
+            runtime=240,
+        params:
+            store=STORE,
+        message:
+            "steady {wildcards.dimension} case {wildcards.angle}"
+        script:
+            "../../scripts/run_cases.py"
+
+
+rule polar:
+    """Gather the steady results of a dimension into its polar."""
+    input:
+        cases=expand(
+            f"{RESULTS}/cases/steady/{{dimension}}/{{case}}.json",
+            case=STEADY,
+            allow_missing=True,
+        ),
+        results=expand(
+            f"{RESULTS}/steady/{{dimension}}/{{case}}.nc",
+            case=STEADY,
+            allow_missing=True,
+        ),
+        sources=sources("results"),
+    output:
+        f"{RESULTS}/steady/polar_{{dimension}}.nc",
+    log:
+        f"{LOGS}/polar_{{dimension}}.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    message:
+        "{wildcards.dimension} polar"
+    script:
+        "../../scripts/polar.py"
