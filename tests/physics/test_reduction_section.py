@@ -146,6 +146,20 @@ def test_static_tip_of_a_continuous_beam(k_star):
     assert w / section.deflection_recovery == pytest.approx(deflection, rel=0.025)
     # Read as the tip itself, the paper's section is a fifth low in twist.
     assert theta / twist == pytest.approx(0.80, abs=0.02)
+    # and in deflection off by what the divisor under k_w makes of it (last: as printed).
+    integrals = span_integrals(PAPER, modes)
+    divisors = (integrals.a_w_w, integrals.a_theta_w, integrals.a_theta_theta)
+    read_as_tip = [w * d[0, 0] / integrals.a_w_w[0, 0] / deflection for d in divisors]
+    assert read_as_tip == pytest.approx([0.635, 0.86, 1.27], abs=0.02)
+
+
+def test_lift_by_twist_is_what_a_section_cannot_carry_exactly():
+    a = span_integrals(PAPER, analytic_modes())
+    carried = a.a_theta_theta[0, 0] * a.g_mean[0] / (a.a_theta_w[0, 0] * a.f_mean[0])
+    assert carried == pytest.approx(0.907, abs=1e-3)
+    forks = plate_with("pinned-pinned")
+    same = span_integrals(forks, analytic_modes("pinned-pinned"))
+    assert same.cos_phi == pytest.approx(1.0, abs=1e-9)
 
 
 def test_static_twist_and_deflection_of_the_solid_plate():
