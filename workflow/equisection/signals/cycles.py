@@ -30,8 +30,12 @@ _DIFFERENCE_GAIN = 924.0**0.5
 _MEDIAN_TO_DEVIATION = 1.4826
 # Swings below this fraction of those on both sides belong to a harmonic, not to a cycle.
 _SECONDARY_SWING = 0.25
-# Half width of the parabola fitted to an extremum, in periods: a cosine is misjudged by 7e-5.
+_EQUAL_SWINGS = 1.05
+# Half width, in periods, of the parabola fitted to a noisy extremum: a cosine is misjudged by
+# 7e-5. An extremum whose noise is below this fraction of its swing gets the parabola through
+# three samples, which follows the sharp tops of a relaxation oscillation.
 _PARABOLA_HALF_WIDTH = 0.06
+_CLEAN = 5e-4
 
 
 @dataclass(frozen=True)
@@ -96,7 +100,7 @@ def find_cycles(time: Array, signal: Array) -> Cycles:
     bottoms, _ = find_peaks(-signal, prominence=prominence)
     index = _in_turn(signal, np.concatenate((tops, bottoms)), tops.size)
     index = _without_secondary(signal, index)
-    at, value = _refined(time, signal, index)
+    at, value = _refined(time, signal, index, noise)
     return Cycles(at, value, _amplitudes(value), noise)
 
 
@@ -122,6 +126,10 @@ def _without_secondary(signal: Array, index: NDArray[np.int64]) -> NDArray[np.in
     the swings of a decaying or growing oscillation never are.
     """
     while index.size > 3:
+        if index.size > 5 and _ends_secondary(signal[index[-4:]]):
+            index = index[:-1]
+        if index.size > 5 and _ends_secondary(signal[index[3::-1]]):
+            index = index[1:]
         swing = np.abs(np.diff(signal[index]))
         before = np.zeros_like(swing)
         after = np.zeros_like(swing)
@@ -134,12 +142,22 @@ def _without_secondary(signal: Array, index: NDArray[np.int64]) -> NDArray[np.in
         candidates = np.flatnonzero((ratio < _SECONDARY_SWING) & (beside > 0.0))
         if candidates.size == 0:
             break
-        smallest = int(candidates[np.argmin(swing[candidates])])
+        # Of two equal tops always the first one, or their times would jump about.
+        near = swing[candidates] <= _EQUAL_SWINGS * swing[candidates].min()
+        smallest = int(candidates[near][-1])
         index = np.delete(index, (smallest, smallest + 1))
     return index
 
 
-def _refined(time: Array, signal: Array, index: NDArray[np.int64]) -> tuple[Array, Array]:
+def _ends_secondary(value: Array) -> bool:
+    """Whether the last of four extrema ends a harmonic's swing, small beside the two before."""
+    swing = np.abs(np.diff(value))
+    return bool(swing[-1] < _SECONDARY_SWING * swing[:-1].max())
+
+
+def _refined(
+    time: Array, signal: Array, index: NDArray[np.int64], noise: float
+) -> tuple[Array, Array]:
     """Extrema between the samples: of the least-squares parabola through those around each.
 
     All parabolas are solved at once: row i of every array below belongs to extremum i.
@@ -148,9 +166,9 @@ def _refined(time: Array, signal: Array, index: NDArray[np.int64]) -> tuple[Arra
     value = signal[index]
     if index.size < 2:
         return at, value
-    gaps = np.diff(at)
-    half_period = np.minimum(np.append(gaps, gaps[-1]), np.insert(gaps, 0, gaps[0]))
-    width = 2.0 * _PARABOLA_HALF_WIDTH * half_period
+    half_period = _smaller_neighbour(np.diff(at))
+    noisy = noise > _CLEAN * _smaller_neighbour(np.abs(np.diff(value)))
+    width = np.where(noisy, 2.0 * _PARABOLA_HALF_WIDTH * half_period, 0.0)
     first = np.minimum(np.searchsorted(time, at - width), index - 1)
     last = np.maximum(np.searchsorted(time, at + width, side="right"), index + 2)
     columns = first[:, None] + np.arange(int(np.max(last - first)))
@@ -168,6 +186,12 @@ def _refined(time: Array, signal: Array, index: NDArray[np.int64]) -> tuple[Arra
     return at + scale * top, value + a + top * (b + c * top)
 
 
+def _smaller_neighbour(between: Array) -> Array:
+    """At each extremum the smaller of the two quantities before and after it."""
+    smaller: Array = np.minimum(np.append(between, between[-1]), np.insert(between, 0, between[0]))
+    return smaller
+
+
 def _amplitudes(value: Array) -> Array:
     """Half peak-to-peak around each extremum that has two neighbours on both sides."""
     if value.size < 5:
@@ -183,8 +207,6 @@ def peak_to_peak(time: Array, signal: Array, start: float, end: float) -> float:
     The drift is the straight line through the two ends, which are at the same phase.
     """
     inside = slice(int(np.searchsorted(time, start)), int(np.searchsorted(time, end, "right")))
-    s, x = time[inside], signal[inside]
-    if s.size < 2:
-        return 0.0
-    x = x - x[0] - (x[-1] - x[0]) * (s - s[0]) / (s[-1] - s[0])
-    return float(np.ptp(x))
+    first, last = np.interp((start, end), time, signal)
+    drift = (last - first) * (time[inside] - start) / (end - start)
+    return float(np.ptp(np.append(signal[inside] - drift, first)))

@@ -21,24 +21,24 @@ slower than its pitch, and its last swings lie beneath the twist's.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
 from numpy.typing import ArrayLike
 
 from equisection.errors import ResultFileError
 from equisection.signals.cycles import Array
-from equisection.signals.means import Means, means
-from equisection.signals.observation import Observation, observe
+from equisection.signals.end_of_run import decide_by_trend
+from equisection.signals.history import checked
+from equisection.signals.means import Means, means, window_means
+from equisection.signals.observation import GROWN, UNDIMINISHED, Observation, observe
 from equisection.signals.verdict import Criteria, Regime, Verdict
+from equisection.signals.wording import change, degrees
 
 _FEWEST_SAMPLES = 8
-# An oscillation has grown when it is this many times what it was at its smallest.
-_GROWN = 1.1
-# A rate goes on undiminished when it keeps this part of what it was one window before.
-_UNDIMINISHED = 0.8
-# Creep slower than this part of the steadiness, per window, is no creep.
-_NEGLIGIBLE_CREEP = 0.1
+# The spread is counted net of noise, so noise may hide a change of the amplitude: more than
+# this many times the steadiness must not be possible within the error of the trend.
+_HIDDEN_CHANGE = 3.0
 
 
 def assess(
@@ -73,7 +73,7 @@ def assess(
         at the end of a run.
     """
     criteria = Criteria() if criteria is None else criteria
-    s, theta, w = _checked(time, twist, deflection)
+    s, theta, w = checked(time, twist, deflection)
     if s.size < _FEWEST_SAMPLES:
         if final:
             raise ResultFileError(
@@ -84,49 +84,19 @@ def assess(
     seen = observe(s, theta, w, criteria, natural_frequency)
     regime, reason = _while_running(seen)
     if regime == "undecided" and final:
-        regime, reason = _by_trend(seen)
+        regime, reason = decide_by_trend(seen)
     if regime == "undecided":
         return _verdict(seen, regime, reason)
+    if regime == "growing":
+        return _with_means(_verdict(seen, regime, reason), window_means(seen))
     average = means(seen)
-    if not average.known and regime != "growing":
+    if not average.known:
         if not final:
             reason = f"looks {regime} ({reason}), but its mean still drifts"
             regime = "undecided"
         else:
             reason += "; the mean still drifted, so it is no better than the window's average"
     return _with_means(_verdict(seen, regime, reason), average)
-
-
-def _checked(
-    time: ArrayLike, twist: ArrayLike, deflection: ArrayLike
-) -> tuple[Array, Array, Array]:
-    """Arrays of equal length, finite, with increasing time."""
-    histories = {
-        "time": np.asarray(time, dtype=float),
-        "twist": np.asarray(twist, dtype=float),
-        "deflection": np.asarray(deflection, dtype=float),
-    }
-    s, theta, w = histories.values()
-    if s.ndim != 1 or theta.shape != s.shape or w.shape != s.shape:
-        raise ValueError(
-            f"time, twist and deflection have shapes {s.shape}, {theta.shape}, {w.shape}: "
-            "three histories of equal length are needed"
-        )
-    for name, values in histories.items():
-        if not np.all(np.isfinite(values)):
-            i = int(np.argmin(np.isfinite(values)))
-            raise ResultFileError(
-                f"{name} is {values[i]} at sample {i} (s = {s[i]:g} c/V): a history must be "
-                "finite; look at the run's log for what went wrong before that time"
-            )
-    backward = np.flatnonzero(np.diff(s) <= 0.0)
-    if backward.size:
-        i = int(backward[0]) + 1
-        raise ResultFileError(
-            f"time does not increase at sample {i}: {s[i]:g} after {s[i - 1]:g} c/V; "
-            "a resumed run must drop what it repeats"
-        )
-    return s, theta, w
 
 
 def _last(time: Array) -> float:
@@ -143,27 +113,31 @@ def _while_running(seen: Observation) -> tuple[Regime, str]:
     if elapsed < criteria.minimal_time:
         return "undecided", f"{elapsed:.3g} c/V of the {criteria.minimal_time:g} needed so far"
     if not seen.ringing:
-        if seen.half_range < math.radians(criteria.settled_amplitude_deg):
-            return "settled", (
-                f"the twist stayed within {_degrees(seen.half_range)} of its mean and does not "
-                "oscillate"
-            )
-        return "undecided", "the twist does not oscillate but still moves"
+        return _without_oscillation(seen)
     if not seen.enough:
         return "undecided", (
             f"{seen.used / 2:g} of the {criteria.periods} periods needed so far, after the "
             f"first {criteria.discard_time:g} c/V"
         )
-    reason = _at_rest(seen) or _decaying(seen)
-    if reason:
-        return "settled", reason
-    reason = _steady(seen)
-    if reason:
-        return "limit-cycle", reason
-    return "undecided", (
-        f"twist amplitude {_degrees(_last(seen.amplitude))}, changing by "
-        f"{100.0 * seen.trend.change:+.2g} % over {criteria.periods} periods"
+    tests: tuple[tuple[Regime, Callable[[Observation], str]], ...] = (
+        ("settled", _at_rest),
+        ("settled", _decaying),
+        ("limit-cycle", _steady),
     )
+    for regime, test in tests:
+        reason = test(seen)
+        if reason:
+            return regime, reason
+    return "undecided", f"twist amplitude {degrees(_last(seen.amplitude))}, {change(seen)}"
+
+
+def _without_oscillation(seen: Observation) -> tuple[Regime, str]:
+    """Judge a twist without an extremum in the last period and a half."""
+    if seen.half_range < math.radians(seen.criteria.settled_amplitude_deg):
+        return "settled", (
+            f"the twist stayed within {degrees(seen.half_range)} of its mean and does not oscillate"
+        )
+    return "undecided", "the twist does not oscillate but still moves"
 
 
 def _beyond_bound(seen: Observation) -> str:
@@ -172,18 +146,19 @@ def _beyond_bound(seen: Observation) -> str:
     amplitude = seen.cycles.amplitude
     if amplitude.size >= 2:
         last, smallest = float(amplitude[-1]), float(amplitude.min())
-        if last > bound and last > _GROWN * smallest:
+        if last > bound and last > GROWN * smallest:
             return (
-                f"twist amplitude {_degrees(last)}, grown from {_degrees(smallest)}, is beyond "
-                f"the bound of {_degrees(bound)}"
+                f"twist amplitude {degrees(last)}, grown from {degrees(smallest)}, is beyond "
+                f"the bound of {degrees(bound)}"
             )
     if seen.cycles.time.size < 2:
         # No oscillation: static divergence, a departure that gets faster.
+        first, last = float(seen.twist[0]), float(seen.twist[-1])
         middle = float(seen.twist[seen.twist.size // 2])
-        first_part = abs(middle - float(seen.twist[0]))
-        last_part = abs(float(seen.twist[-1]) - middle)
-        if last_part > 2.0 * bound and last_part > first_part:
-            return f"the twist runs away without oscillating, to {_degrees(float(seen.twist[-1]))}"
+        if abs(last - first) > 2.0 * bound and abs(last - middle) > abs(middle - first):
+            return (
+                f"the twist runs away without oscillating, from {degrees(first)} to {degrees(last)}"
+            )
     return ""
 
 
@@ -194,7 +169,7 @@ def _at_rest(seen: Observation) -> str:
     grows = seen.trend.growth_rate > 0.0 and seen.trend.clear(seen.criteria.steadiness)
     if largest > limit or grows:
         return ""
-    return f"twist amplitude {_degrees(largest)} is below {_degrees(limit)} and does not grow"
+    return f"twist amplitude {degrees(largest)} is below {degrees(limit)} and does not grow"
 
 
 def _decaying(seen: Observation) -> str:
@@ -205,71 +180,28 @@ def _decaying(seen: Observation) -> str:
     if last * criteria.decay_factor > largest or not (
         seen.trend.growth_rate < 0.0
         and seen.trend.clear(criteria.steadiness)
-        and late.growth_rate < _UNDIMINISHED * early.growth_rate < 0.0
+        and late.growth_rate < UNDIMINISHED * early.growth_rate < 0.0
     ):
         return ""
     return (
-        f"twist amplitude {_degrees(last)} has fallen {largest / last:.3g} times and goes on "
-        f"falling at an undiminished {-100.0 * seen.trend.change:.2g} % over "
-        f"{criteria.periods} periods"
+        f"twist amplitude {degrees(last)} has fallen {largest / last:.3g} times and goes on "
+        f"falling at an undiminished rate, {change(seen)}"
     )
 
 
 def _steady(seen: Observation) -> str:
     """Reason why the motion is a limit cycle, or ''."""
     criteria = seen.criteria
-    if seen.spread > criteria.steadiness:
+    possible = (abs(seen.trend.growth_rate) + seen.trend.standard_error) * seen.trend.span
+    if seen.spread > criteria.steadiness or possible > _HIDDEN_CHANGE * criteria.steadiness:
         return ""
-    before, now = seen.last_two_windows
-    creeps = (
-        before.clear(_NEGLIGIBLE_CREEP * criteria.steadiness)
-        and now.clear(_NEGLIGIBLE_CREEP * criteria.steadiness)
-        and now.growth_rate / before.growth_rate > _UNDIMINISHED
-    )
-    if creeps:
+    twice_as_long = seen.before.size >= seen.amplitude.size
+    if seen.spread > seen.negligible_change and (seen.creeps or not twice_as_long):
         return ""
     return (
-        f"twist amplitude {_degrees(float(seen.amplitude.mean()))} steady to "
+        f"twist amplitude {degrees(float(seen.amplitude.mean()))} steady to "
         f"{100.0 * seen.spread:.2g} % over the last {criteria.periods} periods"
     )
-
-
-def _by_trend(seen: Observation) -> tuple[Regime, str]:
-    """Decide at the end of a run that showed nothing beyond doubt."""
-    criteria = seen.criteria
-    if not seen.ringing or seen.amplitude.size < 3:
-        return _by_swings(seen)
-    periods = f"{seen.used / 2:g} periods"
-    trend, (_, late) = seen.trend, seen.halves
-    last = float(seen.amplitude[-1])
-    change = f"{100.0 * trend.change:+.2g} % over the last {periods}"
-    ended = "decided by the trend at the end of the run: "
-    if trend.clear(criteria.steadiness) and late.clear(0.25 * criteria.steadiness):
-        if trend.growth_rate > 0.0 and late.growth_rate > 0.0:
-            return "growing", f"{ended}twist amplitude {_degrees(last)}, {change}"
-        if trend.growth_rate < 0.0 and late.growth_rate < 0.0:
-            return "settled", f"{ended}twist amplitude {_degrees(last)} dies out, {change}"
-    if float(seen.amplitude.max()) < math.radians(criteria.settled_amplitude_deg):
-        return "settled", f"{ended}twist amplitude {_degrees(last)} is that of a section at rest"
-    return "limit-cycle", (
-        f"{ended}twist amplitude {_degrees(last)} has no clear trend ({change}), though it is "
-        f"steady only to {100.0 * seen.spread:.2g} %"
-    )
-
-
-def _by_swings(seen: Observation) -> tuple[Regime, str]:
-    """Decide from the few swings of a record with hardly a cycle in it."""
-    ended = "decided at the end of a run too short to judge: "
-    if seen.half_range < math.radians(seen.criteria.settled_amplitude_deg):
-        return "settled", f"{ended}the twist stayed within {_degrees(seen.half_range)}"
-    swing = 0.5 * np.abs(np.diff(seen.cycles.value))
-    if not seen.ringing or swing.size < 2:
-        return "settled", f"{ended}the twist moves without oscillating"
-    first, last = float(swing[0]), float(swing[-1])
-    words = f"{ended}half swings from {_degrees(first)} to {_degrees(last)}"
-    if last > _GROWN * first:
-        return "growing", words
-    return ("settled" if first > _GROWN * last else "limit-cycle"), words
 
 
 def _verdict(seen: Observation, regime: Regime, reason: str) -> Verdict:
@@ -298,8 +230,3 @@ def _verdict(seen: Observation, regime: Regime, reason: str) -> Verdict:
 
 def _with_means(verdict: Verdict, average: Means) -> Verdict:
     return replace(verdict, mean_twist=average.twist, mean_deflection=average.deflection)
-
-
-def _degrees(angle: float) -> str:
-    """Angle (rad) as text in degrees."""
-    return f"{math.degrees(angle):.3g} deg"

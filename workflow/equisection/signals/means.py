@@ -7,10 +7,11 @@ of the record, twice, over tails of different length: the mean is known when bot
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from equisection.signals.cycles import Array
 from equisection.signals.observation import Observation
 from equisection.signals.superposition import bin_averages, mean_of, superposition
 
@@ -39,11 +40,19 @@ class Means:
     known: bool
 
 
+def window_means(seen: Observation) -> Means:
+    """Averages over the window, of a motion whose mean is still on its way."""
+    twist, deflection = (
+        mean_of(seen.time, history, *seen.window) for history in (seen.twist, seen.deflection)
+    )
+    return Means(twist, deflection, known=False)
+
+
 def means(seen: Observation) -> Means:
     """Means over the window, or those that a motion still ringing will come to."""
-    start, end = seen.window
+    end = seen.window[1]
     channels = np.stack((seen.twist, seen.deflection))
-    plain = [mean_of(seen.time, channel, start, end) for channel in channels]
+    plain = window_means(seen)
     level = float(np.mean(seen.amplitude[-2:])) if seen.ringing and seen.used else 0.0
     criteria = seen.criteria
     tolerance = np.array(
@@ -59,28 +68,32 @@ def means(seen: Observation) -> Means:
             seen.time[:upto], channels[:, :upto], seen.period, criteria.periods
         )
         if np.all(np.ptp(single, axis=1) <= tolerance):
-            return Means(plain[0], plain[1], known=True)
+            return replace(plain, known=True)
     return _from_waves(seen, channels, plain, tolerance)
 
 
 def _from_waves(
     seen: Observation,
-    channels: np.ndarray[tuple[int, int], np.dtype[np.float64]],
-    plain: list[float],
-    tolerance: np.ndarray[tuple[int], np.dtype[np.float64]],
+    channels: Array,
+    plain: Means,
+    tolerance: Array,
 ) -> Means:
     """Constants under the waves, if two fits agree; else the plain means, not known."""
     end = float(seen.time[-1])
     discarded = min(seen.criteria.discard_time, 0.5 * (end - float(seen.time[0])))
     start = max(float(seen.time[0]) + discarded, end - _TAIL_PERIODS * seen.period)
     if (end - start) * _SHORT_TAIL < _FEWEST_TAIL_PERIODS * seen.period:
-        return Means(plain[0], plain[1], known=False)
+        return plain
     whole = superposition(seen.time, channels, start, seen.period)
-    short = superposition(seen.time, channels, end - _SHORT_TAIL * (end - start), seen.period)
     tail = channels[:, int(np.searchsorted(seen.time, start)) :]
-    inside = (whole.constant > tail.min(axis=1)) & (whole.constant < tail.max(axis=1))
-    agree = np.abs(whole.constant - short.constant) <= tolerance
+    inside = (whole.constant >= tail.min(axis=1) - tolerance) & (
+        whole.constant <= tail.max(axis=1) + tolerance
+    )
     close = whole.residual <= tolerance
-    if bool(np.all(inside & agree & close)):
+    if not bool(np.all(inside & close)):
+        return plain
+    short = superposition(seen.time, channels, end - _SHORT_TAIL * (end - start), seen.period)
+    agree = np.abs(whole.constant - short.constant) <= tolerance
+    if bool(np.all(agree)):
         return Means(float(whole.constant[0]), float(whole.constant[1]), known=True)
-    return Means(plain[0], plain[1], known=False)
+    return plain

@@ -15,6 +15,14 @@ from equisection.signals.verdict import Criteria
 # Error of a cycle's amplitude in standard deviations of the noise: five extrema, each the top
 # of a parabola through three or more samples.
 _AMPLITUDE_NOISE = 0.5
+# An oscillation has grown when it is this many times what it was.
+GROWN = 1.1
+# A rate goes on undiminished when it keeps this part of what it was before.
+UNDIMINISHED = 0.8
+# Creep of less than this part of the steadiness, per window, is no creep.
+_NEGLIGIBLE_CREEP = 0.25
+# Largest of some hundred samples of white noise, in standard deviations.
+_LARGEST_NOISE = 4.0
 # The oscillation has died when no extremum stands out for this many periods.
 _SILENT_PERIODS = 1.5
 
@@ -116,14 +124,42 @@ class Observation:
         return self._trend(0, middle + 1), self._trend(middle, self.amplitude.size)
 
     @cached_property
-    def last_two_windows(self) -> tuple[Trend, Trend]:
-        """Trends over the window before (as much as there is of it) and the window."""
+    def before(self) -> Array:
+        """Amplitudes (rad) of the window before this one, or as much as there is of it."""
         judged = self.cycles.amplitude[self.first_judged :]
-        at = self.cycles.amplitude_time[self.first_judged :]
-        before = slice(max(judged.size - 2 * self.amplitude.size, 0), -self.amplitude.size)
-        if at[before].size < self.amplitude.size // 2:
-            return self.halves
-        return exponential_trend(at[before], judged[before], self.amplitude_noise), self.trend
+        return judged[max(judged.size - 2 * self.amplitude.size, 0) : -self.amplitude.size]
+
+    @property
+    def long_before(self) -> Array:
+        """Amplitudes (rad) of the two windows before this one, or as much as there is."""
+        judged = self.cycles.amplitude[self.first_judged :]
+        return judged[max(judged.size - 3 * self.amplitude.size, 0) : -self.amplitude.size]
+
+    @cached_property
+    def trend_before(self) -> Trend:
+        """Trend over the window before."""
+        last = self.cycles.amplitude_time.size - self.amplitude.size
+        at = self.cycles.amplitude_time[last - self.before.size : last]
+        return exponential_trend(at, self.before, self.amplitude_noise)
+
+    @property
+    def negligible_change(self) -> float:
+        """Relative change of the amplitude over a window that is none."""
+        return _NEGLIGIBLE_CREEP * self.criteria.steadiness
+
+    @cached_property
+    def creeps(self) -> bool:
+        """Whether the amplitude changed at an undiminished rate over two windows.
+
+        A limit cycle is approached ever more slowly; what goes on at the same exponential
+        rate, however small, approaches none.
+        """
+        if not (
+            self.trend_before.clear(self.negligible_change)
+            and self.trend.clear(self.negligible_change)
+        ):
+            return False
+        return self.trend.growth_rate / self.trend_before.growth_rate > UNDIMINISHED
 
     def _trend(self, first: int, last: int) -> Trend:
         part = slice(first, last)
@@ -141,9 +177,13 @@ class Observation:
 
     @cached_property
     def half_range(self) -> float:
-        """Half the largest minus the smallest twist (rad) in the window, drift and all."""
+        """Half the largest minus the smallest twist (rad) in the window, less the noise's.
+
+        The drift is part of it.
+        """
         start = int(np.searchsorted(self.time, self.window[0]))
-        return 0.5 * float(np.ptp(self.twist[start:]))
+        half = 0.5 * float(np.ptp(self.twist[start:]))
+        return max(half - _LARGEST_NOISE * self.cycles.noise, 0.0)
 
     @cached_property
     def deflection_amplitude(self) -> float:

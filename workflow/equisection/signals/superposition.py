@@ -17,11 +17,13 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.linalg import eigh
 
 from equisection.signals.cycles import Array
 
-_BINS_PER_PERIOD = 12
-_MAXIMAL_BINS = 144
+_BINS_PER_PERIOD = 8
+# Small enough for matrix products that linear algebra libraries do not spread over threads.
+_MAXIMAL_BINS = 96
 # Constant, pitch, heave, their first harmonics or lags.
 _MAXIMAL_WAVES = 8
 # Singular values below this fraction of the largest are taken for noise.
@@ -104,8 +106,7 @@ def superposition(time: Array, channels: Array, start: float, period: float) -> 
     scale = np.maximum(sample.std(axis=1, keepdims=True), np.finfo(float).tiny)
     scaled = (sample - middle) / scale
     rates = _rates(scaled, length / count)
-    s = centre - centre[-1]
-    waves = np.exp(np.multiply.outer(s, rates[rates.imag >= 0.0]))
+    waves = _waves(centre, rates[rates.imag >= 0.0])
     basis = np.concatenate((np.ones((count, 1)), waves.real, waves.imag), axis=1)
     basis = basis[:, np.any(basis != 0.0, axis=0)]
     coefficient, *_ = np.linalg.lstsq(basis, scaled.T, rcond=1e-9)
@@ -117,6 +118,13 @@ def superposition(time: Array, channels: Array, start: float, period: float) -> 
     )
 
 
+def _waves(time: Array, rates: NDArray[np.complex128]) -> NDArray[np.complex128]:
+    """exp(lambda_j s), shape (n, waves), each scaled to at most 1 over the record."""
+    origin = np.where(rates.real < 0.0, time[0], time[-1])
+    waves: NDArray[np.complex128] = np.exp(rates * (time[:, None] - origin))
+    return waves
+
+
 def _rates(sample: Array, step: float) -> NDArray[np.complex128]:
     """Rates lambda_j of the waves that the channels share, the constant left out."""
     count = sample.shape[1]
@@ -124,10 +132,14 @@ def _rates(sample: Array, step: float) -> NDArray[np.complex128]:
     windows = np.lib.stride_tricks.sliding_window_view(sample, pencil + 1, axis=1)
     # The correlation matrix has the Hankel matrix' right singular vectors at a third of the
     # cost; it squares the singular values, hence the square of the rank tolerance.
-    correlation = np.einsum("cki,ckj->ij", windows, windows, optimize=True)
-    values, vectors = np.linalg.eigh(correlation)
+    hankel = windows.reshape(-1, pencil + 1)
+    correlation = hankel.T @ hankel
+    # Only the largest ones: the solver for all of them spreads over threads, which costs a
+    # hundred times its work when the machine is busy.
+    largest = [max(pencil + 1 - _MAXIMAL_WAVES, 0), pencil]
+    values, vectors = eigh(correlation, subset_by_index=largest, check_finite=False)
     significant = int(np.sum(values > _RELATIVE_RANK**2 * values[-1]))
-    basis = vectors[:, -min(max(significant, 1), _MAXIMAL_WAVES) :]
+    basis = vectors[:, -max(significant, 1) :]
     shift = np.linalg.lstsq(basis[:-1], basis[1:], rcond=None)[0]
     poles = np.linalg.eigvals(shift).astype(complex)
     poles = poles[np.abs(poles) > 1e-3]

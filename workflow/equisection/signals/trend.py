@@ -37,15 +37,16 @@ class Trend:
     standard_error: float
     span: float
 
-    @property
-    def change(self) -> float:
-        """Relative change of the amplitude over the span, exp(sigma span) - 1."""
-        return math.expm1(min(self.growth_rate * self.span, 700.0))
-
     def clear(self, threshold: float, errors: float = 3.0) -> bool:
-        """Whether it is beyond doubt: ``errors`` standard errors, and more than a change of
-        ``threshold`` (relative) over the span.
-        """  # noqa: D205
+        """Whether it is beyond doubt.
+
+        Parameters
+        ----------
+        threshold : float
+            Relative change over the span that it has to exceed.
+        errors : float
+            Standard errors that it has to exceed.
+        """
         return (
             abs(self.growth_rate) > errors * self.standard_error
             and abs(self.growth_rate) * self.span > threshold

@@ -1,0 +1,278 @@
+"""Verdicts on signals whose fate is known."""
+
+import math
+import time as clock
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from equisection.errors import ResultFileError
+from equisection.signals import Criteria, assess
+
+PERIOD = 6.0
+OMEGA = 2.0 * np.pi / PERIOD
+S = np.arange(0.0, 300.0, 0.1)
+REST = np.zeros_like(S)
+
+
+def early(s, twist, deflection, step=20.0, **options):
+    """First verdict of a run that is asked every ``step`` c/V, and when; else the last."""
+    verdict = None
+    for end in np.arange(step, s[-1] + step, step):
+        upto = s <= end
+        verdict = assess(s[upto], twist[upto], deflection[upto], **options)
+        if verdict.decided:
+            break
+    return verdict
+
+
+def release(rate, heave_rate=0.02, heave_period=40.0, mean=0.5, amplitude=1.0):
+    """Twist (rad) and deflection (chords) of a released section: pitch and slow heave."""
+    heave = np.exp(-heave_rate * S) * np.cos(2.0 * np.pi * S / heave_period)
+    pitch = np.exp(rate * S) * np.cos(OMEGA * S)
+    twist = np.radians(mean - amplitude * pitch - 0.3 * heave)
+    return twist, 0.3 - 0.1 * heave - 0.002 * pitch
+
+
+def test_sine_is_a_limit_cycle():
+    verdict = early(S, 0.01 + 0.03 * np.sin(OMEGA * S), 0.2 + 0.005 * np.cos(OMEGA * S))
+    assert verdict.regime == "limit-cycle"
+    assert verdict.periods_used == 5
+    assert verdict.end_time - verdict.start_time == pytest.approx(5 * PERIOD, rel=1e-3)
+    assert verdict.twist_amplitude == pytest.approx(0.03, rel=1e-3)
+    assert verdict.deflection_amplitude == pytest.approx(0.005, rel=1e-2)
+    assert verdict.frequency == pytest.approx(1.0 / PERIOD, rel=1e-3)
+    assert verdict.mean_twist == pytest.approx(0.01, abs=1e-5)
+    assert verdict.mean_deflection == pytest.approx(0.2, abs=1e-5)
+    assert abs(verdict.growth_rate) < 1e-5
+
+
+@pytest.mark.parametrize("rate", [-0.03, -0.02, -0.01])
+def test_means_of_a_release_are_right_before_it_has_come_to_rest(rate):
+    verdict = early(S, *release(rate))
+    assert verdict.regime == "settled"
+    assert verdict.end_time < 200.0
+    assert math.degrees(verdict.mean_twist) == pytest.approx(0.5, abs=0.02)
+    assert verdict.mean_deflection == pytest.approx(0.3, abs=0.002)
+    assert verdict.growth_rate == pytest.approx(rate, rel=0.01)
+
+
+def test_heave_that_rings_under_a_twist_at_rest():
+    heave = np.exp(-0.01 * S) * np.cos(2.0 * np.pi * S / 40.0)
+    verdict = early(S, REST + 0.01, 0.3 - 0.1 * heave, natural_frequency=1.0 / PERIOD)
+    assert verdict.regime == "settled"
+    assert verdict.end_time < 100.0
+    assert verdict.mean_deflection == pytest.approx(0.3, abs=0.002)
+
+
+def test_limit_cycle_waits_for_the_mean():
+    twist, deflection = release(0.0)
+    drifting = deflection + 1e-3 * S
+    assert early(S, twist, drifting).regime == "undecided"
+    final = assess(S, twist, drifting, final=True)
+    assert final.regime == "limit-cycle"
+    assert "mean still drifted" in final.reason
+    verdict = early(S, twist, deflection)
+    assert verdict.regime == "limit-cycle"
+    assert verdict.mean_deflection == pytest.approx(0.3, abs=0.002)
+
+
+def test_growth_is_called_only_beyond_the_bound():
+    twist, deflection = release(0.02)
+    bound = S[np.argmax(np.abs(twist) > np.radians(6.5))]
+    verdict = early(S, twist, deflection, step=2.0)
+    assert verdict.regime == "growing"
+    assert bound - PERIOD < verdict.end_time < bound + 3 * PERIOD
+    assert verdict.growth_rate == pytest.approx(0.02, rel=0.01)
+    upto = bound - 2 * PERIOD > S
+    assert assess(S[upto], twist[upto], deflection[upto]).regime == "undecided"
+    final = assess(S[upto], twist[upto], deflection[upto], final=True)
+    assert final.regime == "growing"
+    assert "at the end of the run" in final.reason
+
+
+@pytest.mark.parametrize(
+    ("rate", "regime"),
+    [(-2e-3, "settled"), (-5e-4, "settled"), (0.0, "limit-cycle"), (5e-4, "growing")],
+)
+def test_slow_trends_are_left_to_the_end(rate, regime):
+    twist, deflection = np.radians(np.exp(rate * S) * np.cos(OMEGA * S)), REST
+    if rate != 0.0:
+        assert early(S, twist, deflection).regime == "undecided"
+    assert assess(S, twist, deflection, final=True).regime == regime
+
+
+@pytest.mark.parametrize("final", [False, True])
+def test_constant_is_settled(final):
+    verdict = assess(S, REST + 0.01, REST + 0.2, final=final, natural_frequency=0.16)
+    assert verdict.regime == "settled"
+    assert verdict.mean_twist == pytest.approx(0.01)
+    assert verdict.mean_deflection == pytest.approx(0.2)
+    assert verdict.frequency == 0.16
+    assert verdict.twist_amplitude == 0.0
+    assert math.isnan(assess(S, REST, REST, final=final).frequency)
+
+
+def test_growth_from_rounding_is_not_settled():
+    twist = 1e-8 * np.exp(0.03 * S) * np.sin(OMEGA * S)
+    assert early(S, twist, REST).regime == "undecided"
+    assert assess(S, twist, REST, final=True).regime == "growing"
+
+
+def test_divergence_without_oscillation():
+    assert early(S, 1e-3 * np.exp(S / 40.0), REST).regime == "growing"
+    assert early(S, 0.3 * (1.0 - np.exp(-S / 40.0)), REST).regime != "growing"
+
+
+def test_beating_is_not_steady_until_it_has_died():
+    beat = np.cos(2.0 * np.pi * S / 60.0)
+    dying = np.radians(2.0 * (1.0 + 0.3 * np.exp(-0.02 * S) * beat) * np.sin(OMEGA * S))
+    verdict = early(S, dying, REST, step=5.0)
+    assert verdict.regime == "limit-cycle"
+    assert verdict.end_time > 100.0
+    assert math.degrees(verdict.twist_amplitude) == pytest.approx(2.0, rel=0.05)
+    lasting = np.radians(2.0 * (1.0 + 0.3 * beat) * np.sin(OMEGA * S))
+    assert early(S, lasting, REST, step=5.0).regime == "undecided"
+    for end in np.arange(150.0, 300.0, 7.0):
+        upto = end > S
+        verdict = assess(S[upto], lasting[upto], REST[upto], final=True)
+        assert verdict.regime == "limit-cycle", end
+
+
+@pytest.mark.parametrize("noise", [0.005, 0.02])
+@pytest.mark.parametrize(
+    ("rate", "regime"), [(-0.02, "settled"), (0.0, "limit-cycle"), (0.02, "growing")]
+)
+def test_noise_changes_no_verdict(noise, rate, regime):
+    random = np.random.default_rng(6)
+    twist = np.exp(rate * S) * np.cos(OMEGA * S) + noise * random.standard_normal(S.size)
+    deflection = 0.2 + 1e-3 * random.standard_normal(S.size)
+    assert early(S, np.radians(twist), deflection).regime == regime
+    assert assess(S, np.radians(twist), deflection, final=True).regime == regime
+
+
+@pytest.mark.parametrize("end", [1.0, 5.0, 12.0, 20.0])
+def test_short_records(end):
+    upto = end > S
+    twist, deflection = release(-0.01)
+    assert not assess(S[upto], twist[upto], deflection[upto]).decided
+    assert assess(S[upto], twist[upto], deflection[upto], final=True).decided
+
+
+@pytest.mark.parametrize("name", ["time", "twist", "deflection"])
+@pytest.mark.parametrize("value", [math.nan, math.inf])
+def test_what_is_not_finite_is_named_with_its_place(name, value):
+    histories = {"time": S.copy(), "twist": REST.copy(), "deflection": REST.copy()}
+    histories[name][70] = value
+    with pytest.raises(ResultFileError, match=rf"{name} is (nan|inf) at sample 70"):
+        assess(**histories)
+
+
+def test_malformed_histories():
+    repeated = S.copy()
+    repeated[100] = repeated[99]
+    with pytest.raises(ResultFileError, match="does not increase at sample 100"):
+        assess(repeated, REST, REST)
+    with pytest.raises(ValueError, match="equal length"):
+        assess(S, REST[:-1], REST)
+    with pytest.raises(ResultFileError, match="3 samples"):
+        assess(S[:3], REST[:3], REST[:3], final=True)
+    assert assess(S[:3], REST[:3], REST[:3]).regime == "undecided"
+    assert assess([], [], []).regime == "undecided"
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"periods": 1}, {"steadiness": 0.0}, {"decay_factor": 1.0},
+              {"growing_amplitude_deg": 0.01}]
+)  # fmt: skip
+def test_impossible_criteria(wrong):
+    with pytest.raises(ValueError, match=next(iter(wrong))):
+        Criteria(**wrong)
+
+
+rates = st.one_of(st.floats(-0.05, -0.008), st.floats(0.008, 0.05))
+
+
+@given(rate=rates, period=st.floats(4.0, 9.0), slow=st.floats(20.0, 60.0))
+@settings(max_examples=25, deadline=None)
+def test_early_verdict_is_the_final_one(rate, period, slow):
+    heave = np.exp(-0.05 * S) * np.cos(2.0 * np.pi * S / slow)
+    pitch = np.exp(rate * S) * np.cos(2.0 * np.pi * S / period)
+    twist, deflection = np.radians(0.4 - pitch - 0.1 * heave), 0.3 * (1.0 - heave)
+    final = assess(S, twist, deflection, final=True)
+    verdict = early(S, twist, deflection)
+    assert verdict.regime == final.regime == ("growing" if rate > 0.0 else "settled")
+    if rate < 0.0:
+        assert verdict.mean_deflection == pytest.approx(0.3, abs=0.004)
+        assert math.degrees(verdict.mean_twist) == pytest.approx(0.4, abs=0.03)
+
+
+@given(rate=st.floats(-0.03, 0.03), shift=st.floats(-1e3, 1e3))
+@settings(max_examples=20, deadline=None)
+def test_invariant_under_time_shift_and_sign(rate, shift):
+    twist, deflection = release(rate)
+    upto = S < 100.0
+    s, twist, deflection = S[upto], twist[upto], deflection[upto]
+    reference = assess(s, twist, deflection, final=True)
+    shifted = assess(s + shift, twist, deflection, final=True)
+    flipped = assess(s, -twist, -deflection, final=True)
+    assert reference.regime == shifted.regime == flipped.regime
+    assert shifted.start_time - shift == pytest.approx(reference.start_time, abs=1e-6)
+    for other, sign in ((shifted, 1.0), (flipped, -1.0)):
+        assert other.twist_amplitude == pytest.approx(reference.twist_amplitude, rel=1e-6)
+        assert other.frequency == pytest.approx(reference.frequency, rel=1e-6)
+        assert other.growth_rate == pytest.approx(reference.growth_rate, rel=1e-4, abs=1e-8)
+        assert sign * other.mean_twist == pytest.approx(reference.mean_twist, rel=1e-6)
+
+
+@pytest.mark.parametrize("rate", [-0.02, 0.0, 0.008])
+def test_invariant_under_scale_and_subsampling(rate):
+    twist, deflection = release(rate)
+    reference = assess(S, twist, deflection, final=True)
+    scaled = assess(
+        S,
+        3.0 * twist,
+        3.0 * deflection,
+        Criteria(
+            settled_amplitude_deg=0.15,
+            growing_amplitude_deg=18.0,
+            mean_tolerance_deg=0.06,
+            mean_tolerance_chords=0.006,
+        ),
+        final=True,
+    )
+    coarse = assess(S[::3], twist[::3], deflection[::3], final=True)
+    assert reference.regime == scaled.regime == coarse.regime
+    for other, factor, relative in ((scaled, 3.0, 1e-6), (coarse, 1.0, 5e-3)):
+        assert other.twist_amplitude / factor == pytest.approx(
+            reference.twist_amplitude, rel=relative
+        )
+        assert other.mean_twist / factor == pytest.approx(reference.mean_twist, rel=relative)
+        assert other.frequency == pytest.approx(reference.frequency, rel=relative)
+
+
+def test_uneven_sampling():
+    random = np.random.default_rng(7)
+    s = np.cumsum(0.1 * (1.0 + 0.2 * np.sin(np.arange(3000) / 300.0)))
+    s += 0.002 * random.uniform(-1.0, 1.0, s.size)
+    verdict = assess(s, 0.02 * np.sin(OMEGA * s), np.zeros_like(s))
+    assert verdict.regime == "limit-cycle"
+    assert verdict.twist_amplitude == pytest.approx(0.02, rel=2e-3)
+    assert verdict.frequency == pytest.approx(1.0 / PERIOD, rel=2e-3)
+
+
+@pytest.mark.parametrize("rate", [-0.02, -0.002, 0.0, 0.005])
+def test_cost_of_a_call(rate):
+    s = np.arange(4000) * 0.1
+    twist = np.radians(0.4 + np.exp(rate * s) * np.cos(OMEGA * s))
+    deflection = 0.3 - 0.3 * np.exp(-0.03 * s) * np.cos(OMEGA * s / 7.0)
+    assess(s, twist, deflection)
+    cost = []
+    for _ in range(20):
+        start = clock.process_time()
+        assess(s, twist, deflection)
+        cost.append(clock.process_time() - start)
+    # 1 ms when measured; the margin is for slow and shared machines.
+    assert min(cost) < 0.006

@@ -1,0 +1,93 @@
+import math
+
+import pytest
+
+from equisection.comparison.onset import onset_bracket, refinement_points
+
+S, L, G, F = "settled", "limit-cycle", "growing", "failed"
+
+
+def sides(bracket):
+    return bracket.k_unstable, bracket.k_stable
+
+
+def test_monotone_sweep_in_any_order():
+    bracket = onset_bracket([21, 5, 6, 5.5, 10], [S, G, S, L, S])
+    assert sides(bracket) == (5.5, 6)
+    assert bracket.closed
+    assert bracket.relative_width == pytest.approx(0.5 / 5.5)
+
+
+@pytest.mark.parametrize(("regimes", "known"), [([S, S], (math.nan, 5)), ([G, L], (6, math.nan))])
+def test_open_brackets(regimes, known):
+    bracket = onset_bracket([5, 6], regimes)
+    assert sides(bracket) == pytest.approx(known, nan_ok=True)
+    assert not bracket.closed
+    assert refinement_points(bracket, 0.01, 3) == []
+
+
+def test_no_runs():
+    assert not onset_bracket([], []).closed
+
+
+def test_islands_of_stability_do_not_count():
+    bracket = onset_bracket([3, 4, 5, 6, 7], [G, S, G, S, S])
+    assert sides(bracket) == (5, 6)
+    assert bracket.islands == (4,)
+
+
+def test_failed_runs_are_left_out_and_named_inside_the_bracket():
+    bracket = onset_bracket([4, 5, 6, 7, 8], [F, G, F, S, F])
+    assert sides(bracket) == (5, 7)
+    assert bracket.failed == (6,)
+
+
+def test_a_failed_run_that_was_repeated_is_forgotten():
+    assert onset_bracket([5, 6, 6, 7], [G, F, S, S]).failed == ()
+
+
+def test_small_limit_cycles_are_stable():
+    bracket = onset_bracket([4, 5, 6], [L, L, S], [3.0, 0.2, 0.0], threshold_deg=0.5)
+    assert sides(bracket) == (4, 5)
+    assert sides(onset_bracket([4, 5], [L, S], [math.nan, 0.0])) == (4, 5)
+
+
+def test_contradiction_counts_as_unstable():
+    assert sides(onset_bracket([5, 5, 6], [S, G, S])) == (5, 6)
+
+
+def test_undecided_runs_are_refused():
+    with pytest.raises(ValueError, match="undecided"):
+        onset_bracket([5], ["undecided"])
+
+
+def test_refinement_divides_the_bracket():
+    bracket = onset_bracket([5, 6], [G, S])
+    assert refinement_points(bracket, 0.01) == [5.5]
+    assert refinement_points(bracket, 0.01, 3) == [5.25, 5.5, 5.75]
+    assert refinement_points(bracket, 0.3, 3) == []
+
+
+def test_refinement_names_cases_by_four_digits_and_ends():
+    bracket = onset_bracket([5.0, 5.001], [G, S])
+    assert refinement_points(bracket, 1e-9, 4) == []
+    points = refinement_points(onset_bracket([5, 6], [G, S]), 0.01, 2)
+    assert points == [5.333, 5.667]
+
+
+def test_refinement_goes_around_failed_runs():
+    bracket = onset_bracket([5, 5.5, 6], [G, F, S])
+    assert refinement_points(bracket, 0.01) in ([5.333], [5.667])
+
+
+def test_repeated_refinement_converges():
+    k_star, regimes = [1.0, 21.0], [G, S]
+    for _ in range(20):
+        points = refinement_points(onset_bracket(k_star, regimes), 0.01, 2)
+        if not points:
+            break
+        k_star += points
+        regimes += [G if k < 5.5432 else S for k in points]
+    bracket = onset_bracket(k_star, regimes)
+    assert bracket.k_unstable < 5.5432 < bracket.k_stable
+    assert bracket.relative_width <= 0.01

@@ -1,0 +1,73 @@
+"""Decide at the end of a run by the trend of its last periods."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from equisection.signals.observation import GROWN, UNDIMINISHED, Observation
+from equisection.signals.verdict import Regime
+from equisection.signals.wording import change, degrees
+
+_AT_THE_END = "decided by the trend at the end of the run: "
+# A trend has stalled when the last half of the window keeps less than this part of its rate.
+_STALLED = 0.3
+
+
+def decide_by_trend(seen: Observation) -> tuple[Regime, str]:
+    """Decide at the end of a run that showed nothing beyond doubt.
+
+    A clear growth rate makes it growing or settled, none a limit cycle, whatever its spread.
+    """
+    if not seen.ringing or seen.amplitude.size < 3:
+        return _by_swings(seen)
+    amplitude = f"twist amplitude {degrees(float(seen.amplitude[-1]))}"
+    direction = _direction(seen)
+    if direction > 0:
+        slowing = seen.halves[1].growth_rate < UNDIMINISHED * seen.halves[0].growth_rate
+        rate = ", at a falling rate" if slowing else ""
+        return "growing", f"{_AT_THE_END}{amplitude} grows, {change(seen)}{rate}"
+    if direction < 0:
+        return "settled", f"{_AT_THE_END}{amplitude} dies out, {change(seen)}"
+    if float(seen.amplitude[-1]) < math.radians(seen.criteria.settled_amplitude_deg):
+        return "settled", f"{_AT_THE_END}{amplitude} is that of a section at rest"
+    return "limit-cycle", (
+        f"{_AT_THE_END}{amplitude} has no clear trend ({change(seen)}), and its spread is "
+        f"{100.0 * seen.spread:.2g} %"
+    )
+
+
+def _direction(seen: Observation) -> int:
+    """Sign of a clear trend that reaches beyond what was seen before; 0 if there is none.
+
+    A modulated amplitude rises and falls, but it comes back to where it was before.
+    """
+    steadiness = seen.criteria.steadiness
+    rate, last = seen.trend.growth_rate, float(seen.amplitude[-1])
+    if seen.creeps:
+        return int(np.sign(rate))
+    late = seen.halves[1]
+    lately = math.copysign(late.growth_rate, rate * late.growth_rate) + 2.0 * late.standard_error
+    if not seen.trend.clear(steadiness) or lately < _STALLED * abs(rate):
+        return 0
+    if rate > 0.0:
+        return int(last > (1.0 + steadiness) * seen.long_before.max(initial=0.0))
+    return -int(last < (1.0 - steadiness) * seen.long_before.min(initial=math.inf))
+
+
+def _by_swings(seen: Observation) -> tuple[Regime, str]:
+    """Decide from the few swings of a record with hardly a cycle in it."""
+    if seen.half_range < math.radians(seen.criteria.settled_amplitude_deg):
+        return "settled", f"{_AT_THE_END}the twist stayed within {degrees(seen.half_range)}"
+    swing = 0.5 * np.abs(np.diff(seen.cycles.value))
+    if not seen.ringing or swing.size < 2:
+        return "settled", f"{_AT_THE_END}the twist moves without oscillating"
+    first, last = float(swing[0]), float(swing[-1])
+    words = (
+        f"{_AT_THE_END}too few periods to judge by, half swings from {degrees(first)} to "
+        f"{degrees(last)}"
+    )
+    if last > GROWN * first:
+        return "growing", words
+    return ("settled" if first > GROWN * last else "limit-cycle"), words
