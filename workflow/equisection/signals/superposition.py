@@ -103,7 +103,8 @@ def superposition(time: Array, channels: Array, start: float, period: float) -> 
     count = int(np.clip(_BINS_PER_PERIOD * length / period, 12, _MAXIMAL_BINS))
     centre, sample = bin_averages(time, channels, length / count, count)
     middle = sample.mean(axis=1, keepdims=True)
-    scale = np.maximum(sample.std(axis=1, keepdims=True), np.finfo(float).tiny)
+    # A channel that is constant but for rounding must not be scaled up into noise.
+    scale = np.maximum(sample.std(axis=1, keepdims=True), 1e-12 + 1e-9 * np.abs(middle))
     scaled = (sample - middle) / scale
     rates = _rates(scaled, length / count)
     waves = _waves(centre, rates[rates.imag >= 0.0])
