@@ -65,6 +65,23 @@ class ReferenceHistory:
         return float(self.time[1] - self.time[0])
 
 
+def unexplained_damping(history: ReferenceHistory, start: float) -> float:
+    """Negative damping d that the recorded motion shows and the recorded moment does not.
+
+    Least squares of I* theta'' + k* theta - c_m = d theta' (plus a constant) after ``start``
+    (c/V). It is 0 for a flow solver whose coupling conserves energy; d > 0 adds d/(2 I*) to the
+    growth rate of the twist.
+    """
+    rate = np.gradient(history.twist, history.time_step)
+    acceleration = np.gradient(rate, history.time_step)
+    imbalance = (
+        history.i_star * acceleration + history.k_star * history.twist - history.moment_coefficient
+    )
+    late = history.time > start
+    late[-2:] = False  # one-sided differences
+    return float(np.polyfit(rate[late], imbalance[late], 1)[0])
+
+
 def read_reference_history(path: Path) -> ReferenceHistory:
     """Read a history; one without ``twist`` is of a section held rigid.
 

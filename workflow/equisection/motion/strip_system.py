@@ -11,8 +11,12 @@ and per mode, with the weights h_s of the strips (sum 1) and ' = d/ds,
 
 I_i, K_i are generalised inertia and stiffness over (rho/2) c^4 and q c^2, m_j, k_j over
 (rho/2) c^2 and q: I*, k*, m*, k_w* where there is one strip. The induced incidence is
-quasi-steady, alpha_i = D c with the circulatory lift c, and is solved with the rest instead of
-lagging a step behind.
+quasi-steady,
+
+    alpha_i = D (a_l alpha_E - Delta_l(x)),
+
+and is solved with the rest instead of lagging a step behind (docs/embedded.md on what a
+quasi-steady induced incidence leaves out).
 
 With the states Y = (Theta, Theta', W, W', z_1, z_2, y, c) and the deficits
 u = (Delta_l(x), Delta_m(x)) of all strips everything else is linear:
@@ -245,13 +249,10 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
         start=np.zeros((strips, columns)),
     )
     slope, lags = loads.branches.lift_slope, loads.lags
-    if lags.lift_lag > 0.0:
-        rear = geometric - structure.induction @ unit[layout.lag(3)]
-    else:
-        rear = np.linalg.solve(
-            np.eye(strips) + IMMEDIATE_SHARE * slope * structure.induction,
-            geometric - structure.induction @ (slope * lagging - lift_deficit),
-        )
+    rear = np.linalg.solve(
+        np.eye(strips) + IMMEDIATE_SHARE * slope * structure.induction,
+        geometric - structure.induction @ (slope * lagging - lift_deficit),
+    )
     effective = IMMEDIATE_SHARE * rear + lagging
     bubble = effective
     if lags.relaxation > 0.0:
@@ -283,8 +284,8 @@ def _accelerations(
     force = (
         weighted_g.T @ rows.lift - structure.bending_stiffness[:, :, None] * unit[layout.deflection]
     )
-    twist: Floats = np.linalg.solve(inertia, torque)
-    deflection: Floats = np.linalg.solve(mass, force)
+    twist = np.asarray(np.linalg.solve(inertia, torque), dtype=np.float64)
+    deflection = np.asarray(np.linalg.solve(mass, force), dtype=np.float64)
     return twist, deflection
 
 

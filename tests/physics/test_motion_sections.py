@@ -1,0 +1,287 @@
+"""Sections in the time loop: vacuum, statics, divergence, flutter, convergence, batches."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.optimize import brentq
+
+from equisection.aerodynamics.indicial import wagner
+from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar_file import read_polar
+from equisection.aerodynamics.separation import SeparationLags
+from equisection.aerodynamics.unsteady_loads import (
+    APPARENT_INERTIA,
+    APPARENT_MASS,
+    UnsteadyLoads,
+)
+from equisection.motion.march import march
+from equisection.motion.sections import (
+    SectionParameters,
+    release_sections,
+    section_system,
+)
+from equisection.motion.steady_states import (
+    equilibrium,
+    jacobian,
+    least_stable_eigenvalue,
+    rigid_state,
+)
+from equisection.signals.cycles import find_cycles
+
+POLAR = read_polar(Path(__file__).parents[2] / "config/polars/plate_2d_10398.csv")
+INCIDENCE = math.radians(2.5)
+INERTIA, MASS_RATIO, STIFFNESS_RATIO = 6.67, 9.12, 0.183  # the paper's plate, A_theta,w in both
+
+
+def plate_sections(k_star: object) -> SectionParameters:
+    return SectionParameters.from_ratios(k_star, INERTIA, MASS_RATIO, STIFFNESS_RATIO)
+
+
+def measured(lags: SeparationLags | None = None) -> UnsteadyLoads:
+    return (
+        UnsteadyLoads.from_polar(POLAR) if lags is None else UnsteadyLoads.from_polar(POLAR, lags)
+    )
+
+
+def thin_plate() -> UnsteadyLoads:
+    return UnsteadyLoads.from_polar(SectionPolar.flat_plate(10.0), SeparationLags.none())
+
+
+def cycle_amplitudes(history, lane: int) -> np.ndarray:
+    valid = slice(0, int(history.samples[lane]))
+    return find_cycles(history.time[valid], history.twist[valid, lane]).amplitude
+
+
+def test_in_vacuo_the_energy_is_kept_and_the_frequencies_are_right():
+    """Inertias 1e10 times the plate's: the air is nothing to it."""
+    heavy = SectionParameters.from_ratios(20e10, INERTIA * 1e10, MASS_RATIO, STIFFNESS_RATIO)
+    system = section_system(heavy, thin_plate(), 0.0)
+    states, deficits = rigid_state(system)
+    states[0, :4] = 0.1, 0.0, 0.2, 0.0
+    rows = np.eye(4, system.rates.shape[2])[None]
+    run = march(
+        system, (states, deficits), rows, duration=500.0, time_step=0.25, output_interval=0.25
+    )
+    twist, twist_rate, deflection, deflection_rate = run.values[:, 0].T
+    pitch_energy = 0.5 * (INERTIA * twist_rate**2 + 20 * twist**2)
+    heave_energy = 0.5 * (
+        INERTIA * MASS_RATIO * deflection_rate**2 + 20 * STIFFNESS_RATIO * deflection**2
+    )
+    np.testing.assert_allclose(pitch_energy, pitch_energy[0], rtol=1e-7)
+    np.testing.assert_allclose(heave_energy, heave_energy[0], rtol=1e-7)
+    np.testing.assert_allclose(twist, 0.1 * np.cos(math.sqrt(20 / INERTIA) * run.time), atol=1e-7)
+    omega_heave = math.sqrt(20 * STIFFNESS_RATIO / (INERTIA * MASS_RATIO))
+    np.testing.assert_allclose(deflection, 0.2 * np.cos(omega_heave * run.time), atol=1e-7)
+
+
+def test_a_wing_started_from_rest_builds_its_lift_up_as_wagner_says():
+    stiff = SectionParameters.from_ratios(1e9, 1e9, 1.0, 1.0)
+    system = section_system(stiff, thin_plate(), 0.1)
+    run = march(
+        system,
+        (np.zeros((1, system.layout.size)), np.zeros((1, 2))),
+        system.strip_loads,
+        duration=50.0,
+        time_step=0.1,
+        output_interval=0.1,
+    )
+    np.testing.assert_allclose(run.values[:, 0, 0], 2 * math.pi * 0.1 * wagner(run.time), rtol=1e-6)
+    np.testing.assert_allclose(run.values[:, 0, 1], run.values[:, 0, 0] / 4, rtol=1e-6)
+
+
+def test_static_twist_of_a_thin_plate():
+    """k* theta = (pi/2)(theta_0 + theta), k_w* w/c = 2 pi (theta_0 + theta)."""
+    k_star = np.array([3.0, 10.0, 21.0])
+    states, _ = equilibrium(section_system(plate_sections(k_star), thin_plate(), 0.02))
+    twist = 0.5 * math.pi * 0.02 / (k_star - 0.5 * math.pi)
+    np.testing.assert_allclose(states[:, 0], twist, rtol=1e-10)
+    deflection = 2 * math.pi * (0.02 + twist) / (k_star * STIFFNESS_RATIO)
+    np.testing.assert_allclose(states[:, 2], deflection, rtol=1e-10)
+
+
+def test_static_divergence_at_the_slope_of_the_moment():
+    """Bisplinghoff, Ashley & Halfman, chapter 8: k* = dc_m/dtheta, pi/2 for a thin plate."""
+
+    def growth(k_star: float) -> float:
+        system = section_system(plate_sections(k_star), thin_plate(), 0.0)
+        values = np.linalg.eigvals(jacobian(system, *equilibrium(system))[0])
+        return float(values[values.imag == 0.0].real.max())
+
+    assert brentq(growth, 1.4, 1.7) == pytest.approx(math.pi / 2, rel=1e-6)
+
+
+def test_flutter_of_the_textbook_section():
+    """Hodges & Pierce, Introduction to Structural Dynamics and Aeroelasticity, section 5.5.
+
+    a = -1/5, e = -1/10, mu = 20, r^2 = 6/25, sigma = 2/5: Theodorsen's theory gives flutter at
+    U/(b omega_theta) = 2.165. The pitch axis of that section is not mid-chord, so its structure
+    is coupled here in the test and takes nothing but the air from the package.
+    """
+    mass = 20 * math.pi / 2
+    axis, centre = -0.2 / 2, -0.1 / 2  # chords behind mid-chord
+    inertia_axis = mass * (6 / 25) / 4
+    inertia_centre = inertia_axis - mass * (centre - axis) ** 2
+    held = SectionParameters.from_ratios(1.0, 1e12, 1.0, 1.0)  # loads without accelerations
+    system = section_system(held, thin_plate(), 0.0)
+    n = system.layout.size
+    loads = np.stack([system.strip_loads[0, 1, :n], system.strip_loads[0, 0, :n]])  # c_m, c_l
+    structure_mass = np.array(
+        [[inertia_centre + mass * centre**2, -mass * centre], [-mass * centre, mass]]
+    )
+    apparent = np.diag([APPARENT_INERTIA, APPARENT_MASS])
+
+    def growth(speed: float) -> float:
+        pitch = inertia_axis * (2 / speed) ** 2
+        heave = mass * (0.4 * 2 / speed) ** 2
+        stiffness = np.array([[pitch + heave * axis**2, -heave * axis], [-heave * axis, heave]])
+        matrix = system.rates[0, :, :n].copy()
+        force = loads.copy()
+        force[:, 0] -= stiffness[:, 0]
+        force[:, 2] -= stiffness[:, 1]
+        matrix[[1, 3]] = np.linalg.solve(structure_mass + apparent, force)
+        return float(np.linalg.eigvals(matrix).real.max())
+
+    assert brentq(growth, 1.5, 2.6) == pytest.approx(2.165, rel=0.01)
+
+
+def test_steady_equilibrium_is_where_a_damped_section_ends():
+    parameters = plate_sections([10.0, 21.0])
+    loads = measured(SeparationLags.none())
+    states, _ = equilibrium(section_system(parameters, loads, INCIDENCE))
+    history = release_sections(parameters, loads, INCIDENCE, 600.0, output_interval=1.0)
+    np.testing.assert_allclose(history.twist[-1], states[:, 0], atol=1e-5)
+    np.testing.assert_allclose(history.deflection[-1], states[:, 2], atol=1e-4)
+    twist = states[:, 0]
+    np.testing.assert_allclose(
+        parameters.torsional_stiffness * twist, POLAR.moment_coefficient(INCIDENCE + twist)
+    )
+
+
+def test_second_order_in_the_time_step():
+    """Errors of the deficits' interpolation; all else is exact."""
+    parameters = plate_sections([5.0, 10.0])
+
+    def twist(step: float) -> np.ndarray:
+        run = release_sections(
+            parameters, measured(), INCIDENCE, 20.0, time_step=step, output_interval=0.4
+        )
+        return run.twist
+
+    exact = twist(0.4 / 128)
+    errors = [np.abs(twist(0.4 / n) - exact).max() for n in (1, 2, 4, 8, 16)]
+    orders = np.log2(np.array(errors[:-1]) / errors[1:])
+    assert orders[-3:].mean() > 1.9
+    assert errors[3] < 2e-4 * np.abs(exact).max()  # the default step, 0.05
+
+
+def test_a_linear_polar_has_no_time_step_error():
+    parameters = plate_sections([5.0, 21.0])
+    coarse, fine = (
+        release_sections(parameters, thin_plate(), 0.02, 60.0, time_step=step, output_interval=1.0)
+        for step in (1.0, 0.05)
+    )
+    np.testing.assert_allclose(coarse.twist, fine.twist, atol=1e-9)
+    np.testing.assert_allclose(coarse.deflection, fine.deflection, atol=1e-9)
+
+
+def test_a_very_stiff_section_is_safe_at_a_long_step():
+    history = release_sections(
+        plate_sections(1e5), measured(), INCIDENCE, 200.0, time_step=1.0, output_interval=1.0
+    )
+    assert np.abs(history.twist).max() < 2.1 * POLAR.moment_coefficient(0.05) / 1e5
+
+
+def test_a_batch_gives_what_single_runs_give():
+    k_star = np.array([4.0, 6.44, 10.0, 21.0])
+    batch = release_sections(plate_sections(k_star), measured(), INCIDENCE, 60.0)
+    for lane, value in enumerate(k_star):
+        single = release_sections(plate_sections(value), measured(), INCIDENCE, 60.0)
+        np.testing.assert_allclose(batch.twist[:, lane], single.twist[:, 0], rtol=0, atol=1e-13)
+        np.testing.assert_allclose(
+            batch.lift_coefficient[:, lane], single.lift_coefficient[:, 0], rtol=0, atol=1e-12
+        )
+
+
+def test_a_section_that_leaves_the_polar_is_named_and_the_others_go_on():
+    history = release_sections(plate_sections([2.6, 21.0]), measured(), INCIDENCE, 150.0)
+    (failure,) = history.failures
+    assert failure.lane == 0
+    assert abs(failure.incidence_rad) > math.radians(12.0)
+    last = int(history.samples[0]) - 1
+    assert history.time[last] < failure.time <= history.time[last] + 0.1 + 1e-9
+    assert np.isfinite(history.twist[: last + 1, 0]).all()
+    assert np.isnan(history.twist[last + 1 :, 0]).all()
+    assert np.isfinite(history.twist[:, 1]).all()
+
+
+def test_a_monitor_stops_lanes_and_progress_is_told():
+    told: list[tuple[float, float]] = []
+
+    def monitor(history, active):
+        return active[(history.time[-1] > 20.0) & (active == 1)]
+
+    history = release_sections(
+        plate_sections([10.0, 15.0, 21.0]),
+        measured(),
+        INCIDENCE,
+        50.0,
+        monitor=monitor,
+        progress=lambda done, total: told.append((done, total)),
+    )
+    assert history.samples.tolist() == [501, 251, 501]
+    assert told[0] == (0.0, pytest.approx(50.0))
+    assert told[-1][0] == pytest.approx(50.0)
+    free = release_sections(plate_sections(21.0), measured(), INCIDENCE, 50.0)
+    np.testing.assert_allclose(history.twist[:, 2], free.twist[:, 0], rtol=0, atol=1e-13)
+
+
+def test_without_lag_of_the_bubble_nothing_flutters():
+    """From 1 to 5 deg; below k* of 4 the static equilibrium may be outside the polar."""
+    k_star = np.linspace(4.0, 40.0, 60)
+    for incidence_deg in (1.0, 2.0, 2.5, 3.0, 4.0, 5.0):
+        system = section_system(
+            plate_sections(k_star), measured(SeparationLags.none()), math.radians(incidence_deg)
+        )
+        growth = least_stable_eigenvalue(system).real
+        assert (growth < -0.01).all()
+
+
+def test_stall_flutter_comes_from_the_polar_and_the_lags():
+    """Decay at k* = 21, growth at 6.44 and 5 (as the flow solver shows it), from one release."""
+    history = release_sections(plate_sections([21.0, 6.44, 5.0]), measured(), INCIDENCE, 80.0)
+    decaying, growing, fast = (cycle_amplitudes(history, lane) for lane in range(3))
+    assert decaying[-1] < 0.75 * decaying[0]
+    assert growing[-1] > 3.0 * growing[len(growing) // 3]
+    assert fast[-1] > 5.0 * fast[len(fast) // 3]
+
+
+def test_growth_of_a_release_is_that_of_the_linearised_system():
+    k_star = 15.0
+    eigenvalue = least_stable_eigenvalue(
+        section_system(plate_sections(k_star), measured(), INCIDENCE)
+    )[0]
+    history = release_sections(plate_sections(k_star), measured(), INCIDENCE, 600.0)
+    late = history.time > 300.0
+    cycles = find_cycles(history.time[late], history.twist[late, 0])
+    growth = np.polyfit(cycles.amplitude_time, np.log(cycles.amplitude), 1)[0]
+    assert growth == pytest.approx(eigenvalue.real, abs=1e-4)
+    assert math.tau / cycles.period(cycles.time.size) == pytest.approx(eigenvalue.imag, rel=2e-3)
+
+
+def test_onset_of_the_uncorrected_section():
+    """k* = 13.3 at 2.5 deg: what docs/embedded.md quotes; growth there is slow."""
+
+    def growth(k_star: float) -> float:
+        system = section_system(plate_sections(k_star), measured(), INCIDENCE)
+        return float(least_stable_eigenvalue(system)[0].real)
+
+    assert brentq(growth, 8.0, 21.0) == pytest.approx(13.3, abs=0.1)
+
+
+def test_parameters_that_make_no_sense_are_refused():
+    with pytest.raises(ValueError, match="must be positive"):
+        plate_sections([5.0, -1.0])
