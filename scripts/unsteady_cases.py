@@ -38,9 +38,9 @@ if __name__ == "__main__":
             snakemake.params.config,
             snakemake.params.model,
             {
-                name: Path(snakemake.input[name])
-                for name in ("modes", "equivalent", "correction")
-                if name in snakemake.input.keys()
+                name: Path(path)
+                for name, path in snakemake.input.items()
+                if name in ("modes", "equivalent", "correction")
             },
             [Path(path) for path in snakemake.output],
         )

@@ -37,7 +37,7 @@ def steady_case(
 ) -> SteadyCase:
     """Return the case of the rigid section (``2d``) or beam (``3d``) at an incidence (deg)."""
     return SteadyCase(
-        dimension=dimension,  # type: ignore[arg-type]  # a wildcard; pydantic checks it
+        dimension=dimension,
         incidence_deg=incidence_deg,
         resolution=resolution,
         geometry=_geometry(config),
@@ -60,7 +60,7 @@ def unsteady_case(
     k_star
         k* of the uncorrected structural stiffness.
     data
-        ``modes`` in 3D; ``equivalent`` in 2D, with ``correction`` for a corrected model.
+        ``equivalent``, with ``modes`` in 3D and ``correction`` for a corrected model.
     solver
         The solver that is to run it.
 
@@ -69,17 +69,18 @@ def unsteady_case(
     A corrected section without a static equilibrium inside the polars (divergence) is refused:
     its case says why and its result is ``failed``, so that the other k* go on.
     """
+    stiffness_scale = k_star / nominal_k_star(config, data["equivalent"])
     section, beam, refusal = None, None, ""
     if model.dimension == "3d":
-        beam = _beam_modes(config, data["modes"], k_star)
+        beam = _beam_modes(config, data["modes"], stiffness_scale)
     else:
         try:
-            section = _section(config, model, data, k_star)
+            section = _section(config, model, data, stiffness_scale)
         except EquisectionError as error:
             refusal = str(error)
     unsteady = config.unsteady
     return UnsteadyCase(
-        dimension=model.dimension,  # type: ignore[arg-type]
+        dimension=model.dimension,
         k_star=k_star,
         incidence_deg=config.flow.incidence_deg,
         resolution=config.steady.resolution,
@@ -120,19 +121,28 @@ def _solver_block(solver: Solver) -> SolverBlock:
     return SolverBlock(name=solver.name, version=solver.version, settings=solver.settings())
 
 
+def nominal_k_star(config: Config, equivalent: xr.Dataset) -> float:
+    """Return k* of the configured beam: Eq. 17 in the paper's form, the axis of every comparison.
+
+    Both reductions and the beam stand at the same k* when they have the same Young's modulus.
+    """
+    flow = config.flow
+    return section_from_dataset(equivalent, "paper").k_star(
+        flow.density, flow.speed, config.beam.chord
+    )
+
+
 def _section(
-    config: Config, model: Model, data: Mapping[str, xr.Dataset], k_star: float
+    config: Config, model: Model, data: Mapping[str, xr.Dataset], stiffness_scale: float
 ) -> SectionProperties:
     flow, chord = config.flow, config.beam.chord
     reduction: Reduction = "paper" if model.reduction == "paper" else "consistent"
-    section = section_from_dataset(data["equivalent"], reduction).scaled(
-        k_star, flow.density, flow.speed, chord
-    )
+    section = section_from_dataset(data["equivalent"], reduction).scaled(stiffness_scale)
     lift_factor, moment_factor = 1.0, 1.0
     if model.corrected:
-        lift_factor, moment_factor = _factors(config, section, data["correction"], k_star)
+        lift_factor, moment_factor = _factors(config, section, data["correction"])
     return SectionProperties(
-        torsional_stiffness=moment_factor * k_star,
+        torsional_stiffness=moment_factor * section.k_star(flow.density, flow.speed, chord),
         flexural_stiffness=lift_factor * section.k_w_star(flow.density, flow.speed),
         inertia=moment_factor * section.i_star(flow.density, chord),
         mass=lift_factor * section.m_star(flow.density, chord),
@@ -142,37 +152,33 @@ def _section(
 
 
 def _factors(
-    config: Config, section: EquivalentSection, correction: xr.Dataset, k_star: float
+    config: Config, section: EquivalentSection, correction: xr.Dataset
 ) -> tuple[float, float]:
-    """Return the factors of Eq. 20 of lift and moment at the aeroelastic equilibrium of k*."""
+    """Return the factors of Eq. 20 of lift and moment at the aeroelastic equilibrium."""
+    flow = config.flow
     equilibrium = corrected_equilibrium(
         factors_from_dataset(correction),
-        math.radians(config.flow.incidence_deg),
-        k_star,
+        math.radians(flow.incidence_deg),
+        section.k_star(flow.density, flow.speed, config.beam.chord),
         section.stiffness_ratio(config.beam.chord),
     )
     return float(equilibrium.lift_factor[0]), float(equilibrium.moment_factor[0])
 
 
-def _beam_modes(config: Config, dataset: xr.Dataset, k_star: float) -> BeamModes:
-    """Return the beam's modes with its stiffness scaled to a k*, as if E varied.
-
-    k* = omega_theta^2 I*, with the first torsion frequency, is that of the consistent section;
-    frequencies scale with the square root of the stiffness.
-    """
+def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> BeamModes:
+    """Return the beam's modes, with frequencies that grow as the square root of E."""
     plate = Plate(**config.beam.model_dump())
     modes = modes_from_dataset(dataset)
     bending = modes.bending(config.structure.bending_modes)
     torsion = modes.torsion(config.structure.torsion_modes)
     flow, chord = config.flow, config.beam.chord
-    inertia = plate.inertia_per_length / (0.5 * flow.density * chord**4)
-    first = math.sqrt(k_star / inertia)  # omega_theta1 c/V
+    to_reduced = 2 * math.pi * chord / flow.speed * math.sqrt(stiffness_scale)  # Hz to omega c/V
     return BeamModes(
         span=tuple(modes.span),
-        bending_frequency=tuple(first * bending.frequency / torsion.frequency[0]),
+        bending_frequency=tuple(to_reduced * bending.frequency),
         bending_shape=tuple(map(tuple, bending.shape)),
-        torsion_frequency=tuple(first * torsion.frequency / torsion.frequency[0]),
+        torsion_frequency=tuple(to_reduced * torsion.frequency),
         torsion_shape=tuple(map(tuple, torsion.shape)),
-        inertia=inertia,
+        inertia=plate.inertia_per_length / (0.5 * flow.density * chord**4),
         mass=plate.mass_per_length / (0.5 * flow.density * chord**2),
     )

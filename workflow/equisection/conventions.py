@@ -24,7 +24,11 @@ Non-dimensional numbers (Eq. 18)
 
         I* theta'' + k* theta = c_m,    m* (w/c)'' + k_w* (w/c) = c_l,    ' = d/ds.
 
-    The k* on every axis is that of the *uncorrected structural* torsional stiffness.
+    The k* on every axis is that of Eq. 17 in the paper's form: the uncorrected structural
+    stiffness, with K_theta from the slope of the first torsion shape. It stands for the beam's
+    Young's modulus: all models at one k* are the same beam. (With shapes from three-dimensional
+    elasticity the consistent section of that beam is some 6 % stiffer than k* says, since
+    warping is restrained at the clamp; see docs/errata.md.)
 Incidence that a moving section sees
     At mid-chord theta_0 + theta - d(w/c)/ds; at three quarters of the chord, where the
     circulation is set, theta_0 + theta + (1/4) dtheta/ds - d(w/c)/ds.

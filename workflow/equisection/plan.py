@@ -6,6 +6,7 @@ can be built on a fresh clone. Names of cases are made and read here and nowhere
 
 from __future__ import annotations
 
+import itertools
 import json
 import math
 import re
@@ -87,7 +88,7 @@ def refinement_rounds(config: Config) -> int:
     if config.sweep.onset != "refine":
         return 0
     values = config.sweep.values()
-    widest = max(((b - a) / a for a, b in zip(values, values[1:], strict=False)), default=0.0)
+    widest = max(((b - a) / a for a, b in itertools.pairwise(values)), default=0.0)
     if widest <= config.sweep.onset_tolerance:
         return 0
     parts = config.sweep.onset_points + 1

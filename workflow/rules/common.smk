@@ -56,9 +56,9 @@ def solver_input_files():
 def structure_of_model(wildcards):
     """Return what a model's cases are made from."""
     model = plan.model(wildcards.model, CONFIG.reduction)
-    if model.dimension == "3d":
-        return {"modes": f"{RESULTS}/structure/modes.nc"}
     files = {"equivalent": f"{RESULTS}/structure/equivalent.nc"}
+    if model.dimension == "3d":
+        files["modes"] = f"{RESULTS}/structure/modes.nc"
     if model.corrected:
         files["correction"] = f"{RESULTS}/steady/correction.nc"
     return files

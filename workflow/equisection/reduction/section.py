@@ -81,17 +81,14 @@ class EquivalentSection:
         """c^2 k_w/k_theta (-), 0.183 below Eq. 18."""
         return chord**2 * self.flexural_stiffness / self.torsional_stiffness
 
-    def scaled(
-        self, k_star: float, density: float, speed: float, chord: float
-    ) -> EquivalentSection:
-        """Scale to another k*: both stiffnesses change as if Young's modulus did."""
-        if not k_star > 0.0:
-            raise ReductionError(f"k_star is {k_star}; give a positive number")
-        factor = k_star / self.k_star(density, speed, chord)
+    def scaled(self, stiffness_scale: float) -> EquivalentSection:
+        """The section of the same beam with Young's modulus times ``stiffness_scale`` (-)."""
+        if not stiffness_scale > 0.0:
+            raise ReductionError(f"stiffness_scale is {stiffness_scale}; give a positive number")
         return replace(
             self,
-            torsional_stiffness=factor * self.torsional_stiffness,
-            flexural_stiffness=factor * self.flexural_stiffness,
+            torsional_stiffness=stiffness_scale * self.torsional_stiffness,
+            flexural_stiffness=stiffness_scale * self.flexural_stiffness,
         )
 
 

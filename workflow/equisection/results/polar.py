@@ -88,11 +88,10 @@ def polar_at(dataset: xr.Dataset, resolution: str) -> SectionPolar:
             f"the polar at resolution '{resolution}' has {there.sum()} incidences with a result, "
             f"at least 4 are needed ({dataset.attrs.get('failures') or 'add incidences'})"
         )
-    polar = SectionPolar(
+    return SectionPolar(
         incidence=np.radians(chosen["incidence_deg"].values[there]),
         drag=chosen["cd"].values[there],
         lift=chosen["cl"].values[there],
         moment=chosen["cm"].values[there],
         label=str(dataset.attrs[f"solver_{resolution}"]),
     )
-    return polar

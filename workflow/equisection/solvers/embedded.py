@@ -6,7 +6,7 @@ labelled as what it is wherever it is shown.
 
 from __future__ import annotations
 
-import itertools
+import json
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import asdict
@@ -229,21 +229,20 @@ class Adapter:
 def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:
     """Group cases that differ in their structure's numbers alone, a bounded number at a time."""
 
-    def what_they_share(index: int) -> str:
-        case = cases[index]
-        lanes = {
-            "k_star": True,
-            "section": True,
-            "beam": {"torsion_frequency", "bending_frequency"},
-        }
-        return case.model_dump_json(exclude=lanes)
+    def what_they_share(case: UnsteadyCase) -> str:
+        shared = case.model_dump(exclude={"k_star", "section"})
+        for lane in ("torsion_frequency", "bending_frequency"):
+            (shared["beam"] or {}).pop(lane, None)
+        return json.dumps(shared, sort_keys=True)
 
-    order = sorted(range(len(cases)), key=what_they_share)
-    groups = []
-    for _, same in itertools.groupby(order, key=what_they_share):
-        members = list(same)
-        groups += [members[at : at + LANES] for at in range(0, len(members), LANES)]
-    return groups
+    groups: dict[str, list[int]] = {}
+    for index, case in enumerate(cases):
+        groups.setdefault(what_they_share(case), []).append(index)
+    return [
+        members[at : at + LANES]
+        for members in groups.values()
+        for at in range(0, len(members), LANES)
+    ]
 
 
 def _no_value(reason: str) -> SteadyResult:

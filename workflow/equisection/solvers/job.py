@@ -124,7 +124,7 @@ def _compute(tasks: list[Task], store: Path, progress_file: Path) -> None:
 
 def _run(
     solver: Solver, cases: list[Case], work: Path, progress: JobProgress
-) -> list[SteadyResult] | list[UnsteadyResult]:
+) -> Sequence[SteadyResult | UnsteadyResult]:
     steady = [case for case in cases if isinstance(case, SteadyCase)]
     unsteady = [case for case in cases if isinstance(case, UnsteadyCase)]
     if steady and unsteady:

@@ -42,6 +42,15 @@ def criteria_of(case: UnsteadyCase) -> Criteria:
     return Criteria(**case.criteria.model_dump())
 
 
+def pitch_frequency(case: UnsteadyCase) -> float:
+    """Return the natural frequency f c/V of the pitch in vacuum."""
+    if case.beam is not None:
+        return case.beam.torsion_frequency[0] / (2 * math.pi)
+    if case.section is None:
+        return math.nan
+    return math.sqrt(case.section.torsional_stiffness / case.section.inertia) / (2 * math.pi)
+
+
 def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
     """Return the attributes of the verdict on a run that has ended.
 
@@ -57,7 +66,14 @@ def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
     if failure:
         return _failed(failure)
     try:
-        verdict = assess(tip.time, tip.twist, tip.deflection, criteria_of(case), final=True)
+        verdict = assess(
+            tip.time,
+            tip.twist,
+            tip.deflection,
+            criteria_of(case),
+            final=True,
+            natural_frequency=pitch_frequency(case),
+        )
     except ResultFileError as error:
         return _failed(str(error))
     return {
@@ -76,7 +92,17 @@ def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
 def refused(reason: str) -> UnsteadyResult:
     """Return the result of a case that has no structure to move: no history, regime failed."""
     nothing = np.empty(0)
-    return UnsteadyResult(*[nothing] * 8, verdict=_failed(reason))
+    return UnsteadyResult(
+        time=nothing,
+        twist=nothing,
+        deflection=nothing,
+        tip_twist=nothing,
+        tip_deflection=nothing,
+        lift=nothing,
+        moment=nothing,
+        incidence=nothing,
+        verdict=_failed(reason),
+    )
 
 
 def monitor_of(

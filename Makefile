@@ -1,0 +1,61 @@
+# `make run` and `make test` are all that is needed on a fresh clone; the snakemake commands
+# behind them stand in the README.
+
+PYTHON ?= python3
+CORES ?= all
+CONFIG ?=
+ENV := .venv
+BIN := $(ENV)/bin
+SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profiles/default \
+	$(if $(CONFIG),--configfile $(CONFIG))
+
+.PHONY: run test report lint bench status identify docs-config clean
+
+run: $(ENV)/run
+	$(SNAKEMAKE)
+	@$(BIN)/equisection where $(CONFIG)
+
+report: run
+	@report=$$($(BIN)/equisection where --folder $(CONFIG))/report.html; \
+	$(SNAKEMAKE) --report $$report && echo "report: $$report"
+
+status: $(ENV)/run
+	$(BIN)/equisection status
+
+test: $(ENV)/test
+	$(BIN)/python -m pytest
+
+lint: $(ENV)/lint
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/snakefmt --check Snakefile workflow
+	$(BIN)/mypy
+	$(BIN)/mypy --disable-error-code name-defined scripts
+	$(BIN)/python -m equisection.config --check
+	$(BIN)/snakemake --lint
+
+bench: $(ENV)/test
+	$(BIN)/python -m tests.benchmarks
+
+clean:
+	find results -mindepth 1 -maxdepth 1 ! -name reference -exec rm -rf {} +
+	rm -rf .snakemake
+
+# One environment; each stamp says which extras are in it, and is renewed when the pins change.
+$(ENV)/python-is-new-enough:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "error: $(PYTHON) is $$($(PYTHON) -V 2>&1); Python 3.11 or newer is needed (make PYTHON=python3.12 ...)" >&2; exit 1; }
+	$(PYTHON) -m venv $(ENV)
+	@touch $@
+
+$(ENV)/run: $(ENV)/python-is-new-enough envs/constraints.txt pyproject.toml
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable .
+	@touch $@
+
+$(ENV)/test: $(ENV)/run
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[test]'
+	@touch $@
+
+$(ENV)/lint: $(ENV)/run
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[lint]'
+	@touch $@

@@ -1,0 +1,27 @@
+"""Fig. 3: deformation modes along the span."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from equisection.figures.fig03_modes import analytic_shapes, draw
+from equisection.figures.save import save_figure
+from equisection.figures.style import drawing_style
+from equisection.results.netcdf import read_dataset
+from equisection.script import logged
+from equisection.structure.plate import Plate
+
+
+def main(modes: Path, plate: Plate, style: Path, outputs: Sequence[Path]) -> None:
+    """Draw the modes beside those of the analytic beam."""
+    with drawing_style(style):
+        save_figure(draw(read_dataset(modes), analytic_shapes(plate)), outputs)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            Path(snakemake.input.modes),
+            Plate(**snakemake.params.beam),
+            Path(snakemake.input.style),
+            [Path(path) for path in snakemake.output],
+        )

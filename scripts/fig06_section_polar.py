@@ -1,0 +1,25 @@
+"""Fig. 6: section polars at each resolution."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from equisection.figures.fig06_section_polar import draw
+from equisection.figures.save import save_figure
+from equisection.figures.style import drawing_style
+from equisection.results.netcdf import read_dataset
+from equisection.script import logged
+
+
+def main(polar_2d: Path, style: Path, outputs: Sequence[Path]) -> None:
+    """Draw the section's polars."""
+    with drawing_style(style):
+        save_figure(draw(read_dataset(polar_2d)), outputs)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            Path(snakemake.input.polar_2d),
+            Path(snakemake.input.style),
+            [Path(path) for path in snakemake.output],
+        )

@@ -1,0 +1,56 @@
+"""Every number that the paper states, and its tables, beside those of this run."""
+
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from equisection.comparison.paper import paper_table
+from equisection.comparison.paper_here import Run
+from equisection.comparison.tables import table_1, table_2
+from equisection.config import load_config
+from equisection.files import written_whole
+from equisection.results.netcdf import read_dataset
+from equisection.script import logged
+
+
+def main(
+    raw_config: dict[str, Any],
+    is_paper_case: bool,
+    inputs: dict[str, Path],
+    outputs: dict[str, Path],
+) -> None:
+    """Write ``paper``, ``table1`` and ``table2`` of ``outputs``.
+
+    ``inputs`` holds ``modes``, ``equivalent``, ``mesh_study``, ``polar_3d``, ``correction``,
+    ``summary`` and ``onset``, and ``reference_3d`` where the beam is run.
+    """
+    config = load_config(raw_config)
+    data = {name: read_dataset(path) for name, path in inputs.items() if path.suffix == ".nc"}
+    mesh_study = data.pop("mesh_study")
+    tables = {name: pd.read_csv(inputs[name]) for name in ("summary", "onset")}
+    run = Run(config, **data, **tables)
+    thickness_over_span = config.beam.thickness / config.beam.length
+    frames = {
+        "paper": paper_table(run, is_paper_case),
+        "table1": table_1(run.polar_3d, is_paper_case),
+        "table2": table_2(run.modes, mesh_study, thickness_over_span, is_paper_case),
+    }
+    for name, frame in frames.items():
+        with written_whole(outputs[name]) as aside:
+            frame.to_csv(aside, index=False, float_format="%.6g")
+
+
+if __name__ == "__main__":
+    WANTED = ("modes", "equivalent", "mesh_study", "polar_3d", "correction", "summary", "onset")
+    with logged(snakemake.log[0]):
+        main(
+            dict(snakemake.params.config),
+            snakemake.params.is_paper_case,
+            {
+                name: Path(snakemake.input[name])
+                for name in (*WANTED, "reference_3d")
+                if snakemake.input.get(name)
+            },
+            {name: Path(path) for name, path in snakemake.output.items()},
+        )
