@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from pathlib import Path
 
 import numpy as np
@@ -270,6 +271,24 @@ def test_growth_of_a_release_is_that_of_the_linearised_system():
     growth = np.polyfit(cycles.amplitude_time, np.log(cycles.amplitude), 1)[0]
     assert growth == pytest.approx(eigenvalue.real, abs=1e-4)
     assert math.tau / cycles.period(cycles.time.size) == pytest.approx(eigenvalue.imag, rel=2e-3)
+
+
+def test_limit_cycles_just_below_the_onset():
+    """The polar's stall bounds the growth: at k* = 10 a limit cycle of 8.5 deg, steady to 2 %."""
+    history = release_sections(
+        plate_sections(10.0), measured(), INCIDENCE, 1600.0, output_interval=0.2
+    )
+    amplitudes = np.degrees(cycle_amplitudes(history, 0))
+    assert amplitudes[-1] == pytest.approx(8.5, rel=0.02)
+    np.testing.assert_allclose(amplitudes[-10:], amplitudes[-1], rtol=0.02)
+
+
+def test_a_thousand_sections_take_seconds():
+    """About 2 s on one core; the bound leaves room for a busy machine."""
+    k_star = np.linspace(5.0, 21.0, 1000)
+    began = time.perf_counter()
+    release_sections(plate_sections(k_star), measured(), INCIDENCE, 200.0)
+    assert time.perf_counter() - began < 15.0
 
 
 def test_onset_of_the_uncorrected_section():
