@@ -1,0 +1,308 @@
+"""The paper's numbers beside those of a run, and its tables."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from equisection.comparison import paper_values
+from equisection.comparison.paper import COLUMNS, paper_table
+from equisection.comparison.paper_here import Run
+from equisection.comparison.paper_values import PUBLISHED, Published, relative_difference
+from equisection.comparison.tables import table_1, table_2
+from equisection.config import Config
+
+KINDS = ("bending", "bending", "torsion", "bending", "torsion", "in-plane")
+FREQUENCY = np.array([8.0, 50.0, 58.0, 140.0, 180.0, 188.0])
+ANGLES = (0.0, 2.5, 5.0, 10.0)
+
+
+def modes() -> xr.Dataset:
+    return xr.Dataset(
+        {
+            "frequency": ("mode", FREQUENCY),
+            "kind": ("mode", list(KINDS)),
+            "frequency_constant": ("mode", FREQUENCY * 3e-5),
+        },
+        attrs={"method": "solid", "elements": "24 x 89 x 2"},
+    )
+
+
+def mesh_study() -> xr.Dataset:
+    analytic = np.array([8.1, 51.0, 57.0, 142.0, 171.0, math.nan])
+    return xr.Dataset(
+        {
+            "frequency": (("elements", "mode"), np.array([1.02, 1.01])[:, None] * FREQUENCY),
+            "kind": ("mode", list(KINDS)),
+            "mesh": ("elements", ["4 x 15 x 1", "8 x 30 x 1"]),
+            "analytic_frequency": ("mode", analytic),
+        }
+    )
+
+
+def polar_3d(angles: tuple[float, ...] = ANGLES) -> xr.Dataset:
+    rows = paper_values.TABLE_1["15e6 cells"]
+    values = np.array([rows.get(angle, (0.1, 0.3, 0.06)) for angle in angles])
+    return xr.Dataset(
+        {
+            short: (("resolution", "incidence_deg"), values[None, :, column] * 1.1)
+            for column, short in enumerate(("cd", "cl", "cm"))
+        },
+        {"resolution": ["coarse"], "incidence_deg": list(angles)},
+        attrs={"solver_coarse": "a solver on 9 cells", "failures": ""},
+    )
+
+
+def summary(regimes: dict[str, dict[float, str]]) -> pd.DataFrame:
+    return pd.DataFrame(
+        [
+            {
+                "model": model,
+                "k_star": k_star,
+                "regime": regime,
+                "twist_amplitude_deg": 0.9,
+                "cpu_seconds": 8.0 if model == "3d" else 2.0,
+                "end_time": 100.0,
+                "solver": "embedded",
+            }
+            for model, runs in regimes.items()
+            for k_star, regime in runs.items()
+        ]
+    )
+
+
+def onset(*rows: tuple[str, float, float]) -> pd.DataFrame:
+    return pd.DataFrame(rows, columns=["model", "k_star_stable", "k_star_unstable"])
+
+
+REGIMES = {
+    "2d": {5.0: "growing", 6.0: "settled"},
+    "2d-corrected": {5.0: "growing", 6.0: "settled"},
+    "3d": {5.0: "limit-cycle", 7.0: "settled"},
+}
+
+
+def run(**changes: object) -> Run:
+    time = np.linspace(0.0, 10.0, 11)
+    amplitude = np.outer([0.1, -5e-4], np.ones(11))
+    both = ["paper", "consistent"]
+    parts: dict[str, object] = {
+        "config": Config(),
+        "modes": modes(),
+        "equivalent": xr.Dataset(
+            {
+                "stiffness_ratio": ("reduction", [0.184, 0.228]),
+                "inertia_ratio": ("reduction", [9.13, 12.0]),
+                "k_star": ("reduction", [21.28, 22.5]),
+            },
+            {"reduction": both},
+        ),
+        "polar_3d": polar_3d(),
+        "correction": xr.Dataset(
+            {
+                "lift_factor": ("incidence_deg", [1.2, 1.2, 0.9]),
+                "moment_factor": ("incidence_deg", [1.1, 1.1, 1.05]),
+            },
+            {"incidence_deg": [0.0, 2.5, 10.0]},
+        ),
+        "summary": summary(REGIMES),
+        "onset": onset(("2d", 6.0, 5.0), ("2d-corrected", 6.0, 5.0), ("3d", 7.0, 5.0)),
+        "reference_3d": xr.Dataset(
+            {
+                "torsion_amplitude": (("torsion_mode", "time"), amplitude),
+                "bending_amplitude": (("bending_mode", "time"), 100 * amplitude[::-1]),
+            },
+            {"time": time},
+            attrs={"window_start": 5.0, "k_star": 21.0},
+        ),
+    }
+    return Run(**{**parts, **changes})  # type: ignore[arg-type]
+
+
+def by_quantity(table: pd.DataFrame) -> pd.DataFrame:
+    assert table["quantity"].is_unique
+    return table.set_index("quantity")
+
+
+class TestPublished:
+    def test_names_are_unique(self) -> None:
+        names = [value.name for value in PUBLISHED]
+        assert len(set(names)) == len(names)
+
+    @pytest.mark.parametrize(
+        ("name", "value"),
+        [
+            ("C_D at 0 deg (4.7e6 cells)", 0.0473),
+            ("C_M at 5 deg (4.7e6 cells)", 0.0804),
+            ("C_L at 5 deg (7.0e6 cells)", 0.4861),
+            ("C_M at 10 deg (15e6 cells)", 0.0659),
+            ("C_1 (bending) (8.5e3 elements)", 2.44e-4),
+            ("C_5 (torsion) (5.0e4 elements)", 5.35e-3),
+            ("c^2 k_w/k_theta", 0.183),
+            ("c^2 m_2D/I_2D", 9.12),
+            ("k* of the onset", 5.5),
+            ("aspect ratio 2L/c", 7.4),
+        ],
+    )
+    def test_values_are_the_printed_ones(self, name: str, value: float) -> None:
+        assert {entry.name: entry.value for entry in PUBLISHED}[name] == value
+
+    def test_what_follows_from_the_printed_values(self) -> None:
+        values = {entry.name: entry.value for entry in PUBLISHED}
+        assert values["Reynolds number (rho V c/mu)"] == pytest.approx(1.27e5, rel=2e-3)
+        assert values["cost of 3D over 2D, per time simulated"] == pytest.approx(245, rel=2e-3)
+
+    def test_refinement_of_table_1_changes_little(self) -> None:
+        """A slip of the pen in the table would break the paper's own grid independence."""
+        coarse, fine = (paper_values.TABLE_1[m] for m in ("4.7e6 cells", "15e6 cells"))
+        for angle, row in coarse.items():
+            np.testing.assert_allclose(row, fine[angle], rtol=0.17)
+
+    def test_bounds(self) -> None:
+        bound = Published("ratio", 100.0, "somewhere", "at least")
+        assert bound.holds(100.0)
+        assert not bound.holds(99.0)
+
+
+class TestRelativeDifference:
+    def test_arithmetic(self) -> None:
+        assert relative_difference(2.0, 2.5) == 0.25
+        assert relative_difference(-2.0, -1.0) == -0.5
+
+    @pytest.mark.parametrize(("paper", "here"), [(0.0, 1.0), (math.nan, 1.0), (1.0, math.nan)])
+    def test_without_meaning(self, paper: float, here: float) -> None:
+        assert math.isnan(relative_difference(paper, here))
+
+    def test_last_bit_is_no_difference(self) -> None:
+        assert relative_difference(3.7, 0.37 / 0.1) == 0.0
+
+
+class TestPaperTable:
+    def test_columns_begin_with_those_of_the_contract(self, tmp_path: Path) -> None:
+        path = tmp_path / "paper.csv"
+        paper_table(run(), True).to_csv(path, index=False)
+        read = pd.read_csv(path)
+        assert list(read.columns[:4]) == ["quantity", "paper", "here", "relative_difference"]
+        assert tuple(read.columns) == COLUMNS
+        assert read["paper"].dtype == read["here"].dtype == float
+
+    def test_every_published_number_has_a_row(self) -> None:
+        names = set(paper_table(run(), True)["quantity"])
+        for entry in PUBLISHED:
+            assert any(name == entry.name or name.startswith(entry.name + ",") for name in names)
+
+    def test_an_empty_value_says_why(self) -> None:
+        table = paper_table(run(), True)
+        assert (table.loc[table["here"].isna(), "note"] != "").all()
+
+    def test_values_beside_each_other(self) -> None:
+        row = by_quantity(paper_table(run(), True)).loc["C_L at 10 deg (15e6 cells)"]
+        assert row["paper"] == 0.5684
+        assert row["here"] == pytest.approx(1.1 * 0.5684)
+        assert row["relative_difference"] == pytest.approx(0.1)
+        assert "a solver on 9 cells" in row["note"]
+
+    def test_onset_of_the_models_that_the_paper_speaks_of(self) -> None:
+        table = by_quantity(paper_table(run(), True))
+        assert table.loc["k* of the onset, 3d", "here"] == 6.0
+        assert table.loc["k* of the onset, 2d-corrected", "relative_difference"] == 0.0
+        assert (
+            "5 (limit cycle of 0.9 deg) to 7 (settled)" in table.loc["k* of the onset, 3d", "note"]
+        )
+        assert "k* of the onset, 2d" not in table.index
+
+    @pytest.mark.parametrize(
+        ("row", "says"),
+        [
+            (("3d", 5.0, math.nan), "below 5"),
+            (("3d", math.nan, 7.0), "above 7"),
+            (("3d", math.nan, math.nan), "every run failed"),
+        ],
+    )
+    def test_open_brackets(self, row: tuple[str, float, float], says: str) -> None:
+        found = by_quantity(paper_table(run(onset=onset(row)), True)).loc["k* of the onset, 3d"]
+        assert math.isnan(found["here"])
+        assert says in found["note"]
+
+    def test_bounds_hold_or_do_not(self) -> None:
+        table = by_quantity(paper_table(run(), True))
+        torsion = table.loc["first torsion mode over the others"]
+        assert torsion["here"] == pytest.approx(200.0)
+        assert torsion["note"].startswith("holds")
+        bending = table.loc["first bending mode over the others", "note"]
+        assert bending.startswith("does not hold")
+        assert math.isnan(torsion["relative_difference"])
+        assert table.loc["c_l/C_L at 10 deg", "note"] == "holds"
+        assert table.loc["c_m/C_M at 10 deg", "note"] == "does not hold here"
+
+    def test_without_the_beam(self) -> None:
+        table = by_quantity(paper_table(run(reference_3d=None), True))
+        assert math.isnan(table.loc["first torsion mode over the others", "here"])
+
+    def test_a_failed_incidence_is_blank_with_the_reason(self) -> None:
+        polar = polar_3d()
+        polar["cl"][0, 3] = math.nan
+        polar.attrs["failures"] = "coarse 10 deg: did not converge"
+        row = by_quantity(paper_table(run(polar_3d=polar), True)).loc["C_L at 10 deg (15e6 cells)"]
+        assert math.isnan(row["here"])
+        assert math.isnan(row["relative_difference"])
+        assert "did not converge" in row["note"]
+
+    def test_no_cost_without_a_run(self) -> None:
+        failed = summary({"2d": {5.0: "failed"}, "3d": {5.0: "failed"}})
+        failed["end_time"] = 0.0
+        row = by_quantity(paper_table(run(summary=failed, onset=onset()), True)).loc[
+            "cost of 3D over 2D, per time simulated"
+        ]
+        assert math.isnan(row["here"])
+
+    def test_cost_has_no_relative_difference(self) -> None:
+        row = by_quantity(paper_table(run(), True)).loc["cost of 3D over 2D, per time simulated"]
+        assert row["here"] == pytest.approx(4.0)
+        assert math.isnan(row["relative_difference"])
+
+    def test_another_case_than_the_papers_has_no_paper_column(self) -> None:
+        table = paper_table(run(), False)
+        assert table["paper"].isna().all()
+        assert table["relative_difference"].isna().all()
+        assert table["note"].str.contains("not the paper's case").all()
+        assert table["here"].notna().all()
+        assert by_quantity(table).loc["C_L at 5 deg", "here"] == pytest.approx(1.1 * 0.4826)
+
+
+class TestTables:
+    def test_table_1_has_all_meshes_and_the_run(self) -> None:
+        table = table_1(polar_3d(), True).set_index("incidence_deg")
+        assert table.loc[2.5, "C_M paper 15e6 cells"] == 0.0602
+        assert table.loc[10.0, "C_D paper 4.7e6 cells"] == 0.1551
+        assert table.loc[10.0, "C_D coarse"] == pytest.approx(1.1 * 0.1535)
+        assert (table["made_by"] == "coarse: a solver on 9 cells").all()
+
+    def test_table_1_leaves_incidences_blank_that_were_not_run(self) -> None:
+        table = table_1(polar_3d((0.0, 2.5, 4.0, 6.0)), True)
+        assert list(table["incidence_deg"]) == list(ANGLES)
+        assert table["C_L coarse"].isna().tolist() == [False, False, True, True]
+
+    def test_table_1_of_another_case(self) -> None:
+        table = table_1(polar_3d((0.0, 3.0)), False)
+        assert list(table["incidence_deg"]) == [0.0, 3.0]
+        assert table.filter(like="paper").isna().all(axis=None)
+
+    def test_table_2(self) -> None:
+        table = table_2(modes(), mesh_study(), 0.004 / 0.37, True).set_index("constant")
+        assert table.loc["C_3", "paper 8.5e3 elements"] == 1.77e-3
+        assert table.loc["C_2", "solid 24 x 89 x 2"] == pytest.approx(50.0 * 3e-5)
+        assert table.loc["C_2", "mesh 4 x 15 x 1"] == pytest.approx(1.02 * 50.0 * 3e-5)
+        assert table.loc["C_3", "analytic beam"] == pytest.approx(0.004 / 0.37 / (2 * math.pi))
+        assert list(table["kind"]) == ["bending", "bending", "torsion", "bending", "torsion"]
+
+    def test_table_2_of_another_case_without_second_torsion(self) -> None:
+        few = modes().isel(mode=[0, 1, 2, 3])
+        table = table_2(few, mesh_study(), 0.01, False).set_index("constant")
+        assert table.filter(like="paper").isna().all(axis=None)
+        assert math.isnan(table.loc["C_5", "solid 24 x 89 x 2"])
