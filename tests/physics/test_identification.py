@@ -53,6 +53,16 @@ def test_identification_finds_the_default_lags_again(release_k10):
     assert misfit.moment_residual < 0.33
 
 
+def test_the_lag_of_the_lift_pays_on_the_record_that_was_not_seen(release_k10, release_k5):
+    """Why there is a tau_3: it halves the misfit of c_l, also where it was not identified."""
+    without = UnsteadyLoads.from_polar(POLAR, replace(IDENTIFIED_LAGS, lift_lag=0.0))
+    for history in (release_k10, release_k5):
+        old, new = load_misfit(history, without), load_misfit(history, LOADS)
+        print(history.k_star, "c_l residual", old.lift_residual, "->", new.lift_residual)
+        assert new.lift_residual < 0.55 * old.lift_residual
+        assert new.moment_residual == pytest.approx(old.moment_residual)
+
+
 def test_lags_depend_little_on_where_the_record_starts(release_k10):
     for start in (3.0, 10.0, 20.0):
         lags = identify_lags(POLAR, [release_k10], start).lags
@@ -101,7 +111,7 @@ def test_the_release_that_was_not_seen(release_k5):
     assert judged.modelled.mean_deflection_chords == pytest.approx(
         judged.recorded.mean_deflection_chords, rel=0.05
     )
-    # about 0.11 deg of these are the polar's moment (see the next test but one), over k* = 5
+    # not good, and said so in docs/embedded.md: partly the moment of the steady polar
     assert 0.1 < judged.recorded.mean_twist_deg - judged.modelled.mean_twist_deg < 0.3
 
 

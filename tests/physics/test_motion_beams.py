@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
@@ -243,6 +244,18 @@ def test_the_beam_decays_at_high_and_flutters_at_low_stiffness():
     ).real
     assert growth[0] > 0.01
     assert growth[1] < 0.0
+
+
+@pytest.mark.parametrize(("induced", "onset"), [(True, 7.6), (False, 13.7)])
+def test_onset_of_the_beam(induced, onset):
+    """With and without induced incidence: docs/embedded.md on the worth of the first."""
+
+    def growth(k_star: float) -> float:
+        parameters = plates(k_star, induced=induced)
+        loads = UnsteadyLoads.from_polar(POLAR)
+        return float(least_stable_eigenvalue(beam_system(parameters, loads, INCIDENCE))[0].real)
+
+    assert brentq(growth, 4.0, 21.0, xtol=1e-3) == pytest.approx(onset, rel=0.02)
 
 
 def test_without_lag_of_the_bubble_the_beam_does_not_flutter():

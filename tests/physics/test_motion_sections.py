@@ -33,7 +33,8 @@ from equisection.motion.steady_states import (
 )
 from equisection.signals.cycles import find_cycles
 
-POLAR = read_polar(Path(__file__).parents[2] / "config/polars/plate_2d_10398.csv")
+POLARS = Path(__file__).parents[2] / "config/polars"
+POLAR = read_polar(POLARS / "plate_2d_10398.csv")
 INCIDENCE = math.radians(2.5)
 INERTIA, MASS_RATIO, STIFFNESS_RATIO = 6.67, 9.12, 0.183  # the paper's plate, A_theta,w in both
 
@@ -219,6 +220,15 @@ def test_a_section_that_leaves_the_polar_is_named_and_the_others_go_on():
     assert np.isfinite(history.twist[:, 1]).all()
 
 
+def test_a_section_that_starts_outside_the_polar_is_named():
+    incidence = np.radians([2.5, 13.0])
+    history = release_sections(plate_sections([21.0, 21.0]), measured(), incidence, 5.0)
+    (failure,) = history.failures
+    assert (failure.lane, failure.time) == (1, 0.0)
+    assert failure.incidence_rad == pytest.approx(math.radians(13.0))
+    assert history.samples.tolist() == [51, 0]
+
+
 def test_a_monitor_stops_lanes_and_progress_is_told():
     told: list[tuple[float, float]] = []
 
@@ -291,14 +301,26 @@ def test_a_thousand_sections_take_seconds():
     assert time.perf_counter() - began < 15.0
 
 
-def test_onset_of_the_uncorrected_section():
-    """k* = 13.3 at 2.5 deg: what docs/embedded.md quotes; growth there is slow."""
+@pytest.mark.parametrize(
+    ("incidence_deg", "onset"), [(1.0, 4.3), (2.0, 9.6), (2.5, 13.3), (3.0, 21.4), (5.0, 19.2)]
+)
+def test_onset_of_the_uncorrected_section(incidence_deg, onset):
+    """Growth passes zero there: the table of docs/embedded.md."""
+    assert section_onset(measured(), incidence_deg) == pytest.approx(onset, rel=0.01)
 
+
+def test_onset_with_the_polar_of_the_whole_plate():
+    """The corrected section of docs/embedded.md."""
+    whole = UnsteadyLoads.from_polar(read_polar(POLARS / "plate_3d_82520.csv"))
+    assert section_onset(whole, 2.5) == pytest.approx(8.5, rel=0.01)
+
+
+def section_onset(loads: UnsteadyLoads, incidence_deg: float) -> float:
     def growth(k_star: float) -> float:
-        system = section_system(plate_sections(k_star), measured(), INCIDENCE)
+        system = section_system(plate_sections(k_star), loads, math.radians(incidence_deg))
         return float(least_stable_eigenvalue(system)[0].real)
 
-    assert brentq(growth, 8.0, 21.0) == pytest.approx(13.3, abs=0.1)
+    return float(brentq(growth, 3.5, 40.0, xtol=1e-4))
 
 
 def test_parameters_that_make_no_sense_are_refused():

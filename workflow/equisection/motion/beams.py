@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
-from equisection.motion.march import Failure, Progress, Recording, march
+from equisection.motion.march import Failure, Monitor, Progress, Recording, march
 from equisection.motion.steady_states import rigid_state
 from equisection.motion.strip_system import StripStructure, StripSystem, assemble
 
@@ -177,11 +177,6 @@ def release_beams(
     bubble leaves the polar ends there and is named in ``failures``; the others go on.
     """
     system = beam_system(parameters, loads, incidence_rad)
-
-    def stop(recording: Recording, active: Indices) -> Indices:
-        assert monitor is not None
-        return monitor(_histories(recording, system), active)
-
     recording = march(
         system,
         rigid_state(system),
@@ -189,7 +184,7 @@ def release_beams(
         duration=duration,
         time_step=time_step,
         output_interval=output_interval,
-        monitor=None if monitor is None else stop,
+        monitor=_on_recording(monitor, system),
         progress=progress,
     )
     return _histories(recording, system)
@@ -217,6 +212,17 @@ def _outputs(parameters: BeamParameters, system: StripSystem) -> Floats:
         return np.broadcast_to(rows, (lanes, *rows.shape))
 
     return np.concatenate([for_all(tip), total, loads[:, -1:], for_all(amplitudes)], axis=1)
+
+
+def _on_recording(monitor: BeamMonitor | None, system: StripSystem) -> Monitor | None:
+    """Let a monitor of histories watch the recording of a march."""
+    if monitor is None:
+        return None
+
+    def stop(recording: Recording, active: Indices) -> Indices:
+        return monitor(_histories(recording, system), active)
+
+    return stop
 
 
 def _histories(recording: Recording, system: StripSystem) -> BeamHistories:

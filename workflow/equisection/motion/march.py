@@ -157,6 +157,7 @@ def march(
     )
     whole = _stepper(system, step)
     run = _Run(system, whole, np.arange(lanes), start[0].copy(), start[1].copy())
+    run.drop_lost_at_start(recording.failures)
     monitored = max(1, round(MONITOR_INTERVAL / output_interval))
     for sample in range(count):
         if sample:
@@ -205,6 +206,13 @@ class _Run:
         self.states = self.states[chosen]
         self.deficits = self.deficits[chosen]
         self._earlier = self._earlier[chosen]
+
+    def drop_lost_at_start(self, failures: list[Failure]) -> None:
+        """Drop lanes whose starting state is not inside the polar."""
+        lost = np.asarray(~np.isfinite(self.deficits).all(axis=1))
+        for lane in np.flatnonzero(lost):
+            failures.append(Failure(int(lane), 0.0, float(self._system.incidence[lane])))
+        self.keep(~lost)
 
     def advance(self, substeps: int, time: float, step: float, failures: list[Failure]) -> None:
         """Take ``substeps`` steps from ``time``; lanes that leave the polar drop out."""

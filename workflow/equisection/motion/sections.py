@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
-from equisection.motion.march import Failure, Progress, Recording, march
+from equisection.motion.march import Failure, Monitor, Progress, Recording, march
 from equisection.motion.steady_states import rigid_state
 from equisection.motion.strip_system import StripStructure, StripSystem, assemble
 
@@ -144,11 +144,6 @@ def release_sections(
     system = section_system(parameters, loads, incidence_rad)
     states = np.eye(4, system.rates.shape[2])[None].repeat(system.structure.lanes, axis=0)
     outputs = np.concatenate([states, system.strip_loads, system.probe], axis=1)
-
-    def stop(recording: Recording, active: Indices) -> Indices:
-        assert monitor is not None
-        return monitor(_histories(recording), active)
-
     recording = march(
         system,
         rigid_state(system),
@@ -156,10 +151,21 @@ def release_sections(
         duration=duration,
         time_step=time_step,
         output_interval=output_interval,
-        monitor=None if monitor is None else stop,
+        monitor=_on_recording(monitor),
         progress=progress,
     )
     return _histories(recording)
+
+
+def _on_recording(monitor: SectionMonitor | None) -> Monitor | None:
+    """Let a monitor of histories watch the recording of a march."""
+    if monitor is None:
+        return None
+
+    def stop(recording: Recording, active: Indices) -> Indices:
+        return monitor(_histories(recording), active)
+
+    return stop
 
 
 def _histories(recording: Recording) -> SectionHistories:

@@ -139,6 +139,8 @@ class StripSystem:
         Where each state is.
     structure, loads
         What the system was assembled from.
+    incidence
+        theta_0 (rad), shape (N,).
     rates
         [A | B | e], shape (N, n, n + 2 S + 1).
     probe
@@ -150,6 +152,7 @@ class StripSystem:
     layout: StateLayout
     structure: StripStructure
     loads: UnsteadyLoads
+    incidence: Floats
     rates: Floats
     probe: Floats
     strip_loads: Floats
@@ -172,6 +175,7 @@ class StripSystem:
         """Keep some of the lanes (their matrices only)."""
         return replace(
             self,
+            incidence=self.incidence[lanes],
             rates=self.rates[lanes],
             probe=self.probe[lanes],
             strip_loads=self.strip_loads[lanes],
@@ -211,7 +215,7 @@ def assemble(
     constant = np.broadcast_to(np.asarray(incidence_rad, dtype=np.float64), (lanes,))
     for matrix in (rates, probe, strip_loads):
         matrix[:, :, -1] *= constant[:, None]
-    return StripSystem(layout, structure, loads, rates, probe, strip_loads)
+    return StripSystem(layout, structure, loads, constant, rates, probe, strip_loads)
 
 
 @dataclass(frozen=True)
