@@ -5,13 +5,14 @@ from pathlib import Path
 
 import equisection
 from equisection import plan
-from equisection.config import load_config, resolve_config
+from equisection.config import check_files, load_config, resolve_config
 from equisection.errors import ConfigError
 from equisection.results.whole import set_aside_broken
 from equisection.solvers.registry import SOLVERS, Capability
 
 try:
     CONFIG = load_config(config)
+    check_files(CONFIG)
 except ConfigError as error:
     print(error, file=sys.stderr)
     sys.exit(1)

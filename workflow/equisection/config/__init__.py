@@ -5,7 +5,8 @@ reference of all keys (``config/README.md``) come from the models of
 :mod:`equisection.config.sections`; ``python -m equisection.config`` writes both files.
 """
 
+from equisection.config.files import check_files
 from equisection.config.load import load_config, resolve_config
 from equisection.config.model import Config
 
-__all__ = ["Config", "load_config", "resolve_config"]
+__all__ = ["Config", "check_files", "load_config", "resolve_config"]

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, get_args
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from equisection.config.checks import DisagreementError, Path, Problem, disagreements
 from equisection.config.model import Config
+from equisection.config.sections import Section
 from equisection.errors import ConfigError
-
-#: Tags of unions; they are no part of a key's path.
-_TAGS = frozenset({"list", "range"})
-#: A model's own check starts its message with the path of the key that is wrong.
-_OWN_PATH = re.compile(r"^(?P<key>[a-z0-9_.]+): (?P<rest>.*)$", re.DOTALL)
 
 
 def load_config(raw: Mapping[str, Any]) -> Config:
@@ -26,11 +22,14 @@ def load_config(raw: Mapping[str, Any]) -> Config:
     ConfigError
         With one line for each problem: the key's path, the value found, what is allowed.
     """
+    if not isinstance(raw, Mapping):
+        problem = Problem("", raw, "allowed is a file of sections, as config/config.yaml is")
+        raise ConfigError(problem.line)
     try:
         return Config.model_validate(dict(raw))
     except ValidationError as error:
-        lines = sorted({_line(problem) for problem in error.errors()})
-        raise ConfigError("\n".join(lines)) from None
+        problems = _problems(raw, error.errors(include_url=False))
+    raise ConfigError("\n".join(dict.fromkeys(problem.line for problem in problems)))
 
 
 def resolve_config(config: Config) -> dict[str, Any]:
@@ -38,47 +37,59 @@ def resolve_config(config: Config) -> dict[str, Any]:
     return config.model_dump(mode="json")
 
 
-def _line(problem: ErrorDetails) -> str:
-    path = ".".join(str(part) for part in problem["loc"] if part not in _TAGS)
-    if problem["type"] == "value_error":
-        message = str(problem["ctx"]["error"])
-        own = _OWN_PATH.match(message)
-        if own:
-            path = f"{path}.{own['key']}" if path else own["key"]
-            return f"config: {path}: {own['rest']}"
-        return f"config: {path}: {message}"
-    if problem["type"] == "extra_forbidden":
-        return f"config: {path}: unknown key; allowed here: {_allowed_keys(problem['loc'])}"
-    if problem["type"] == "missing":
-        return f"config: {path}: missing; it has no default"
-    if problem["type"] in ("model_type", "model_attributes_type", "dict_type"):
-        return f"config: {path}: {problem['input']!r}: a section with keys is allowed here"
-    return f"config: {path}: {problem['input']!r}: {_allowed(problem['msg'])}"
+def _problems(raw: Mapping[str, Any], errors: Sequence[ErrorDetails]) -> list[Problem]:
+    """Return what is wrong with values, then what the right ones do not agree on."""
+    first = errors[0].get("ctx", {}).get("error")
+    if isinstance(first, DisagreementError):
+        return first.problems
+    # Only a wrong configuration needs the schema for its words.
+    from equisection.config.messages import meant_key, path_of, problem_of  # noqa: PLC0415
+
+    errors = [error for error in errors if not _follows_from_others(error, errors)]
+    wrong = [_field_of(path_of(error)) for error in errors]
+    meant = [path for error in errors if (path := meant_key(error))]
+    sound = _without(raw, wrong)
+    problems = [problem_of(error) for error in errors]
+    try:
+        config = Config.model_validate(sound, context={"values_only": True})
+    except ValidationError:
+        return problems
+    return problems + disagreements(config, [*wrong, *meant])
 
 
-def _allowed(message: str) -> str:
-    return re.sub(r"^Input should be (a |an )?", "allowed is ", message)
+def _follows_from_others(error: ErrorDetails, errors: Sequence[ErrorDetails]) -> bool:
+    """Tell whether a list is short only because some of its entries were refused."""
+    depth = len(error["loc"])
+    return error["type"] == "too_short" and any(
+        len(other["loc"]) > depth and other["loc"][:depth] == error["loc"] for other in errors
+    )
 
 
-def _allowed_keys(loc: tuple[int | str, ...]) -> str:
-    """Return the keys of the section that holds the unknown one."""
-    model: Any = Config
-    for part in loc[:-1]:
-        if part in _TAGS or isinstance(part, int):
-            continue
-        field = model.model_fields.get(part)
-        if field is None:
-            break
-        model = _section_in(field.annotation) or model
-    return ", ".join(model.model_fields)
+def _field_of(path: Path) -> Path:
+    """Return the path down to the key that has a default, for instance to a whole list."""
+    section: type[BaseModel] | None = Config
+    for depth, part in enumerate(path, start=1):
+        field = section.model_fields.get(str(part)) if section else None
+        section = _section_in(field.annotation) if field else None
+        if section is None:
+            return path[:depth]
+    return path
 
 
-def _section_in(annotation: Any) -> Any:
-    """Return the section that an annotation holds, for instance in ``Channel | None``."""
-    if hasattr(annotation, "model_fields"):
-        return annotation
-    for argument in getattr(annotation, "__args__", ()):
-        found = _section_in(argument)
-        if found is not None:
-            return found
+def _section_in(annotation: Any) -> type[BaseModel] | None:
+    """Return the section that an annotation holds, alone or beside ``None``."""
+    kinds = [kind for kind in get_args(annotation) or (annotation,) if kind is not type(None)]
+    if len(kinds) == 1 and isinstance(kinds[0], type) and issubclass(kinds[0], Section):
+        return kinds[0]
     return None
+
+
+def _without(raw: Mapping[Any, Any], paths: Sequence[Path]) -> dict[Any, Any]:
+    """Return a copy without the keys at some paths."""
+    dropped = {path[0] for path in paths if len(path) == 1}
+    kept: dict[Any, Any] = {}
+    for key, value in raw.items():
+        below = [path[1:] for path in paths if len(path) > 1 and path[0] == key]
+        if key not in dropped:
+            kept[key] = _without(value, below) if below and isinstance(value, Mapping) else value
+    return kept

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field, ValidationInfo, model_validator
 
+from equisection.config.checks import DisagreementError, Problem, check, disagreements
 from equisection.config.sections import (
     FREE_TIP,
     Beam,
     Embedded,
     Flow,
-    Name,
     Section,
     Steady,
     Structure,
     Sweep,
     Unsteady,
 )
+from equisection.config.values import Name
+
+#: Holds the recorded reference runs, which no run may mix with.
+RESERVED_RUN = "reference"
 
 
 class Config(Section):
@@ -34,51 +39,66 @@ class Config(Section):
         description="Equivalent section of the models `2d` and `2d-corrected`: `consistent` "
         "keeps the natural frequencies, `paper` is Eq. 17 as printed.",
     )
-    beam: Beam = Field(default_factory=Beam, description="The beam.")
-    flow: Flow = Field(default_factory=Flow, description="The flow.")
-    structure: Structure = Field(default_factory=Structure, description="Mode computation.")
-    steady: Steady = Field(default_factory=Steady, description="Steady polars.")
-    sweep: Sweep = Field(default_factory=Sweep, description="The sweep over k*.")
-    unsteady: Unsteady = Field(default_factory=Unsteady, description="Unsteady runs.")
-    embedded: Embedded = Field(default_factory=Embedded, description="The embedded solver.")
+    beam: Beam = Field(Beam(), description="The beam.")
+    flow: Flow = Field(Flow(), description="The flow.")
+    structure: Structure = Field(Structure(), description="Mode computation.")
+    steady: Steady = Field(Steady(), description="Steady polars.")
+    sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
+    unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")
+    embedded: Embedded = Field(Embedded(), description="The embedded solver.")
 
     @model_validator(mode="after")
-    def _tip_needs_room(self) -> Config:
-        channel = self.flow.channel
-        if channel and channel.tip_gap_chords == 0 and self.beam.boundary in FREE_TIP:
-            raise ValueError(
-                "flow.channel.tip_gap_chords: 0 leaves no room for the free tip of boundary "
-                f"'{self.beam.boundary}'; above 0 is allowed"
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _resolutions_exist(self) -> Config:
-        if self.solver != "embedded":
-            return self
-        for key, names in (
-            ("resolution", (self.steady.resolution,)),
-            ("study", self.steady.study),
-        ):
-            for name in names:
-                if name not in self.embedded.polars:
-                    raise ValueError(
-                        f"steady.{key}: '{name}' has no polar; the names in embedded.polars are "
-                        f"allowed: {', '.join(sorted(self.embedded.polars))}"
-                    )
-        return self
-
-    @model_validator(mode="after")
-    def _incidence_in_sweep_of_angles(self) -> Config:
-        low, high = self.steady.incidence_deg[0], self.steady.incidence_deg[-1]
-        if not low <= self.flow.incidence_deg <= high:
-            raise ValueError(
-                f"flow.incidence_deg: {self.flow.incidence_deg:g} is outside the steady "
-                f"incidences; {low:g} to {high:g} (steady.incidence_deg) is allowed"
-            )
+    def _agree(self, info: ValidationInfo) -> Config:
+        """Run the checks, unless only the values themselves are to be read."""
+        if not (info.context or {}).get("values_only"):
+            found = disagreements(self)
+            if found:
+                raise DisagreementError(found)
         return self
 
     @property
     def is_paper_case(self) -> bool:
         """Whether beam and flow are those of the paper, so that its numbers can stand beside."""
         return self.beam == Beam() and self.flow == Flow()
+
+
+@check("run")
+def _not_reserved(run: str) -> Iterator[Problem]:
+    if run.lower() == RESERVED_RUN:
+        yield Problem("run", run, "allowed is another name; results/reference holds recorded runs")
+
+
+@check("flow.channel.tip_gap_chords", "beam.boundary")
+def _tip_needs_room(gap: float | None, boundary: str) -> Iterator[Problem]:
+    if gap == 0 and boundary in FREE_TIP:
+        yield Problem(
+            "flow.channel.tip_gap_chords",
+            gap,
+            f"allowed is a number above 0 with the free tip of boundary '{boundary}'",
+        )
+
+
+@check("steady.resolution", "steady.study", "embedded.polars", "solver")
+def _resolutions_exist(
+    resolution: str, study: tuple[str, ...], polars: dict[str, str], solver: str
+) -> Iterator[Problem]:
+    if solver != "embedded":
+        return
+    names = {"steady.resolution": resolution}
+    names |= {f"steady.study.{place}": name for place, name in enumerate(study)}
+    for key, name in names.items():
+        if name not in polars:
+            yield Problem(
+                key, name, f"allowed is a name in embedded.polars: {', '.join(sorted(polars))}"
+            )
+
+
+@check("flow.incidence_deg", "steady.incidence_deg")
+def _incidence_within_polar(incidence_deg: float, angles: tuple[float, ...]) -> Iterator[Problem]:
+    low, high = min(angles), max(angles)
+    if not low <= incidence_deg <= high:
+        yield Problem(
+            "flow.incidence_deg",
+            incidence_deg,
+            f"allowed is {low:g} to {high:g} deg, what steady.incidence_deg covers",
+        )

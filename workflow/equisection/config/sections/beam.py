@@ -1,0 +1,96 @@
+"""Section ``beam``: the flexible beam and how it is held."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from equisection.config.checks import Problem, check
+from equisection.config.sections.base import Section
+from equisection.config.values import NULLABLE, NUMBER, Positive
+
+Boundary = Literal[
+    "clamped-free",
+    "clamped-clamped",
+    "pinned-pinned",
+    "clamped-pinned",
+    "one-fork",
+    "spring-root",
+]
+#: Boundaries whose far end moves freely, and so need a gap to the channel's wall.
+FREE_TIP: frozenset[str] = frozenset({"clamped-free", "spring-root"})
+
+
+class Beam(Section):
+    """The flexible beam: a plate of rectangular section, and how it is held."""
+
+    chord: Positive = Field(0.1, description="Chord c (m).")
+    length: Positive = Field(0.37, description="Span L (m), longer than the chord.")
+    thickness: Positive = Field(0.004, description="Thickness h (m), below half the chord.")
+    youngs_modulus: Positive = Field(
+        3.3e9, description="Young's modulus E (Pa) of the reference beam; the sweep scales it."
+    )
+    poisson_ratio: Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False), NUMBER] = Field(
+        0.35, description="Poisson's ratio nu (-)."
+    )
+    density: Positive = Field(1180.0, description="Density rho_s (kg/m3).")
+    boundary: Boundary = Field(
+        "clamped-free",
+        description="How the beam is held, root first. `pinned-pinned` has fork ends (no twist "
+        "at either end), `one-fork` is pinned at both ends with the twist held at the root "
+        "only, `spring-root` is held by the two root springs alone.",
+    )
+    root_torsional_stiffness: Annotated[Positive | None, NULLABLE] = Field(
+        None,
+        description="Stiffness of the root's torsional spring (N m/rad); needed with "
+        "`spring-root`, and only there.",
+    )
+    root_bending_stiffness: Annotated[Positive | None, NULLABLE] = Field(
+        None,
+        description="Stiffness of the root's rotational spring in bending (N m/rad); needed "
+        "with `spring-root`, and only there.",
+    )
+
+
+@check("beam.thickness", "beam.chord")
+def _thin(thickness: float, chord: float) -> Iterator[Problem]:
+    if thickness >= chord / 2:
+        yield Problem(
+            "beam.thickness",
+            thickness,
+            f"allowed is a number above 0 and below half the chord, {chord / 2:g} m",
+        )
+
+
+@check("beam.length", "beam.chord")
+def _slender(length: float, chord: float) -> Iterator[Problem]:
+    if length <= chord:
+        yield Problem(
+            "beam.length", length, f"allowed is a number above the chord, beam.chord = {chord:g} m"
+        )
+
+
+@check("beam.root_torsional_stiffness", "beam.boundary")
+def _torsional_spring(stiffness: float | None, boundary: str) -> Iterator[Problem]:
+    yield from _spring("beam.root_torsional_stiffness", stiffness, boundary)
+
+
+@check("beam.root_bending_stiffness", "beam.boundary")
+def _bending_spring(stiffness: float | None, boundary: str) -> Iterator[Problem]:
+    yield from _spring("beam.root_bending_stiffness", stiffness, boundary)
+
+
+def _spring(key: str, stiffness: float | None, boundary: str) -> Iterator[Problem]:
+    if boundary == "spring-root" and stiffness is None:
+        yield Problem(
+            key,
+            stiffness,
+            "allowed is a number above 0 (N m/rad); with boundary 'spring-root' nothing else "
+            "holds the root's rotation",
+        )
+    if boundary != "spring-root" and stiffness is not None:
+        yield Problem(
+            key, stiffness, f"allowed is null with boundary '{boundary}', which has no root spring"
+        )

@@ -1,0 +1,51 @@
+"""Section ``embedded``: the solver that needs nothing but Python packages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from equisection.config.checks import Problem, check
+from equisection.config.sections.base import Section
+from equisection.config.values import WHOLE, Name, NotNegative, Number, Truth
+
+#: Stands in the place of a polar file for thin-plate theory.
+FLAT_PLATE = "flat-plate"
+
+
+class Separation(Section):
+    """Lags of the separation bubble (c/V); the defaults are identified from CFD histories."""
+
+    relaxation: NotNegative = Field(2.94, description="tau_1 of the bubble (c/V).")
+    delay: Number = Field(1.17, description="tau_2 of the bubble (c/V); 0 where `relaxation` is 0.")
+    lift_lag: NotNegative = Field(0.85, description="tau_3 of the lift behind the bubble (c/V).")
+
+
+class Embedded(Section):
+    """The embedded solver."""
+
+    polars: Annotated[dict[Name, Annotated[str, Field(min_length=1)]], Field(min_length=1)] = Field(
+        {"coarse": "config/polars/plate_2d_10398.csv"},
+        description="Section polar of each resolution: a CSV file (`incidence_deg,cl,cm,cd`; "
+        "path from the working directory) or `flat-plate` for the thin analytic plate.",
+    )
+    symmetric: Truth = Field(
+        True,
+        description="Whether the files hold incidences from 0 deg on, of a symmetric section.",
+    )
+    separation: Separation = Field(Separation(), description="Lags of the separation bubble.")
+    strips: Annotated[int, Field(ge=4, le=100), WHOLE] = Field(
+        20, description="Strips along the span (-)."
+    )
+
+
+@check("embedded.separation.delay", "embedded.separation.relaxation")
+def _delay_of_a_lag(delay: float, relaxation: float) -> Iterator[Problem]:
+    if relaxation == 0 and delay != 0:
+        yield Problem(
+            "embedded.separation.delay",
+            delay,
+            "allowed is 0 where relaxation is 0 (a bubble without lag)",
+        )

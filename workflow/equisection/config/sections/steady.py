@@ -1,0 +1,55 @@
+"""Section ``steady``: polars of the section and of the rigid beam."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from equisection.config.checks import Problem, check
+from equisection.config.sections.base import Section
+from equisection.config.values import Angle, Name
+
+
+class Steady(Section):
+    """Steady polars of the section and of the rigid beam."""
+
+    incidence_deg: Annotated[tuple[Angle, ...], Field(min_length=4)] = Field(
+        (0.0, 1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0),
+        description="Incidences (deg), ascending; different in their first six digits.",
+    )
+    resolution: Name = Field(
+        "coarse", description="Resolution whose polars go into everything that follows."
+    )
+    study: tuple[Name, ...] = Field(
+        (), description="Further resolutions for the grid study (Fig. 6)."
+    )
+
+
+@check("steady.incidence_deg")
+def _ascending(angles: tuple[float, ...]) -> Iterator[Problem]:
+    for place, (lower, upper) in enumerate(itertools.pairwise(angles), start=1):
+        key = f"steady.incidence_deg.{place}"
+        if not upper > lower:
+            yield Problem(key, upper, f"allowed is an angle above the one before it, {lower:g} deg")
+        elif f"{upper:.6g}" == f"{lower:.6g}":
+            yield Problem(
+                key,
+                upper,
+                "allowed is an angle that differs from the one before it in the first six "
+                f"digits, which name its files ({lower:.6g})",
+            )
+
+
+@check("steady.study", "steady.resolution")
+def _distinct(study: tuple[str, ...], resolution: str) -> Iterator[Problem]:
+    names = [resolution, *study]
+    for place, name in enumerate(study):
+        if name in names[: place + 1]:
+            yield Problem(
+                f"steady.study.{place}",
+                name,
+                "allowed is a resolution that stands neither before it nor in steady.resolution",
+            )
