@@ -4,8 +4,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from equisection import plan
-from equisection.cases.store import case_hash, read_case
-from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.results.netcdf import write_dataset
+from equisection.results.of_case import dataset_of_case
 from equisection.results.polar import gather_polar
 from equisection.script import logged
 
@@ -13,7 +13,7 @@ from equisection.script import logged
 def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:
     """Gather the results, each checked to be that of its case."""
     gathered = {
-        plan.angle_of(result.stem): read_dataset(result, case_hash(read_case(case)))
+        plan.angle_of(result.stem): dataset_of_case(case, result)
         for case, result in zip(cases, results, strict=True)
     }
     write_dataset(output, gather_polar(gathered))

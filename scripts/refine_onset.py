@@ -4,10 +4,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from equisection import plan
-from equisection.cases.store import case_hash, read_case
 from equisection.comparison.onset import bracket_of, refinement_points
 from equisection.comparison.summary import summarise
-from equisection.results.netcdf import read_attributes
+from equisection.results.of_case import attributes_of_case
 from equisection.script import logged
 
 
@@ -16,7 +15,7 @@ def main(
 ) -> None:
     """Write the k* that narrow the bracket; none when it is open or narrow enough."""
     rows = [
-        (result.parent.name, read_attributes(result, case_hash(read_case(case))))
+        (result.parent.name, attributes_of_case(case, result))
         for case, result in zip(cases, results, strict=True)
     ]
     bracket = bracket_of(summarise(rows))

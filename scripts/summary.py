@@ -3,17 +3,16 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.cases.store import case_hash, read_case
 from equisection.comparison.summary import summarise
 from equisection.files import written_whole
-from equisection.results.netcdf import read_attributes
+from equisection.results.of_case import attributes_of_case
 from equisection.script import logged
 
 
 def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:
     """Summarise the verdicts, each checked to be that of its case."""
     rows = [
-        (result.parent.name, read_attributes(result, case_hash(read_case(case))))
+        (result.parent.name, attributes_of_case(case, result))
         for case, result in zip(cases, results, strict=True)
     ]
     with written_whole(output) as aside:

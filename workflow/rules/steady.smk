@@ -1,7 +1,12 @@
-"""Steady polars of the section (2D) and of the rigid beam (3D)."""
+"""Steady polars of the section (2D) and of the rigid beam (3D).
+
+Case files are written by checkpoints: after one, Snakemake looks again at what has to run, by
+content, and so drops the solver jobs whose case came out unchanged. After a rule it would run
+every job that depends on a file written anew.
+"""
 
 
-rule steady_cases:
+checkpoint steady_cases:
     """Write the case file of each incidence and resolution."""
     input:
         polars=solver_input_files(),

@@ -1,10 +1,13 @@
-"""Unsteady runs over k*: the section, the corrected section and the beam."""
+"""Unsteady runs over k*: the section, the corrected section and the beam.
+
+Case files are written by checkpoints, for the reason given in steady.smk.
+"""
 
 
 ruleorder: unsteady_cases > refined_case
 
 
-rule unsteady_cases:
+checkpoint unsteady_cases:
     """Write the case file of each k* of the sweep for a model."""
     input:
         unpack(structure_of_model),
@@ -33,7 +36,7 @@ rule unsteady_cases:
         "../../scripts/unsteady_cases.py"
 
 
-rule refined_case:
+checkpoint refined_case:
     """Write the case file of a k* that the refinement of the onset asks for."""
     input:
         unpack(structure_of_model),

@@ -6,6 +6,8 @@ import struct
 import sys
 from pathlib import Path
 
+from equisection.files import TEMPORARY
+
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
 #: Where the superblock of each version keeps the address at which the file ends.
 _END_OF_FILE_OFFSET = {0: 40, 1: 44, 2: 28, 3: 28}
@@ -30,20 +32,32 @@ def is_whole(path: Path) -> bool:
     return bool(size >= end > 0)
 
 
+def set_aside(path: Path) -> Path:
+    """Rename a result that cannot be used to ``<name>.broken``, so that it is made anew."""
+    aside = path.with_name(path.name + ".broken")
+    path.replace(aside)
+    return aside
+
+
 def set_aside_broken(run: Path) -> list[Path]:
-    """Rename the run's NetCDF files that are not whole, and say so, so that they are made anew.
+    """Set the run's NetCDF files aside that are not whole, and say so.
+
+    Files that a job is writing at this moment (``.tmp-...``) are left alone, so that a dry run
+    does not disturb a run.
 
     Returns
     -------
     list of Path
         The files that were renamed to ``<name>.broken``.
     """
-    broken = [path for path in run.glob("**/*.nc") if not is_whole(path)]
+    broken = [
+        path
+        for path in run.glob("**/*.nc")
+        if not path.name.startswith(TEMPORARY) and not is_whole(path)
+    ]
     for path in broken:
-        aside = path.with_name(path.name + ".broken")
-        path.replace(aside)
         print(
-            f"{path}: truncated or not NetCDF-4; kept as {aside.name}, computed again",
+            f"{path}: truncated or not NetCDF-4; kept as {set_aside(path).name}, computed again",
             file=sys.stderr,
         )
     return broken
