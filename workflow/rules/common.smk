@@ -1,5 +1,6 @@
 """What all rules share: the validated configuration, where files go, and package sources."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -40,13 +41,14 @@ wildcard_constraints:
 def sources(*parts):
     """Return the package's source files of some parts, so that editing one redraws or
     recomputes what is cheap. Rules that run a solver take none: their case file decides.
+    The paths are relative, so that a project that was moved has nothing to do.
     """
     package = Path(equisection.__file__).parent
     found = []
     for part in parts:
         place = package / part
         found += sorted(place.glob("*.py")) if place.is_dir() else [place]
-    return [str(path) for path in found]
+    return [os.path.relpath(path) for path in found]
 
 
 def solver_input_files():
