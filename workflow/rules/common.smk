@@ -90,6 +90,15 @@ def results_before_round(wildcards):
     return case_and_result_files(wildcards.model, int(wildcards.round) - 1)
 
 
+def last_rounds_of_refinement():
+    """Return the last round of each model, so that all models are refined side by side; the
+    search for the results alone stops at the first model that is not refined yet.
+    """
+    rounds = plan.refinement_rounds(CONFIG)
+    models = CONFIG.sweep.models if rounds else ()
+    return [f"{RESULTS}/comparison/refine/{model}_{rounds}.json" for model in models]
+
+
 def results_of_sweep(wildcards):
     """Return all runs of all models, with those of the refinement of the onset."""
     files = {"cases": [], "results": []}

@@ -27,6 +27,7 @@ rule summary:
     """One line for each run of each model."""
     input:
         unpack(results_of_sweep),
+        refinement=last_rounds_of_refinement(),
         sources=sources("comparison/summary.py", "results"),
     output:
         f"{RESULTS}/comparison/summary.csv",
