@@ -8,6 +8,7 @@ import logging
 import os
 import subprocess
 import sys
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -59,6 +60,12 @@ class TestSnapshot:
         there = snapshot(process=Process("elsewhere", 1, ""))
         assert there.lives(now=1061.0)
         assert not there.lives(now=1061.0 + progress.SILENCE)
+
+    def test_few_words_fit_beside_a_bar(self) -> None:
+        now = time.time()
+        state = snapshot(started=now, first_time=now, updated=now + 1e-3, done=5599.0, total=5600.0)
+        words = state.few_words()
+        assert len("unsteady 2d-corrected " + 21 * "-" + words) <= 80
 
 
 class TestProcess:
@@ -187,6 +194,13 @@ class TestBar:
         assert "\r" not in shown
         assert len(shown.splitlines()) == 10
         assert shown.splitlines()[4] == "unsteady 2d  [#####-----]  50 %"
+
+    def test_a_slow_job_shows_a_sign_before_its_next_tenth(
+        self, screen: io.StringIO, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.setattr(progress_bar, "LINE_INTERVAL_OF_SLOW_RUN", 0.0)
+        self.bar(screen).show(0.03, "3 %", alone=False)
+        assert screen.getvalue() == "unsteady 2d  [----------]  3 %\n"
 
     def test_a_moving_bar_goes_when_another_job_comes(self, screen: io.StringIO) -> None:
         bar = self.bar(screen)

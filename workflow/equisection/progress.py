@@ -113,13 +113,19 @@ class Snapshot:
         return lives
 
     def words(self) -> str:
-        """Return how far the job is, in words."""
-        end = self.estimated_end
+        """Return how far the job is, in the words of a log."""
         return (
             f"{self.done:.0f} of {self.total:.0f} {self.unit} ({100 * self.fraction:.0f} %), "
-            f"since {clock(self.started)}, "
-            + (f"ends about {clock(end)}" if end else "end not yet known")
+            f"since {clock(self.started)}, {self._end()}"
         )
+
+    def few_words(self) -> str:
+        """Return the same in what fits beside a bar on 80 columns."""
+        return f"{100 * self.fraction:.0f} % of {self.total:.0f} {self.unit}, {self._end()}"
+
+    def _end(self) -> str:
+        end = self.estimated_end
+        return "end not yet known" if end is None else f"ends about {clock(end)}"
 
 
 class JobProgress:
@@ -169,7 +175,7 @@ class JobProgress:
             logger.info("%s", self._now.words())
             self._logged_time, self._logged_fraction = now, self._now.fraction
         if self._bar is not None:
-            self._bar.show(self._now.fraction, self._now.words(), alone=self._is_alone())
+            self._bar.show(self._now.fraction, self._now.few_words(), alone=self._is_alone())
 
     def __exit__(
         self,

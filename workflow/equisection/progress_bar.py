@@ -17,6 +17,8 @@ from rich.progress import BarColumn, Progress, TaskID, TextColumn
 _TENTHS = 10
 #: Seconds before the first sign of a job, and between two lines.
 PATIENCE, LINE_INTERVAL = 4.0, 10.0
+#: Seconds after which a job that takes long for its next tenth has a line all the same.
+LINE_INTERVAL_OF_SLOW_RUN = 600.0
 
 
 class Bar:
@@ -28,7 +30,7 @@ class Bar:
         self._moving: Progress | None = None
         self._task = TaskID(0)
         self._started = time.monotonic()
-        self._tenth, self._line_time = 0, 0.0
+        self._tenth, self._line_time = 0, self._started
 
     def show(self, fraction: float, words: str, *, alone: bool) -> None:
         """Show a state: ``fraction`` from 0 to 1, and the same in words."""
@@ -63,7 +65,8 @@ class Bar:
 
     def _line(self, fraction: float, words: str) -> None:
         tenth, now = int(fraction * _TENTHS), time.monotonic()
-        if tenth <= self._tenth or now - self._line_time < LINE_INTERVAL:
+        wanted = LINE_INTERVAL if tenth > self._tenth else LINE_INTERVAL_OF_SLOW_RUN
+        if now - self._line_time < wanted:
             return
         self._tenth, self._line_time = tenth, now
         filled = "#" * tenth + "-" * (_TENTHS - tenth)
