@@ -109,6 +109,29 @@ def results_of_sweep(wildcards):
     return files
 
 
+def runs_of_sweep(wildcards):
+    """Return the results of all runs of all models."""
+    return results_of_sweep(wildcards)["results"]
+
+
+def structure_files():
+    """Return what is known of the beam without a flow."""
+    return [
+        f"{RESULTS}/structure/{name}.nc" for name in ("modes", "mesh_study", "equivalent")
+    ]
+
+
+def steady_files():
+    """Return the results of the rigid section and beam, one by one and gathered."""
+    single = [
+        f"{RESULTS}/steady/{dimension}/{case}.nc"
+        for dimension in ("2d", "3d")
+        for case in STEADY
+    ]
+    gathered = ("polar_2d", "polar_3d", "correction")
+    return single + [f"{RESULTS}/steady/{name}.nc" for name in gathered]
+
+
 def figure_files():
     """Return the figures of the run, each in three formats."""
     return [

@@ -46,19 +46,21 @@ def read_case(path: Path) -> Case:
     try:
         raw = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise CaseFileError(f"{path}: cannot be read as a case ({error})") from None
+        raise CaseFileError(
+            f"{path}: cannot be read as a case ({error}); delete it and run again"
+        ) from None
     found = raw.get("schema_version") if isinstance(raw, dict) else None
     if found != SCHEMA_VERSION:
         raise CaseFileError(
             f"{path}: schema version {found}; version {SCHEMA_VERSION} is read here. "
-            "Delete the file and run again to have it written anew"
+            "It was not written by this version of the workflow: delete it and run again"
         )
     try:
         return _CASE.validate_python(raw)
     except ValidationError as error:
         problem = error.errors()[0]
         where = ".".join(str(part) for part in problem["loc"])
-        raise CaseFileError(f"{path}: {where}: {problem['msg']}") from None
+        raise CaseFileError(f"{path}: {where}: {problem['msg']}; delete it and run again") from None
 
 
 def _rounded(value: Any) -> Any:
