@@ -7,7 +7,7 @@ import equisection
 from equisection import plan
 from equisection.config import check_files, load_config, resolve_config
 from equisection.errors import ConfigError
-from equisection.results.whole import set_aside_broken
+from equisection.results.mend import mend
 from equisection.solvers.registry import SOLVERS, Capability
 
 try:
@@ -26,15 +26,17 @@ PROVIDES = SOLVERS[CONFIG.solver].provides
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
 
-# A result that was cut short by a crash of the machine must not pass for a finished one.
+# What was cut short by a crash, lost or exchanged must not pass for a finished result.
 if workflow.is_main_process:
-    set_aside_broken(Path(RESULTS))
+    for line in mend(Path(RESULTS)):
+        print(line, file=sys.stderr)
 
 
 wildcard_constraints:
     dimension=plan.DIMENSION_PATTERN,
     model=plan.MODEL_PATTERN,
     case=plan.CASE_PATTERN,
+    batch=plan.BATCH_PATTERN,
 
 
 def sources(*parts):
@@ -65,37 +67,54 @@ def structure_of_model(wildcards):
     return files
 
 
-def cases_of_model(model, rounds):
-    """Return the names of a model's cases: the sweep's, then those of rounds of refinement."""
-    names = list(SWEEP)
-    for number in range(1, rounds + 1):
-        chosen = checkpoints.refine_onset.get(model=model, round=number).output[0]
-        names += plan.read_refinement(Path(chosen))
-    return names
+def inputs_of_batch(wildcards):
+    """Return what a batch of a model's cases is made from; a round has the k* chosen for it."""
+    files = structure_of_model(wildcards)
+    if wildcards.batch != plan.SWEEP_BATCH:
+        files["chosen"] = (
+            f"{RESULTS}/comparison/refine/{wildcards.model}_{wildcards.batch}.json"
+        )
+    return files
 
 
-def case_and_result_files(model, rounds):
-    """Return case files and result files of a model, in the same order."""
-    names = cases_of_model(model, rounds)
+def indices_of_sweep(wildcards):
+    """Return the indices of all results of all models."""
+    return [
+        f"{RESULTS}/unsteady/{model}/{batch}.json"
+        for model in CONFIG.sweep.models
+        for batch in plan.batches(CONFIG)
+    ]
+
+
+def indices_before_round(wildcards):
+    """Return the results that a round of refinement decides on: those of the batches before."""
+    return [
+        f"{RESULTS}/unsteady/{wildcards.model}/{batch}.json"
+        for batch in plan.batches_before(wildcards.batch)
+    ]
+
+
+def cases_of_batch(wildcards):
+    """Return case file and result file of each case of a batch that runs them one by one."""
+    names = SWEEP
+    if wildcards.batch != plan.SWEEP_BATCH:
+        chosen = checkpoints.refine_onset.get(**wildcards).output[0]
+        names = plan.read_refinement(Path(chosen))
+    place = f"unsteady/{wildcards.model}"
     return {
-        "cases": [f"{RESULTS}/cases/unsteady/{model}/{name}.json" for name in names],
-        "results": [f"{RESULTS}/unsteady/{model}/{name}.nc" for name in names],
+        "cases": [f"{RESULTS}/cases/{place}/{name}.json" for name in names],
+        "results": [f"{RESULTS}/{place}/{name}.nc" for name in names],
     }
 
 
-def results_before_round(wildcards):
-    """Return what a round of refinement decides on: all runs of the rounds before."""
-    return case_and_result_files(wildcards.model, int(wildcards.round) - 1)
+def this_case(wildcards):
+    """Return the one case that a rule is about."""
+    return [wildcards.case]
 
 
-def results_of_sweep(wildcards):
-    """Return all runs of all models, with those of the refinement of the onset."""
-    files = {"cases": [], "results": []}
-    for model in CONFIG.sweep.models:
-        found = case_and_result_files(model, plan.refinement_rounds(CONFIG))
-        files["cases"] += found["cases"]
-        files["results"] += found["results"]
-    return files
+def this_angle(wildcards):
+    """Return the one steady case that a rule is about."""
+    return [wildcards.angle]
 
 
 def figure_files():

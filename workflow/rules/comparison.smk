@@ -26,7 +26,7 @@ rule config_resolved:
 rule summary:
     """One line for each run of each model."""
     input:
-        unpack(results_of_sweep),
+        indices=indices_of_sweep,
         sources=sources("comparison/summary.py", "results"),
     output:
         f"{RESULTS}/comparison/summary.csv",

@@ -1,59 +1,52 @@
 """Unsteady runs over k*: the section, the corrected section and the beam."""
 
 
-ruleorder: unsteady_cases > refined_case
-
-
 rule unsteady_cases:
-    """Write the case file of each k* of the sweep for a model."""
+    """Write the cases of a batch of k* (the sweep, or a round of refinement) into one case file."""
     input:
-        unpack(structure_of_model),
+        unpack(inputs_of_batch),
         polars=solver_input_files(),
-        sources=sources("cases", "solvers", "plan.py"),
+        sources=sources("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
     output:
-        expand(
-            f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
-            case=SWEEP,
-            allow_missing=True,
-        ),
+        f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
     log:
-        f"{LOGS}/unsteady_cases_{{model}}.log",
-    conda:
-        ENVIRONMENT
+        f"{LOGS}/unsteady_cases_{{model}}_{{batch}}.log",
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
+    conda:
+        ENVIRONMENT
     params:
         config=RESOLVED,
-        model="{model}",
+        cases=SWEEP,
     message:
-        "case files of the sweep, model {wildcards.model}"
+        "cases of {wildcards.model}, {wildcards.batch}"
     script:
         "../../scripts/unsteady_cases.py"
 
 
-rule refined_case:
-    """Write the case file of a k* that the refinement of the onset asks for."""
+rule unsteady_case_file:
+    """Write the case file of one k*."""
     input:
         unpack(structure_of_model),
         polars=solver_input_files(),
-        sources=sources("cases", "solvers", "plan.py"),
+        sources=sources("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
     output:
         f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
     log:
-        f"{LOGS}/refined_case_{{model}}_{{case}}.log",
-    conda:
-        ENVIRONMENT
+        f"{LOGS}/unsteady_case_file_{{model}}_{{case}}.log",
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
+    conda:
+        ENVIRONMENT
     params:
         config=RESOLVED,
-        model="{model}",
+        cases=this_case,
     message:
-        "case file of {wildcards.case}, model {wildcards.model}"
+        "case file of {wildcards.model} at {wildcards.case}"
     script:
         "../../scripts/unsteady_cases.py"
 
@@ -66,12 +59,12 @@ rule unsteady_case:
         f"{RESULTS}/unsteady/{{model}}/{{case}}.nc",
     log:
         f"{LOGS}/unsteady_{{model}}_{{case}}.log",
-    conda:
-        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=2000,
         runtime=1440,
+    conda:
+        ENVIRONMENT
     params:
         store=STORE,
     message:
@@ -82,57 +75,68 @@ rule unsteady_case:
 
 if Capability.BATCH in PROVIDES:
 
-    ruleorder: unsteady_batch > unsteady_case
-
     rule unsteady_batch:
-        """Run all k* of the sweep for a model in one job."""
+        """Run all k* of a batch in one job."""
         input:
-            expand(
-                f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
-                case=SWEEP,
-                allow_missing=True,
-            ),
+            f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
         output:
-            expand(
-                f"{RESULTS}/unsteady/{{model}}/{{case}}.nc",
-                case=SWEEP,
-                allow_missing=True,
-            ),
+            f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
-            f"{LOGS}/unsteady_{{model}}.log",
-        conda:
-            ENVIRONMENT
+            f"{LOGS}/unsteady_{{model}}_{{batch}}.log",
         threads: 1
         resources:
             mem_mb=2000,
             runtime=60,
+        conda:
+            ENVIRONMENT
         params:
             store=STORE,
         message:
-            "sweep of {wildcards.model}"
+            "{wildcards.model}, {wildcards.batch}"
         script:
             "../../scripts/run_cases.py"
+
+else:
+
+    rule unsteady_results:
+        """Index the results of a batch whose k* ran one by one."""
+        input:
+            unpack(cases_of_batch),
+        output:
+            f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
+        log:
+            f"{LOGS}/unsteady_results_{{model}}_{{batch}}.log",
+        threads: 1
+        resources:
+            mem_mb=500,
+            runtime=5,
+        conda:
+            ENVIRONMENT
+        message:
+            "index of {wildcards.model}, {wildcards.batch}"
+        script:
+            "../../scripts/index_results.py"
 
 
 checkpoint refine_onset:
     """Choose the next k* inside the bracket of a model's onset."""
     input:
-        unpack(results_before_round),
-        sources=sources("comparison", "plan.py"),
+        indices=indices_before_round,
+        sources=sources("comparison/onset.py", "comparison/summary.py"),
     output:
-        f"{RESULTS}/comparison/refine/{{model}}_{{round}}.json",
+        f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
     log:
-        f"{LOGS}/refine_onset_{{model}}_{{round}}.log",
-    conda:
-        ENVIRONMENT
+        f"{LOGS}/refine_onset_{{model}}_{{batch}}.log",
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
+    conda:
+        ENVIRONMENT
     params:
         tolerance=CONFIG.sweep.onset_tolerance,
         points=CONFIG.sweep.onset_points,
     message:
-        "onset of {wildcards.model}, round {wildcards.round}"
+        "onset of {wildcards.model}, {wildcards.batch}"
     script:
         "../../scripts/refine_onset.py"
