@@ -8,6 +8,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+#: How the names of files begin that are not whole yet.
+TEMPORARY = ".tmp-"
+
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
@@ -17,7 +20,7 @@ def written_whole(path: Path) -> Iterator[Path]:
     removed if the block raises, and left behind only by a kill.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=".tmp-", suffix=path.suffix, dir=path.parent)
+    handle, name = tempfile.mkstemp(prefix=TEMPORARY, suffix=path.suffix, dir=path.parent)
     os.close(handle)
     aside = Path(name)
     try:

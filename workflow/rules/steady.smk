@@ -1,7 +1,12 @@
-"""Steady polars of the section (2D) and of the rigid beam (3D)."""
+"""Steady polars of the section (2D) and of the rigid beam (3D).
+
+Case files are written by checkpoints: after one, Snakemake looks again at what has to run, by
+content, and so drops the solver jobs whose case came out unchanged. After a rule it would run
+every job that depends on a file written anew.
+"""
 
 
-rule steady_cases:
+checkpoint steady_cases:
     """Write the cases of all incidences and resolutions of a dimension into one case file."""
     input:
         polars=solver_input_files(),
@@ -25,7 +30,7 @@ rule steady_cases:
         "../../scripts/steady_cases.py"
 
 
-rule steady_case_file:
+checkpoint steady_case_file:
     """Write the case file of one incidence and resolution."""
     input:
         polars=solver_input_files(),

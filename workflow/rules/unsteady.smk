@@ -1,7 +1,10 @@
-"""Unsteady runs over k*: the section, the corrected section and the beam."""
+"""Unsteady runs over k*: the section, the corrected section and the beam.
+
+Case files are written by checkpoints, for the reason given in steady.smk.
+"""
 
 
-rule unsteady_cases:
+checkpoint unsteady_cases:
     """Write the cases of a batch of k* (the sweep, or a round of refinement) into one case file."""
     input:
         unpack(inputs_of_batch),
@@ -26,7 +29,7 @@ rule unsteady_cases:
         "../../scripts/unsteady_cases.py"
 
 
-rule unsteady_case_file:
+checkpoint unsteady_case_file:
     """Write the case file of one k*."""
     input:
         unpack(structure_of_model),

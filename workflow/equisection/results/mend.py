@@ -10,6 +10,7 @@ import struct
 from pathlib import Path
 
 from equisection.errors import ResultFileError
+from equisection.files import TEMPORARY
 from equisection.results.index import read_index, result_file
 
 _HDF5_SIGNATURE = b"\x89HDF\r\n\x1a\n"
@@ -42,7 +43,8 @@ def mend(run: Path) -> list[str]:
     A NetCDF file that is not as long as it says, or that was exchanged after the index that
     names it and is not the result of that case, is renamed to ``<name>.broken``. An index that
     names a file that is not there is deleted: the job that writes it runs again and takes what is
-    sound from the store.
+    sound from the store. Files that a job is writing at this moment (``.tmp-...``) are left
+    alone, so that a dry run does not disturb a run.
 
     Returns
     -------
@@ -51,7 +53,7 @@ def mend(run: Path) -> list[str]:
     """
     done = []
     for path in run.glob("**/*.nc"):
-        if not is_whole(path):
+        if not path.name.startswith(TEMPORARY) and not is_whole(path):
             done.append(_set_aside(path, "truncated or not NetCDF-4"))
     for index in [*run.glob("steady/*/*.json"), *run.glob("unsteady/*/*.json")]:
         done += _mend_results(index)
