@@ -37,13 +37,13 @@ def main(
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        files = {name: Path(path) for name, path in snakemake.input.items()}
+        made_from = {"modes", "equivalent", "correction"} & set(snakemake.input.keys())
         main(
             snakemake.params.config,
             snakemake.wildcards.model,
-            {name: files[name] for name in files.keys() & {"modes", "equivalent", "correction"}},
-            plan.read_refinement(files["chosen"])
-            if "chosen" in files
+            {name: Path(snakemake.input[name]) for name in made_from},
+            plan.read_refinement(Path(snakemake.input.chosen))
+            if "chosen" in set(snakemake.input.keys())
             else list(snakemake.params.cases),
             Path(snakemake.output[0]),
         )

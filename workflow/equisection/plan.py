@@ -21,6 +21,7 @@ from equisection.files import write_text
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
 CASE_PATTERN = r"k[0-9][0-9.e+-]*"
 DIMENSION_PATTERN = r"[23]d"
+ANGLE_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_.-]*_a-?[0-9][0-9.e+-]*"
 #: A batch is what one job of a solver that takes many cases runs: the sweep, or a round of the
 #: refinement of the onset.
 BATCH_PATTERN = r"sweep|round[1-9][0-9]*"

@@ -1,5 +1,6 @@
 """What all rules share: the validated configuration, where files go, and package sources."""
 
+import hashlib
 import sys
 from pathlib import Path
 
@@ -35,14 +36,26 @@ if workflow.is_main_process:
 wildcard_constraints:
     dimension=plan.DIMENSION_PATTERN,
     model=plan.MODEL_PATTERN,
+    angle=plan.ANGLE_PATTERN,
     case=plan.CASE_PATTERN,
     batch=plan.BATCH_PATTERN,
 
 
-def sources(*parts):
-    """Return the package's source files of some parts, so that editing one redraws or
-    recomputes what is cheap. Rules that run a solver take none: their case file decides.
+def code(*parts):
+    """Return a digest of some of the package's modules, for `params`: editing one redraws or
+    recomputes what is cheap. Rules that run a solver have none: their case file decides.
     """
+    package = Path(equisection.__file__).parent
+    digest = hashlib.sha256()
+    for part in parts:
+        place = package / part
+        for path in sorted(place.glob("*.py")) if place.is_dir() else [place]:
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def sources(*parts):
+    """Return the package's source files of some parts."""
     package = Path(equisection.__file__).parent
     found = []
     for part in parts:

@@ -3,8 +3,6 @@
 
 rule config_resolved:
     """The configuration with every default filled in."""
-    input:
-        sources=sources("config"),
     output:
         f"{RESULTS}/config.resolved.yaml",
     log:
@@ -16,6 +14,7 @@ rule config_resolved:
         mem_mb=500,
         runtime=5,
     params:
+        code=code("config"),
         config=RESOLVED,
     message:
         "resolved configuration"
@@ -27,7 +26,6 @@ rule summary:
     """One line for each run of each model."""
     input:
         indices=indices_of_sweep,
-        sources=sources("comparison/summary.py", "results"),
     output:
         f"{RESULTS}/comparison/summary.csv",
     log:
@@ -39,6 +37,7 @@ rule summary:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code("comparison/summary.py", "results"),
         models=list(CONFIG.sweep.models),
     message:
         "summary"
@@ -50,7 +49,6 @@ rule onset:
     """The bracket of the onset of each model."""
     input:
         summary=f"{RESULTS}/comparison/summary.csv",
-        sources=sources("comparison/onset.py"),
     output:
         f"{RESULTS}/comparison/onset.csv",
     log:
@@ -61,6 +59,8 @@ rule onset:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code("comparison/onset.py"),
     message:
         "onset of the instability"
     script:
@@ -78,7 +78,6 @@ rule paper_comparison:
         correction=f"{RESULTS}/steady/correction.nc",
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
-        sources=sources("comparison"),
     output:
         paper=report(
             f"{RESULTS}/comparison/paper.csv",
@@ -104,6 +103,7 @@ rule paper_comparison:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code("comparison"),
         is_paper_case=CONFIG.is_paper_case,
         config=RESOLVED,
     message:

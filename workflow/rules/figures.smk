@@ -1,12 +1,49 @@
 """The paper's figures, one rule each, named by the paper's number."""
 
+from equisection.figures.models_shown import beam_model, section_model
+
+# What every figure is made with; the rules name the modules of their own beside.
+DRAWING = sources(
+    "figures/panels.py",
+    "figures/provenance.py",
+    "figures/save.py",
+    "figures/style.py",
+)
+CASES_SHOWN = sources(
+    "figures/cases_shown.py",
+    "figures/history.py",
+    "figures/models.py",
+    "figures/models_shown.py",
+)
+RULE_FILES = sorted(str(path) for path in Path("workflow/rules").glob("*.smk"))
+
+
+def results_of_histories(wildcards):
+    """Return the runs of which histories are shown: of the corrected section and the beam."""
+    models = (section_model(CONFIG.sweep.models), beam_model(CONFIG.sweep.models))
+    rounds = plan.refinement_rounds(CONFIG)
+    return [
+        path
+        for model in models
+        if model is not None
+        for path in case_and_result_files(model, rounds)["results"]
+    ]
+
 
 rule fig01_workflow:
     """Block diagram of the procedure: the rules and what flows between them (Fig. 1)."""
     input:
         config=f"{RESULTS}/config.resolved.yaml",
+        snakefile="workflow/Snakefile",
+        rule_files=RULE_FILES,
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING
+        + sources(
+            "figures/fig01_workflow.py",
+            "figures/layers.py",
+            "figures/rule_graph.py",
+            "figures/snakemake_query.py",
+        ),
     output:
         png=report(
             f"{RESULTS}/figures/fig01-workflow.png",
@@ -34,7 +71,10 @@ rule fig03_modes:
     input:
         modes=f"{RESULTS}/structure/modes.nc",
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING
+        + sources(
+            "figures/fig03_modes.py", "structure/analytic.py", "structure/span.py"
+        ),
     output:
         png=report(
             f"{RESULTS}/figures/fig03-modes.png",
@@ -51,6 +91,8 @@ rule fig03_modes:
     resources:
         mem_mb=1000,
         runtime=5,
+    params:
+        beam=RESOLVED["beam"],
     message:
         "Fig. 3, modes"
     script:
@@ -62,7 +104,7 @@ rule fig06_section_polar:
     input:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING + sources("figures/fig06_section_polar.py"),
     output:
         png=report(
             f"{RESULTS}/figures/fig06-section-polar.png",
@@ -90,7 +132,7 @@ rule fig10_spanwise_loads:
     input:
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING + sources("figures/fig10_spanwise_loads.py"),
     output:
         png=report(
             f"{RESULTS}/figures/fig10-spanwise-loads.png",
@@ -122,7 +164,12 @@ rule fig13_lift_correction:
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
         correction=f"{RESULTS}/steady/correction.nc",
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING
+        + sources(
+            "figures/fig13_lift_correction.py",
+            "figures/correction.py",
+            "figures/models.py",
+        ),
     output:
         png=report(
             f"{RESULTS}/figures/fig13-lift-correction.png",
@@ -154,7 +201,12 @@ rule fig14_moment_correction:
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
         correction=f"{RESULTS}/steady/correction.nc",
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING
+        + sources(
+            "figures/fig14_moment_correction.py",
+            "figures/correction.py",
+            "figures/models.py",
+        ),
     output:
         png=report(
             f"{RESULTS}/figures/fig14-moment-correction.png",
@@ -185,7 +237,7 @@ rule fig15_modal_contributions:
         modes=f"{RESULTS}/structure/modes.nc",
         run=f"{RESULTS}/unsteady/3d/{plan.reference_case(CONFIG)}.nc",
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING + sources("figures/fig15_modal_contributions.py"),
     output:
         png=report(
             f"{RESULTS}/figures/fig15-modal-contributions.png",
@@ -211,11 +263,12 @@ rule fig15_modal_contributions:
 rule fig16_response:
     """Mean deformation over k*, and histories of the twist (Fig. 16)."""
     input:
-        unpack(results_of_sweep),
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
+        results=results_of_histories,
+        equivalent=f"{RESULTS}/structure/equivalent.nc",
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING + CASES_SHOWN + sources("figures/fig16_response.py"),
     output:
         png=report(
             f"{RESULTS}/figures/fig16-response.png",
@@ -232,6 +285,8 @@ rule fig16_response:
     resources:
         mem_mb=1000,
         runtime=5,
+    params:
+        reduction=CONFIG.reduction,
     message:
         "Fig. 16, response"
     script:
@@ -241,10 +296,12 @@ rule fig16_response:
 rule fig17_hysteresis:
     """Hysteresis loops and phase portraits (Fig. 17)."""
     input:
-        unpack(results_of_sweep),
         summary=f"{RESULTS}/comparison/summary.csv",
+        onset=f"{RESULTS}/comparison/onset.csv",
+        results=results_of_histories,
+        equivalent=f"{RESULTS}/structure/equivalent.nc",
         style="envs/equisection.mplstyle",
-        sources=sources("figures"),
+        sources=DRAWING + CASES_SHOWN + sources("figures/fig17_hysteresis.py"),
     output:
         png=report(
             f"{RESULTS}/figures/fig17-hysteresis.png",
@@ -261,6 +318,8 @@ rule fig17_hysteresis:
     resources:
         mem_mb=1000,
         runtime=5,
+    params:
+        reduction=CONFIG.reduction,
     message:
         "Fig. 17, hysteresis"
     script:

@@ -10,7 +10,6 @@ checkpoint steady_cases:
     """Write the cases of all incidences and resolutions of a dimension into one case file."""
     input:
         polars=solver_input_files(),
-        sources=sources("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
     output:
         f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
     log:
@@ -22,6 +21,7 @@ checkpoint steady_cases:
     conda:
         ENVIRONMENT
     params:
+        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
         cases=STEADY,
     message:
@@ -34,7 +34,6 @@ checkpoint steady_case_file:
     """Write the case file of one incidence and resolution."""
     input:
         polars=solver_input_files(),
-        sources=sources("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
     output:
         f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
     log:
@@ -46,6 +45,7 @@ checkpoint steady_case_file:
     conda:
         ENVIRONMENT
     params:
+        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
         cases=this_angle,
     message:
@@ -134,7 +134,6 @@ rule polar:
     """Gather the steady results of a dimension into its polar."""
     input:
         index=f"{RESULTS}/steady/{{dimension}}/polar.json",
-        sources=sources("results"),
     output:
         f"{RESULTS}/steady/polar_{{dimension}}.nc",
     log:
@@ -145,6 +144,8 @@ rule polar:
         runtime=5,
     conda:
         ENVIRONMENT
+    params:
+        code=code("results"),
     message:
         "{wildcards.dimension} polar"
     script:

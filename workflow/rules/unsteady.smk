@@ -9,7 +9,6 @@ checkpoint unsteady_cases:
     input:
         unpack(inputs_of_batch),
         polars=solver_input_files(),
-        sources=sources("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
     output:
         f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
     log:
@@ -21,6 +20,7 @@ checkpoint unsteady_cases:
     conda:
         ENVIRONMENT
     params:
+        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
         cases=SWEEP,
     message:
@@ -34,7 +34,6 @@ checkpoint unsteady_case_file:
     input:
         unpack(structure_of_model),
         polars=solver_input_files(),
-        sources=sources("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
     output:
         f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
     log:
@@ -46,6 +45,7 @@ checkpoint unsteady_case_file:
     conda:
         ENVIRONMENT
     params:
+        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
         cases=this_case,
     message:
@@ -125,7 +125,6 @@ checkpoint refine_onset:
     """Choose the next k* inside the bracket of a model's onset."""
     input:
         indices=indices_before_round,
-        sources=sources("comparison/onset.py", "comparison/summary.py"),
     output:
         f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
     log:
@@ -137,6 +136,7 @@ checkpoint refine_onset:
     conda:
         ENVIRONMENT
     params:
+        code=code("comparison/onset.py", "comparison/summary.py"),
         tolerance=CONFIG.sweep.onset_tolerance,
         points=CONFIG.sweep.onset_points,
     message:
