@@ -16,6 +16,7 @@ def main(
     polar_3d: Path,
     correction: Path,
     resolution: str,
+    *,
     style: Path,
     outputs: Sequence[Path],
 ) -> None:
@@ -34,6 +35,6 @@ if __name__ == "__main__":
             Path(snakemake.input.polar_3d),
             Path(snakemake.input.correction),
             snakemake.params.resolution,
-            Path(snakemake.input.style),
-            [Path(path) for path in snakemake.output],
+            style=Path(snakemake.input.style),
+            outputs=[Path(path) for path in snakemake.output],
         )

@@ -54,16 +54,6 @@ def code(*parts):
     return digest.hexdigest()[:16]
 
 
-def sources(*parts):
-    """Return the package's source files of some parts."""
-    package = Path(equisection.__file__).parent
-    found = []
-    for part in parts:
-        place = package / part
-        found += sorted(place.glob("*.py")) if place.is_dir() else [place]
-    return [str(path) for path in found]
-
-
 def solver_input_files():
     """Return the files that the configured solver reads, for instance section polars."""
     return [path for path in CONFIG.embedded.polars.values() if path != "flat-plate"]

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -67,6 +67,11 @@ def read_index(path: Path) -> dict[str, dict[str, Any]]:
 def result_file(index: Path, name: str) -> Path:
     """Return the result file of a case."""
     return index.parent / f"{name}.nc"
+
+
+def result_files(indices: Sequence[Path]) -> list[Path]:
+    """Return the result files that some indices name."""
+    return [result_file(index, name) for index in indices for name in read_index(index)]
 
 
 def _plain(value: Any) -> Any:

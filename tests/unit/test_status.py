@@ -1,0 +1,299 @@
+"""``equisection status``: what it says of cases in every state."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import asdict, replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+from equisection import status_text
+from equisection.cases import (
+    Criteria,
+    Geometry,
+    Medium,
+    SectionProperties,
+    SolverBlock,
+    SteadyCase,
+    UnsteadyCase,
+    case_hash,
+    write_case,
+)
+from equisection.command_line import main
+from equisection.progress import Process, Snapshot
+from equisection.results.netcdf import write_dataset
+from equisection.status import Entry, State, last_error, run_status
+
+PARTS = {
+    "resolution": "coarse",
+    "incidence_deg": 2.5,
+    "geometry": Geometry(
+        chord=0.1,
+        span=3.7,
+        thickness=0.04,
+        root_on_wall=True,
+        channel_height=None,
+        tip_gap=None,
+        upstream=None,
+        downstream=None,
+    ),
+    "medium": Medium(speed=20.0, density=1.18, dynamic_viscosity=1.86e-5),
+    "solver": SolverBlock(name="embedded", version="1", settings={}),
+}
+
+
+def unsteady(k_star: float) -> UnsteadyCase:
+    return UnsteadyCase(
+        dimension="2d",
+        k_star=k_star,
+        section=SectionProperties(
+            torsional_stiffness=k_star,
+            flexural_stiffness=1.0,
+            inertia=6.7,
+            mass=80.0,
+            twist_recovery=1.0,
+            deflection_recovery=1.0,
+        ),
+        duration=400.0,
+        time_step=0.05,
+        output_interval=0.1,
+        criteria=Criteria(
+            settled_amplitude_deg=0.05, growing_amplitude_deg=6.0, steadiness=0.02, periods=5
+        ),
+        **PARTS,  # type: ignore[arg-type]
+    )
+
+
+class Run:
+    """A run's folder, made by hand."""
+
+    def __init__(self, results: Path, name: str = "beam") -> None:
+        self.folder = results / name
+        (self.folder / "logs").mkdir(parents=True)
+
+    def case(self, k_star: float) -> str:
+        """Write a case that waits; return its hash."""
+        case = unsteady(k_star)
+        write_case(self.folder / f"cases/unsteady/2d/k{k_star:g}.json", case)
+        return case_hash(case)
+
+    def result(self, path: Path, **attributes: str | float) -> None:
+        data = xr.Dataset({"x": ("t", np.zeros(3), {"units": "1", "long_name": "nothing"})})
+        write_dataset(path, data.assign_attrs(**attributes))
+
+    def finished(self, k_star: float, regime: str, reason: str = "because") -> Path:
+        path = self.folder / f"unsteady/2d/k{k_star:g}.nc"
+        self.result(path, case_hash=self.case(k_star), regime=regime, reason=reason)
+        return path
+
+    def job(self, k_star: float, process: Process) -> None:
+        job = Snapshot(
+            (self.case(k_star),), "a solver", "c/V", 100.0, 400.0, 1e9, 1e9 + 50, 0.0, 1e9, process
+        )
+        path = self.folder / f"logs/unsteady_2d_k{k_star:g}.progress.json"
+        path.write_text(json.dumps(asdict(job)), encoding="utf-8")
+
+    def log(self, name: str, text: str) -> None:
+        path = self.folder / "logs" / f"{name}.log"
+        path.write_text(f"2026-01-01 10:00:00,000 INFO starts\n{text}", encoding="utf-8")
+
+    def entry(self, case: str) -> Entry:
+        return next(e for e in run_status(self.folder).entries if e.case == case)
+
+
+@pytest.fixture
+def run(tmp_path: Path) -> Run:
+    return Run(tmp_path / "results")
+
+
+GONE = replace(Process.this(), pid=2**22 + 1)
+ERROR = "2026-01-01 10:00:01,000 ERROR the mesh has a hole; mend it\n"
+
+
+class TestStates:
+    def test_done(self, run: Run) -> None:
+        run.finished(6.0, "limit-cycle")
+        entry = run.entry("k6")
+        assert (entry.state, entry.regime) == (State.DONE, "limit-cycle")
+
+    def test_a_failed_run_gives_its_reason(self, run: Run) -> None:
+        run.finished(6.0, "failed", "left the polar")
+        entry = run.entry("k6")
+        assert (entry.state, entry.text) == (State.FAILED, "left the polar")
+
+    def test_waiting(self, run: Run) -> None:
+        run.case(6.0)
+        assert run.entry("k6").state is State.WAITING
+
+    def test_waiting_with_a_result_in_the_store(self, run: Run) -> None:
+        store = run.folder.parent / ".store" / run.case(6.0)
+        run.result(store / "result.nc")
+        assert "in the store" in run.entry("k6").text
+
+    def test_running(self, run: Run) -> None:
+        run.job(6.0, Process.this())
+        entry = run.entry("k6")
+        assert entry.state is State.RUNNING
+        assert entry.job is not None
+        assert entry.job.fraction == 0.25
+
+    def test_a_killed_job_does_not_run(self, run: Run) -> None:
+        run.job(6.0, GONE)
+        entry = run.entry("k6")
+        assert entry.state is State.STOPPED
+        assert "25 %" in entry.text
+
+    def test_a_job_that_ended_with_an_error_failed(self, run: Run) -> None:
+        run.job(6.0, GONE)
+        run.log("unsteady_2d_k6", ERROR)
+        entry = run.entry("k6")
+        assert (entry.state, entry.text) == (State.FAILED, "the mesh has a hole; mend it")
+
+    def test_the_log_of_a_batch_counts_for_each_of_its_cases(self, run: Run) -> None:
+        run.case(6.0)
+        run.log("unsteady_2d", ERROR)
+        assert run.entry("k6").state is State.FAILED
+
+    def test_an_error_from_before_the_case_was_written_is_not_its(self, run: Run) -> None:
+        run.log("unsteady_2d", ERROR)
+        os.utime(run.folder / "logs/unsteady_2d.log", (1e9, 1e9))
+        run.case(6.0)
+        assert run.entry("k6").state is State.WAITING
+
+    def test_a_job_that_runs_again_is_not_failed(self, run: Run) -> None:
+        run.job(6.0, Process.this())
+        run.log("unsteady_2d_k6", ERROR)
+        assert run.entry("k6").state is State.RUNNING
+
+    def test_a_truncated_result(self, run: Run) -> None:
+        path = run.finished(6.0, "settled")
+        path.write_bytes(path.read_bytes()[:-200])
+        entry = run.entry("k6")
+        assert entry.state is State.BROKEN
+        assert "truncated" in entry.text
+        assert "run again" in entry.text
+
+    def test_a_foreign_result(self, run: Run) -> None:
+        path = run.finished(6.0, "settled")
+        run.result(path, case_hash="0" * 64, regime="settled", reason="")
+        entry = run.entry("k6")
+        assert entry.state is State.BROKEN
+        assert entry.text.startswith("foreign")
+
+    @pytest.mark.parametrize("text", ["", "{", "{}", "\x00\x01"])
+    def test_a_case_file_that_is_none(self, run: Run, text: str) -> None:
+        run.case(6.0)
+        (run.folder / "cases/unsteady/2d/k6.json").write_text(text)
+        assert run.entry("k6").state is State.BROKEN
+
+    def test_steady_cases(self, run: Run) -> None:
+        case = SteadyCase(dimension="3d", **PARTS)  # type: ignore[arg-type]
+        for name, failure in (("coarse_a0", ""), ("coarse_a10", "left the polar")):
+            write_case(run.folder / f"cases/steady/3d/{name}.json", case)
+            path = run.folder / f"steady/3d/{name}.nc"
+            run.result(path, case_hash=case_hash(case), failure=failure)
+        assert run.entry("coarse_a0").state is State.DONE
+        assert run.entry("coarse_a10").text == "left the polar"
+
+    def test_by_ascending_k_star(self, run: Run) -> None:
+        for k_star in (21.0, 4.5, 10.0, 4.0):
+            run.case(k_star)
+        names = [entry.case for entry in run_status(run.folder).entries]
+        assert names == ["k4", "k4.5", "k10", "k21"]
+
+    def test_cases_of_an_earlier_sweep_are_left_out(self, run: Run) -> None:
+        run.case(6.0)
+        run.case(7.0)
+        resolved = run.folder / "config.resolved.yaml"
+        resolved.write_text("sweep: {k_star: [7.0]}\n")
+        os.utime(resolved, (2e9, 2e9))
+        assert [entry.case for entry in run_status(run.folder).entries] == ["k7"]
+
+    def test_cases_that_are_newer_than_the_configuration_are_not(self, run: Run) -> None:
+        resolved = run.folder / "config.resolved.yaml"
+        resolved.write_text("sweep: {k_star: [7.0]}\n")
+        os.utime(resolved, (1e9, 1e9))
+        run.case(6.0)
+        assert run.entry("k6").state is State.WAITING
+
+
+def test_a_fault_of_the_program_gives_its_last_line(tmp_path: Path) -> None:
+    log = tmp_path / "a.log"
+    log.write_text(ERROR + "Traceback (most recent call last):\n  File\nValueError: no\n")
+    assert "ValueError: no" in last_error(log)
+
+
+def test_errors_of_other_jobs_are_told(run: Run) -> None:
+    run.log("modes", ERROR)
+    (trouble,) = run_status(run.folder).troubles
+    assert "modes.log" in trouble
+    assert "the mesh has a hole" in trouble
+
+
+class TestCommand:
+    @pytest.fixture(autouse=True)
+    def _here(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+        monkeypatch.chdir(tmp_path)
+        monkeypatch.setenv("COLUMNS", "120")
+
+    def test_nothing_there(self, capsys: pytest.CaptureFixture[str]) -> None:
+        assert main(["status"]) == 0
+        assert "There is no run" in capsys.readouterr().out
+
+    def test_a_missing_folder(self, capsys: pytest.CaptureFixture[str]) -> None:
+        assert main(["status", "results/nowhere"]) == 1
+        told = capsys.readouterr()
+        assert told.out == ""
+        assert told.err.startswith("error: results/nowhere: no such folder")
+
+    def test_a_run_without_cases(self, run: Run, capsys: pytest.CaptureFixture[str]) -> None:
+        assert main(["status", str(run.folder)]) == 0
+        assert "no case has been written yet" in capsys.readouterr().out
+
+    def test_table_and_summary(self, run: Run, capsys: pytest.CaptureFixture[str]) -> None:
+        run.finished(6.0, "growing")
+        run.job(7.0, Process.this())
+        run.case(8.0)
+        assert main(["status"]) == 0
+        told = capsys.readouterr().out
+        assert "running 25 %" in told
+        assert "beam: sweep 1 of 3 done, 1 running, 1 waiting (1 growing)" in told
+
+    def test_all_runs_of_results_and_nothing_else(
+        self, run: Run, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        run.case(6.0)
+        Run(tmp_path / "results", "another").case(6.0)
+        (tmp_path / "results/reference").mkdir()
+        assert main(["status"]) == 0
+        told = capsys.readouterr().out
+        assert "another:" in told
+        assert "beam:" in told
+        assert "reference" not in told
+
+    def test_plain(self, run: Run, capsys: pytest.CaptureFixture[str]) -> None:
+        run.job(6.0, Process.this())
+        run.finished(7.0, "failed", "two\nlines\tand a tab")
+        assert main(["status", "--plain"]) == 0
+        lines = [line.split("\t") for line in capsys.readouterr().out.splitlines()]
+        assert tuple(lines[0]) == status_text.PLAIN_COLUMNS
+        assert {len(line) for line in lines} == {len(lines[0])}
+        assert lines[1][:6] == ["beam", "2d", "k6", "running", "", "25.0"]
+        assert lines[2][-1] == "two lines and a tab"
+
+    def test_markup_in_a_reason_is_text(self, run: Run, capsys: pytest.CaptureFixture[str]) -> None:
+        run.finished(6.0, "failed", "no key [/nothing] here")
+        assert main(["status"]) == 0
+        assert "[/nothing]" in capsys.readouterr().out
+
+    def test_help_and_version(self, capsys: pytest.CaptureFixture[str]) -> None:
+        assert main([]) == 0
+        assert "status" in capsys.readouterr().out
+        with pytest.raises(SystemExit) as end:
+            main(["--version"])
+        assert end.value.code == 0
+        assert capsys.readouterr().out.startswith("equisection 0.")

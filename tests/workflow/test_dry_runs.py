@@ -1,0 +1,122 @@
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+from snakemake.utils import update_config
+
+from equisection import plan
+from equisection.config import load_config
+from tests.workflow.project import ROOT, Project, jobs_planned, small
+
+SHIPPED = sorted((ROOT / "config").glob("*.yaml")) + sorted(
+    (ROOT / "config" / "examples").glob("*.yaml")
+)
+
+#: Rules that run once in every run.
+ONCE = (
+    "config_resolved",
+    "modes",
+    "mesh_study",
+    "equivalent_section",
+    "correction_factors",
+    "summary",
+    "onset",
+    "paper_comparison",
+    "fig01_workflow",
+    "fig03_modes",
+    "fig06_section_polar",
+    "fig10_spanwise_loads",
+    "fig13_lift_correction",
+    "fig14_moment_correction",
+    "fig16_response",
+    "run",
+)
+
+
+def jobs_wanted(raw: dict[str, Any]) -> Counter[str]:
+    """Return the jobs of a run on a fresh clone, counted from its configuration alone."""
+    config = load_config(raw)
+    models, k_star = len(config.sweep.models), len(config.sweep.values())
+    angles = len(config.steady.incidence_deg) * (1 + len(config.steady.study))
+    jobs = Counter(ONCE)
+    jobs.update(
+        steady_cases=2,
+        polar=2,
+        unsteady_cases=models,
+        fig15_modal_contributions="3d" in config.sweep.models,
+        fig17_hysteresis="2d-corrected" in config.sweep.models,
+    )
+    if config.solver == "embedded":
+        jobs.update(steady_batch=2, unsteady_batch=models)
+    else:
+        jobs.update(steady_case=2 * angles, unsteady_case=models * k_star)
+    if config.sweep.onset == "refine":
+        # the first and the last round; those between stand in the graph once the first is done
+        jobs.update(refine_onset=models * min(plan.refinement_rounds(config), 2))
+    return +jobs
+
+
+def without_anything_but_python(project: Project) -> dict[str, str]:
+    """Return an environment with no program to find: no solver, no dot, no shell."""
+    return {
+        "PATH": "",
+        "HOME": str(project.folder),
+        "PYTHONPATH": project.environment()["PYTHONPATH"],
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
+
+
+@pytest.fixture(scope="module")
+def clone(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    return Project.fresh(tmp_path_factory.mktemp("clone") / "project")
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_dry_run_of_a_shipped_config_plans_the_jobs_that_it_asks_for(
+    path: Path, clone: Project
+) -> None:
+    raw = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+    update_config(raw, yaml.safe_load(path.read_text()))
+    command = ("--dry-run", "--configfile", str(path.relative_to(ROOT)))
+    before = set(clone.folder.rglob("*"))
+
+    ended = clone.attempt(*command, environment=without_anything_but_python(clone))
+
+    assert ended.returncode == 0, ended.stdout
+    assert jobs_planned(ended.stdout) == jobs_wanted(raw)
+    created = {
+        path.relative_to(clone.folder).parts[0] for path in set(clone.folder.rglob("*")) - before
+    }
+    assert created <= {".snakemake", ".cache"}
+
+
+@pytest.mark.parametrize(
+    "sweep",
+    [
+        {"models": ["3d"]},
+        {"models": ["2d"], "k_star": [7.0]},
+        {"models": ["2d-corrected-paper", "2d-consistent"]},
+        {"models": ["2d", "3d"], "onset": "refine"},
+    ],
+    ids=["3d alone", "one k*", "named reductions", "refined onset"],
+)
+def test_dry_run_plans_what_the_sweep_asks_for(sweep: dict[str, Any], project: Project) -> None:
+    project.config = small(sweep=sweep)
+    assert jobs_planned(project.run("--dry-run")) == jobs_wanted(small(sweep=sweep))
+
+
+def test_overrides_on_the_command_line_reach_the_plan(project: Project) -> None:
+    project.config = None
+    planned = project.run(
+        "--dry-run", "--config", "run=plate_2.b-1", "sweep={k_star: [7.0], models: [2d]}"
+    )
+    assert jobs_planned(planned)["unsteady_batch"] == 1
+    assert "results/plate_2.b-1/unsteady/2d/k7.nc" in planned
+    assert "/k6.44.nc" not in planned
+
+
+def test_lint_finds_nothing(project: Project) -> None:
+    project.config = None
+    assert "Congratulations" in project.run("--lint")

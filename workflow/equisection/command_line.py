@@ -1,0 +1,101 @@
+"""The command ``equisection``: what a person asks of a run at a terminal.
+
+The workflow itself is started with ``snakemake``; this looks at what it leaves behind.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+import equisection
+from equisection.errors import EquisectionError
+
+_EXAMPLES = """\
+examples:
+  snakemake --cores 2                    run the workflow (config/config.yaml)
+  equisection status                     how far the runs in results/ are
+  equisection status results/my-beam     how far one run is
+  equisection status --plain | grep failed
+"""
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command and return its exit status: 0, 1 on an error, 2 on a wrong usage."""
+    parser = _parser()
+    options = parser.parse_args(arguments)
+    if options.command is None:
+        parser.print_help()
+        return 0
+    try:
+        _status(options.run_folder, options.plain)
+    except EquisectionError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    except BrokenPipeError:  # the reader of a pipe has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="equisection",
+        description="A flexible beam in a flow, its equivalent two-dimensional section, and "
+        "where they go unstable. The workflow is started with snakemake; this command tells "
+        "how far it is.",
+        epilog=_EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument(
+        "--version", action="version", version=f"equisection {equisection.__version__}"
+    )
+    commands = parser.add_subparsers(dest="command", title="commands", metavar="COMMAND")
+    status = commands.add_parser(
+        "status",
+        help="how far the runs are",
+        description="Tell of each case of a run whether it is done (and what it turned out to "
+        "be), running, failed (and why), stopped, broken or waiting. Steady cases are listed "
+        "while they are not done.",
+    )
+    status.add_argument(
+        "run_folder",
+        nargs="*",
+        type=Path,
+        metavar="RUN_FOLDER",
+        help="folder of a run (default: every run in results/)",
+    )
+    status.add_argument(
+        "--plain",
+        action="store_true",
+        help="tab-separated lines with every case, for pipes; the first names the columns",
+    )
+    return parser
+
+
+def _status(folders: Sequence[Path], plain: bool) -> None:
+    # Imported here, so that --help and --version come at once.
+    from rich.console import Console  # noqa: PLC0415
+
+    from equisection.status import find_runs, run_status  # noqa: PLC0415
+    from equisection.status_text import plain_lines, print_status  # noqa: PLC0415
+
+    default = Path("results")
+    places = list(folders) or ([default] if default.is_dir() else [])
+    runs = [run_status(run) for place in places for run in find_runs(place)]
+    if plain:
+        print("\n".join(plain_lines(runs)), flush=True)
+        return
+    if not runs:
+        where = ", ".join(map(str, places)) or f"{Path.cwd()} (it has no folder 'results')"
+        print(f"There is no run in {where} yet. Start one with 'snakemake --cores 2'.")
+    console = Console(highlight=False)
+    for run in runs:
+        print_status(console, run)
+    sys.stdout.flush()
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,279 @@
+"""Fig. 16: mean deformation over k* for every model, and histories of the twist."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
+
+from equisection.figures.cases_shown import (
+    BEAM_LETTERS,
+    SECTION_LETTERS,
+    ShownCase,
+    cases_shown,
+    result_at,
+    results_of,
+)
+from equisection.figures.history import Extent, History, read_extent, read_history
+from equisection.figures.models import LOOKS, Look
+from equisection.figures.models_shown import beam_model, section_model
+from equisection.figures.panels import in_words, letter, say
+from equisection.figures.provenance import add_provenance, solvers_of
+from equisection.figures.style import GREY, LIGHT_GREY, PAGE_WIDTH
+
+#: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
+_BOUNDED = ("settled", "limit-cycle")
+#: Symbols and units of the two upper panels.
+_QUANTITIES = {
+    "mean_twist_deg": r"mean twist of the tip  $\overline{\theta}$ (deg)",
+    "mean_deflection_chords": r"mean deflection of the tip  $\overline{w}/c$",
+}
+
+
+#: Look of the range of motion: hatched, to be told from the bracket of the onset.
+_EXTENT: dict[str, Any] = {
+    "facecolor": "none",
+    "edgecolor": "#A8A8A8",
+    "hatch": "/////",
+    "linewidth": 0.4,
+}
+
+
+@dataclass(frozen=True)
+class Response:
+    """Everything that the figure shows.
+
+    Attributes
+    ----------
+    summary, onset
+        ``comparison/summary.csv`` and ``comparison/onset.csv``.
+    cases
+        The cases of each model whose histories are shown.
+    histories
+        Histories by the letters of the cases.
+    extents
+        Between what values the section moves, at each k* at which its motion is bounded.
+    """
+
+    summary: pd.DataFrame
+    onset: pd.DataFrame
+    cases: Mapping[str, Sequence[ShownCase]] = field(default_factory=dict)
+    histories: Mapping[str, History] = field(default_factory=dict)
+    extents: Sequence[Extent] = ()
+
+
+def read_response(
+    summary: pd.DataFrame, onset: pd.DataFrame, results: Sequence[Path], i_star: float
+) -> Response:
+    """Choose the cases and read their histories alone, and the extents of the bounded section."""
+    models = list(dict.fromkeys(summary["model"]))
+    cases: dict[str, list[ShownCase]] = {}
+    histories: dict[str, History] = {}
+    extents: list[Extent] = []
+    section, beam = section_model(models), beam_model(models)
+    for model, letters in ((section, SECTION_LETTERS), (beam, BEAM_LETTERS)):
+        if model is None:
+            continue
+        files = results_of(results, model)
+        cases[model] = cases_shown(summary, onset, model, letters)
+        histories |= {
+            case.letter: read_history(result_at(files, case.k_star), i_star)
+            for case in cases[model]
+            if case.exists
+        }
+        if model == section:
+            bounded = summary[(summary["model"] == model) & summary["regime"].isin(_BOUNDED)]
+            extents = [read_extent(result_at(files, k_star)) for k_star in bounded["k_star"]]
+    return Response(summary, onset, cases, histories, extents)
+
+
+def draw(response: Response) -> Figure:
+    """Draw the means over k* (top) and the histories (middle: section, bottom: beam)."""
+    models = list(dict.fromkeys(response.summary["model"]))
+    section, beam = section_model(models), beam_model(models)
+    figure = Figure(figsize=(PAGE_WIDTH, 7.6))
+    halves = figure.add_gridspec(2, 1, height_ratios=(1.0, 1.2))
+    above, below = halves[0].subgridspec(1, 2), halves[1].subgridspec(2, 3)
+    top = [figure.add_subplot(above[0]), figure.add_subplot(above[1])]
+    for axes, name, place in zip(top, _QUANTITIES, "ab", strict=True):
+        _means(axes, response, name)
+        letter(axes, place)
+    rows = ((section, SECTION_LETTERS, "cde", "2D"), (beam, BEAM_LETTERS, "fgh", "3D"))
+    for row, (model, letters, places, dimension) in enumerate(rows):
+        shown = {case.letter: case for case in response.cases.get(model or "", ())}
+        for column, (name, place) in enumerate(zip(letters, places, strict=True)):
+            axes = figure.add_subplot(below[row, column])
+            if model is None:
+                letter(axes, place, name)
+                say(axes, f"The sweep has no {dimension} model.", 24)
+            else:
+                _history(axes, place, shown[name], response.histories.get(name), LOOKS[model])
+            if column == 0:
+                axes.set_ylabel(r"$\theta$ (deg)")
+    figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
+    add_provenance(figure, *_sources(response))
+    return figure
+
+
+def _means(axes: Axes, response: Response, name: str) -> None:
+    """Draw the mean of one quantity over k*, with the bracket of the onset."""
+    summary = response.summary
+    axes.set(xlabel="$k^*$", ylabel=_QUANTITIES[name])
+    if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
+        say(axes, "No run of the sweep has a mean: every one failed.")
+        return
+    _bracket(axes, response.onset)
+    _extent(axes, response, name)
+    for model, runs in summary.groupby("model", sort=False):
+        look = LOOKS[str(model)]
+        there = runs[runs[name].notna() & (runs["regime"] != "failed")]
+        bounded = there["regime"].isin(_BOUNDED)
+        axes.plot(there["k_star"], there[name], color=look.colour, linestyle=look.line)
+        for chosen, filled in ((there[bounded], True), (there[~bounded], False)):
+            axes.plot(
+                chosen["k_star"],
+                chosen[name],
+                color=look.colour,
+                linestyle="none",
+                marker=look.marker,
+                markerfacecolor=look.colour if filled else "white",
+            )
+        failed = runs.loc[runs["regime"] == "failed", "k_star"]
+        if len(failed):
+            axes.plot(
+                failed,
+                np.zeros(len(failed)),
+                color=look.colour,
+                linestyle="none",
+                marker="x",
+                transform=axes.get_xaxis_transform(),
+                clip_on=False,
+                zorder=5,
+            )
+    for shown in response.cases.values():
+        _letters(axes, shown, name)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
+    low, high = axes.get_ylim()
+    axes.set_ylim(low - 0.1 * (high - low), high)  # room for letters below the lowest points
+
+
+def _bracket(axes: Axes, onset: pd.DataFrame) -> None:
+    """Shade the bracket of the onset, if both its sides are known."""
+    bracket = _shown_bracket(onset)
+    if bracket is not None:
+        axes.axvspan(
+            bracket["k_star_unstable"], bracket["k_star_stable"], color=LIGHT_GREY, linewidth=0
+        )
+
+
+def _shown_bracket(onset: pd.DataFrame) -> pd.Series | None:
+    """Return the bracket of the beam, or that of the section if there is no beam."""
+    closed = onset.dropna(subset=["k_star_stable", "k_star_unstable"])
+    models = closed["model"].tolist()
+    model = beam_model(models) or section_model(models)
+    return None if model is None else closed[closed["model"] == model].iloc[0]
+
+
+def _extent(axes: Axes, response: Response, name: str) -> None:
+    """Shade between what values the section moves."""
+    if len(response.extents) < 2:
+        return
+    extents = sorted(response.extents, key=lambda extent: extent.k_star)
+    ranges = [e.twist_deg if name == "mean_twist_deg" else e.deflection_chords for e in extents]
+    low, high = zip(*ranges, strict=True)
+    axes.fill_between(
+        [extent.k_star for extent in extents],
+        low,
+        high,
+        **_EXTENT,
+    )
+
+
+def _letters(axes: Axes, cases: Sequence[ShownCase], name: str) -> None:
+    """Mark the cases whose histories are shown; those at the same k* share a mark."""
+    places: dict[float, list[ShownCase]] = {}
+    for case in cases:
+        if case.exists:
+            places.setdefault(case.k_star, []).append(case)
+    for k_star, same in places.items():
+        above = same[0].letter in SECTION_LETTERS
+        axes.annotate(
+            ", ".join(case.letter for case in same),
+            (k_star, getattr(same[0], name)),
+            xytext=(4, 15) if above else (-5, -15),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=8,
+            fontweight="bold",
+            path_effects=[withStroke(linewidth=2.0, foreground="white")],
+            arrowprops={"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 2},
+        )
+
+
+def _history(axes: Axes, place: str, case: ShownCase, history: History | None, look: Look) -> None:
+    """Draw the history of one case, or say why there is none."""
+    if not case.exists or history is None:
+        letter(axes, place, f"{case.letter}: {look.label}")
+        say(axes, f"No case {case.letter}: {case.regime}.", 24)
+        return
+    outcome = f"$k^*$ = {case.k_star:g}, {in_words(case.regime)}"
+    letter(axes, place, f"{case.letter}: {look.label}\n{outcome}")
+    if history.time.size == 0:
+        say(axes, "The run left no history.", 24)
+        return
+    axes.plot(history.time, history.tip_twist_deg, color=look.colour, linewidth=0.6)
+    axes.set(xlabel="$t^*$", xlim=(0.0, float(history.time[-1])))
+
+
+def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
+    """Explain models, marks and shades."""
+    handles: list[Line2D | Patch] = [
+        Line2D([], [], color=look.colour, marker=look.marker, linestyle=look.line, label=look.label)
+        for look in (LOOKS[model] for model in models)
+    ]
+    regimes = set(response.summary["regime"])
+    if "growing" in regimes:
+        handles.append(_mark("o", "still growing"))
+    if "failed" in regimes:
+        handles.append(_mark("x", "failed"))
+    bracket = _shown_bracket(response.onset)
+    if bracket is not None:
+        label = f"bracket of the onset, {LOOKS[bracket['model']].label}"
+        handles.append(Patch(color=LIGHT_GREY, linewidth=0, label=label))
+    if len(response.extents) > 1:
+        model = section_model(list(response.cases))
+        label = f"range of motion, {LOOKS[model].label}" if model else "range of motion"
+        handles.append(Patch(label=label, **_EXTENT))
+    return handles
+
+
+def _mark(marker: str, label: str) -> Line2D:
+    return Line2D(
+        [],
+        [],
+        color=GREY,
+        linestyle="none",
+        marker=marker,
+        markerfacecolor="white",
+        label=label,
+    )
+
+
+def _sources(response: Response) -> tuple[str, ...]:
+    """Say what solvers made the runs; in words where a history tells."""
+    words = solvers_of((h.description, h.resolution) for h in response.histories.values())
+    if words:
+        return words
+    pairs = response.summary[["solver", "resolution"]].drop_duplicates()
+    return solvers_of((f"solver '{solver}'", str(name)) for solver, name in pairs.values)

@@ -1,0 +1,44 @@
+"""What panels share: their letters, and the sentence that stands where there is no data."""
+
+from __future__ import annotations
+
+import textwrap
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from equisection.figures.style import GREY
+
+
+def letter(axes: Axes, name: str, title: str = "") -> None:
+    """Write the panel's letter, as in "(a)", and what it shows, above its left edge."""
+    axes.set_title(f"({name})  {title}".rstrip(), loc="left", pad=5.0)
+
+
+def say(axes: Axes, sentence: str, width: int = 38) -> None:
+    """Leave the panel empty, with a plain sentence that says why."""
+    axes.text(
+        0.5,
+        0.5,
+        textwrap.fill(sentence, width),
+        transform=axes.transAxes,
+        ha="center",
+        va="center",
+        fontsize=7,
+        color=GREY,
+    )
+    axes.set_xticks([])
+    axes.set_yticks([])
+    axes.grid(visible=False)
+
+
+def in_words(regime: str) -> str:
+    """Return the name of a regime as it stands in a sentence."""
+    return regime.replace("-", " ")
+
+
+def legend_above(figure: Figure, axes: Axes, columns: int) -> None:
+    """Explain the series of one panel above all of them, clear of the data."""
+    handles, labels = axes.get_legend_handles_labels()
+    if handles:
+        figure.legend(handles, labels, loc="outside upper center", ncols=columns)

@@ -1,0 +1,48 @@
+"""Figures as files: the same data gives the same bytes, and a file is whole or not there."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from matplotlib.figure import Figure
+
+import equisection
+from equisection.errors import EquisectionError
+from equisection.files import written_whole
+
+logger = logging.getLogger(__name__)
+logging.getLogger("fontTools").setLevel(logging.WARNING)  # it tells of every glyph it embeds
+
+_MADE_BY = f"equisection {equisection.__version__}"
+#: What each format says about itself; dates would make every drawing differ.
+_METADATA: dict[str, dict[str, Any]] = {
+    "png": {"Software": _MADE_BY},
+    "svg": {"Date": None, "Creator": _MADE_BY},
+    "pdf": {"CreationDate": None, "Creator": _MADE_BY, "Producer": None},
+}
+
+
+class FigureFormatError(EquisectionError):
+    """A figure is asked for in a format that is not written here."""
+
+
+def save_figure(figure: Figure, paths: Sequence[Path]) -> None:
+    """Write a figure to each path, in the format of its suffix.
+
+    Raises
+    ------
+    FigureFormatError
+        A suffix is none of ``.png``, ``.svg`` and ``.pdf``.
+    """
+    for path in paths:
+        suffix = path.suffix.removeprefix(".")
+        if suffix not in _METADATA:
+            raise FigureFormatError(
+                f"{path}: format '{suffix}' is not written here; {', '.join(_METADATA)} are"
+            )
+        with written_whole(path) as aside:
+            figure.savefig(aside, format=suffix, metadata=_METADATA[suffix])
+        logger.info("%s", path)
