@@ -25,7 +25,9 @@ def main(
 ) -> None:
     """Draw the means of all models, and the histories of the chosen cases."""
     i_star = float(read_dataset(equivalent)["i_star"].sel(reduction=reduction))
-    response = read_response(pd.read_csv(summary), pd.read_csv(onset), result_files(indices), i_star)
+    response = read_response(
+        pd.read_csv(summary), pd.read_csv(onset), result_files(indices), i_star
+    )
     with drawing_style(style):
         save_figure(draw(response), outputs)
 

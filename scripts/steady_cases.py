@@ -19,9 +19,7 @@ def main(raw_config: dict[str, Any], dimension: str, names: Sequence[str], outpu
     cases = {}
     for name in names:
         resolution, incidence_deg = plan.angle_of(name)
-        cases[name] = steady_case(
-            config, dimension, incidence_deg, resolution, solvers[resolution]
-        )
+        cases[name] = steady_case(config, dimension, incidence_deg, resolution, solvers[resolution])
     write_cases(output, cases)
 
 

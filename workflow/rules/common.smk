@@ -1,6 +1,7 @@
 """What all rules share: the validated configuration, where files go, and package sources."""
 
 import hashlib
+import os
 import sys
 from pathlib import Path
 
@@ -23,6 +24,7 @@ RESULTS = f"results/{CONFIG.run}"
 LOGS = f"{RESULTS}/logs"
 STORE = "results/.store"
 ENVIRONMENT = "../../envs/environment.yaml"
+PROJECT = Path(workflow.current_basedir).parent.parent
 PROVIDES = SOLVERS[CONFIG.solver].provides
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
@@ -39,6 +41,13 @@ wildcard_constraints:
     angle=plan.ANGLE_PATTERN,
     case=plan.CASE_PATTERN,
     batch=plan.BATCH_PATTERN,
+
+
+def of_project(pattern):
+    """Return files of the project by relative paths, so that a project that was moved has nothing
+    to do; they are found from another working directory too.
+    """
+    return [os.path.relpath(path) for path in sorted(PROJECT.glob(pattern))]
 
 
 def code(*parts):
@@ -87,6 +96,12 @@ def indices_of_sweep(wildcards):
         for model in CONFIG.sweep.models
         for batch in plan.batches(CONFIG)
     ]
+
+
+def index_of_beam():
+    """Return the index of the beam's results, if the beam is run."""
+    there = "3d" in CONFIG.sweep.models
+    return [f"{RESULTS}/unsteady/3d/{plan.SWEEP_BATCH}.json"] if there else []
 
 
 def indices_before_round(wildcards):

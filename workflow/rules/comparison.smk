@@ -73,8 +73,8 @@ rule paper_comparison:
         modes=f"{RESULTS}/structure/modes.nc",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
         mesh_study=f"{RESULTS}/structure/mesh_study.nc",
-        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        index_3d=index_of_beam(),
         correction=f"{RESULTS}/steady/correction.nc",
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
@@ -106,6 +106,7 @@ rule paper_comparison:
         code=code("comparison"),
         is_paper_case=CONFIG.is_paper_case,
         config=RESOLVED,
+        reference=plan.reference_case(CONFIG),
     message:
         "comparison with the paper"
     script:

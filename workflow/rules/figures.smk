@@ -15,8 +15,9 @@ CASES_SHOWN = (
     "figures/models.py",
     "figures/models_shown.py",
 )
-STYLE = workflow.source_path("../../envs/equisection.mplstyle")
-RULE_FILES = sorted(str(path) for path in Path("workflow/rules").glob("*.smk"))
+(STYLE,) = of_project("envs/equisection.mplstyle")
+(SNAKEFILE,) = of_project("workflow/Snakefile")
+RULE_FILES = of_project("workflow/rules/*.smk")
 
 
 def indices_of_histories(wildcards):
@@ -34,7 +35,7 @@ rule fig01_workflow:
     """Block diagram of the procedure: the rules and what flows between them (Fig. 1)."""
     input:
         config=f"{RESULTS}/config.resolved.yaml",
-        snakefile="workflow/Snakefile",
+        snakefile=SNAKEFILE,
         rule_files=RULE_FILES,
         style=STYLE,
     output:
@@ -54,7 +55,13 @@ rule fig01_workflow:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig01_workflow.py", "figures/layers.py", "figures/rule_graph.py", "figures/snakemake_query.py"),
+        code=code(
+            *DRAWING,
+            "figures/fig01_workflow.py",
+            "figures/layers.py",
+            "figures/rule_graph.py",
+            "figures/snakemake_query.py",
+        ),
     message:
         "Fig. 1, the workflow"
     script:
@@ -83,7 +90,12 @@ rule fig03_modes:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig03_modes.py", "structure/analytic.py", "structure/span.py"),
+        code=code(
+            *DRAWING,
+            "figures/fig03_modes.py",
+            "structure/analytic.py",
+            "structure/span.py",
+        ),
         beam=RESOLVED["beam"],
     message:
         "Fig. 3, modes"
@@ -174,7 +186,12 @@ rule fig13_lift_correction:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig13_lift_correction.py", "figures/correction.py", "figures/models.py"),
+        code=code(
+            *DRAWING,
+            "figures/fig13_lift_correction.py",
+            "figures/correction.py",
+            "figures/models.py",
+        ),
         resolution=CONFIG.steady.resolution,
     message:
         "Fig. 13, correction of the lift"
@@ -206,7 +223,12 @@ rule fig14_moment_correction:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig14_moment_correction.py", "figures/correction.py", "figures/models.py"),
+        code=code(
+            *DRAWING,
+            "figures/fig14_moment_correction.py",
+            "figures/correction.py",
+            "figures/models.py",
+        ),
         resolution=CONFIG.steady.resolution,
     message:
         "Fig. 14, correction of the moment"

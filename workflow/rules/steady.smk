@@ -14,12 +14,12 @@ checkpoint steady_cases:
         f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
     log:
         f"{LOGS}/steady_cases_{{dimension}}.log",
+    conda:
+        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
-    conda:
-        ENVIRONMENT
     params:
         code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
@@ -38,12 +38,12 @@ checkpoint steady_case_file:
         f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
     log:
         f"{LOGS}/steady_case_file_{{dimension}}_{{angle}}.log",
+    conda:
+        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
-    conda:
-        ENVIRONMENT
     params:
         code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
@@ -62,12 +62,12 @@ rule steady_case:
         f"{RESULTS}/steady/{{dimension}}/{{angle}}.nc",
     log:
         f"{LOGS}/steady_{{dimension}}_{{angle}}.log",
+    conda:
+        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=2000,
         runtime=240,
-    conda:
-        ENVIRONMENT
     params:
         store=STORE,
     message:
@@ -86,12 +86,12 @@ if Capability.BATCH in PROVIDES:
             f"{RESULTS}/steady/{{dimension}}/polar.json",
         log:
             f"{LOGS}/steady_{{dimension}}.log",
+        conda:
+            ENVIRONMENT
         threads: 1
         resources:
             mem_mb=1000,
             runtime=10,
-        conda:
-            ENVIRONMENT
         params:
             store=STORE,
         message:
@@ -118,12 +118,12 @@ else:
             f"{RESULTS}/steady/{{dimension}}/polar.json",
         log:
             f"{LOGS}/steady_results_{{dimension}}.log",
+        conda:
+            ENVIRONMENT
         threads: 1
         resources:
             mem_mb=500,
             runtime=5,
-        conda:
-            ENVIRONMENT
         message:
             "index of the steady {wildcards.dimension} results"
         script:
@@ -138,12 +138,12 @@ rule polar:
         f"{RESULTS}/steady/polar_{{dimension}}.nc",
     log:
         f"{LOGS}/polar_{{dimension}}.log",
+    conda:
+        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
-    conda:
-        ENVIRONMENT
     params:
         code=code("results"),
     message:

@@ -13,12 +13,12 @@ checkpoint unsteady_cases:
         f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
     log:
         f"{LOGS}/unsteady_cases_{{model}}_{{batch}}.log",
+    conda:
+        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
-    conda:
-        ENVIRONMENT
     params:
         code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
@@ -38,12 +38,12 @@ checkpoint unsteady_case_file:
         f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
     log:
         f"{LOGS}/unsteady_case_file_{{model}}_{{case}}.log",
+    conda:
+        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
-    conda:
-        ENVIRONMENT
     params:
         code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
@@ -62,12 +62,12 @@ rule unsteady_case:
         f"{RESULTS}/unsteady/{{model}}/{{case}}.nc",
     log:
         f"{LOGS}/unsteady_{{model}}_{{case}}.log",
+    conda:
+        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=2000,
         runtime=1440,
-    conda:
-        ENVIRONMENT
     params:
         store=STORE,
     message:
@@ -86,12 +86,12 @@ if Capability.BATCH in PROVIDES:
             f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
             f"{LOGS}/unsteady_{{model}}_{{batch}}.log",
+        conda:
+            ENVIRONMENT
         threads: 1
         resources:
             mem_mb=2000,
             runtime=60,
-        conda:
-            ENVIRONMENT
         params:
             store=STORE,
         message:
@@ -109,12 +109,12 @@ else:
             f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
             f"{LOGS}/unsteady_results_{{model}}_{{batch}}.log",
+        conda:
+            ENVIRONMENT
         threads: 1
         resources:
             mem_mb=500,
             runtime=5,
-        conda:
-            ENVIRONMENT
         message:
             "index of {wildcards.model}, {wildcards.batch}"
         script:
@@ -129,12 +129,12 @@ checkpoint refine_onset:
         f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
     log:
         f"{LOGS}/refine_onset_{{model}}_{{batch}}.log",
+    conda:
+        ENVIRONMENT
     threads: 1
     resources:
         mem_mb=500,
         runtime=5,
-    conda:
-        ENVIRONMENT
     params:
         code=code("comparison/onset.py", "comparison/summary.py"),
         tolerance=CONFIG.sweep.onset_tolerance,

@@ -108,8 +108,10 @@ def _merged(shared: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
     merged = dict(shared)
     for key, value in own.items():
         inside = shared.get(key)
-        both = isinstance(value, dict) and isinstance(inside, dict)
-        merged[key] = _merged(inside, value) if both else value
+        if isinstance(value, dict) and isinstance(inside, dict):
+            merged[key] = _merged(inside, value)
+        else:
+            merged[key] = value
     return merged
 
 

@@ -86,7 +86,7 @@ def _mend_results(index: Path) -> list[str]:
 
 
 def _belongs(path: Path, case_hash: str) -> bool:
-    from equisection.results.netcdf import read_attributes  # costly, and seldom needed
+    from equisection.results.netcdf import read_attributes  # noqa: PLC0415, costly, seldom needed
 
     try:
         read_attributes(path, case_hash)

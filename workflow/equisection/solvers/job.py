@@ -111,7 +111,9 @@ def _compute(tasks: list[Task], store: Path, progress_file: Path) -> None:
     work = store / tasks[0].hash
     work.mkdir(parents=True, exist_ok=True)
     wall, cpu = time.perf_counter(), time.process_time()
-    with JobProgress(progress_file, [task.hash for task in tasks], solver.describe()) as progress:
+    unit = "cases" if isinstance(tasks[0].case, SteadyCase) else "c/V"
+    hashes = [task.hash for task in tasks]
+    with JobProgress(progress_file, hashes, solver.describe(), unit) as progress:
         results = _run(solver, [task.case for task in tasks], work, progress)
     if len(results) != len(tasks):
         raise SolverError(
