@@ -12,7 +12,7 @@ import xarray as xr
 
 from equisection.comparison import paper_values
 from equisection.comparison.paper import COLUMNS, paper_table
-from equisection.comparison.paper_here import Run
+from equisection.comparison.paper_here import Run, uniform_load_ratio
 from equisection.comparison.paper_values import PUBLISHED, Published, relative_difference
 from equisection.comparison.tables import table_1, table_2
 from equisection.config import Config
@@ -99,6 +99,10 @@ def run(**changes: object) -> Run:
                 "stiffness_ratio": ("reduction", [0.184, 0.228]),
                 "inertia_ratio": ("reduction", [9.13, 12.0]),
                 "k_star": ("reduction", [21.28, 22.5]),
+                "f_mean": ("row", [0.6, -0.2]),
+                "g_mean": ("row", [0.4, -0.2]),
+                "mass_theta": (("row", "column"), np.diag([0.4, 0.4])),
+                "mass_w": (("row", "column"), np.diag([0.25, 0.25])),
             },
             {"reduction": both},
         ),
@@ -239,6 +243,11 @@ class TestPaperTable:
         assert math.isnan(torsion["relative_difference"])
         assert table.loc["c_l/C_L at 10 deg", "note"] == "holds"
         assert table.loc["c_m/C_M at 10 deg", "note"] == "does not hold here"
+
+    def test_ratio_of_a_uniform_load(self) -> None:
+        assert uniform_load_ratio(run(), "torsion") == pytest.approx(3.0 * (180 / 58) ** 2)
+        one = run(modes=modes().isel(mode=[0, 2]))
+        assert math.isnan(uniform_load_ratio(one, "torsion"))
 
     def test_without_the_beam(self) -> None:
         table = by_quantity(paper_table(run(reference_3d=None), True))

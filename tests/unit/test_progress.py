@@ -65,7 +65,7 @@ class TestSnapshot:
         now = time.time()
         state = snapshot(started=now, first_time=now, updated=now + 1e-3, done=5599.0, total=5600.0)
         words = state.few_words()
-        assert len("unsteady 2d-corrected " + 21 * "-" + words) <= 80
+        assert len("unsteady 2d-corrected " + 19 * "-" + words) <= 80
 
 
 class TestProcess:

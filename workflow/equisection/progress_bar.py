@@ -52,7 +52,7 @@ class Bar:
         if self._moving is None:
             self._moving = Progress(
                 TextColumn("{task.description}", markup=False),
-                BarColumn(bar_width=20),
+                BarColumn(bar_width=18),
                 TextColumn("{task.fields[words]}", markup=False),
                 console=self._console,
                 transient=True,

@@ -135,6 +135,25 @@ def this_angle(wildcards):
     return [wildcards.angle]
 
 
+def structure_files():
+    """Return what is known of the beam without a flow."""
+    return [
+        f"{RESULTS}/structure/{name}.nc"
+        for name in ("modes", "mesh_study", "equivalent")
+    ]
+
+
+def steady_files():
+    """Return the results of the rigid section and beam, indexed and gathered."""
+    return [
+        *(f"{RESULTS}/steady/{dimension}/polar.json" for dimension in ("2d", "3d")),
+        *(
+            f"{RESULTS}/steady/{name}.nc"
+            for name in ("polar_2d", "polar_3d", "correction")
+        ),
+    ]
+
+
 def figure_files():
     """Return the figures of the run, each in three formats."""
     return [

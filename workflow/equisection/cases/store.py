@@ -60,12 +60,14 @@ def read_cases(path: Path) -> dict[str, Case]:
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise CaseFileError(f"{path}: cannot be read as a case file ({error})") from None
+        raise CaseFileError(
+            f"{path}: cannot be read as a case file ({error}); delete it and run again"
+        ) from None
     found = document.get("schema_version") if isinstance(document, dict) else None
     if found != SCHEMA_VERSION:
         raise CaseFileError(
             f"{path}: schema version {found}; version {SCHEMA_VERSION} is read here. "
-            "Delete the file and run again to have it written anew"
+            "It was not written by this version of the workflow: delete it and run again"
         )
     try:
         shared, entries = document["shared"], document["cases"]
@@ -73,12 +75,12 @@ def read_cases(path: Path) -> dict[str, Case]:
     except (KeyError, TypeError, AttributeError):
         raise CaseFileError(
             f"{path}: 'shared' and 'cases' with a case under each name are needed. "
-            "Delete the file and run again to have it written anew"
+            "It was not written by this version of the workflow: delete it and run again"
         ) from None
     except ValidationError as error:
         problem = error.errors()[0]
         where = ".".join(str(part) for part in problem["loc"])
-        raise CaseFileError(f"{path}: {where}: {problem['msg']}") from None
+        raise CaseFileError(f"{path}: {where}: {problem['msg']}; delete it and run again") from None
 
 
 def _common(first: dict[str, Any], second: dict[str, Any]) -> dict[str, Any]:

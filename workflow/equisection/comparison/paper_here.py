@@ -70,7 +70,7 @@ def values_here(run: Run) -> dict[str, list[Here]]:
     found |= _frequency_constants(run.modes)
     found |= _rigid_plate(run)
     found |= _factors(run)
-    found |= _modal_contributions(run.reference_3d)
+    found |= _modal_contributions(run)
     found["k* of the onset"] = onsets(run.onset, run.summary, run.config.reduction)
     found["cost of 3D over 2D, per time simulated"] = [_cost(run.summary)]
     for quantity in FLOW_FIELD:
@@ -164,8 +164,8 @@ def _factors(run: Run) -> dict[str, list[Here]]:
     return found
 
 
-def _modal_contributions(result: xr.Dataset | None) -> dict[str, list[Here]]:
-    found = {}
+def _modal_contributions(run: Run) -> dict[str, list[Here]]:
+    result, found = run.reference_3d, {}
     for kind in ("torsion", "bending"):
         name = f"{kind}_amplitude"
         if result is None or name not in result or not result["time"].size:
@@ -175,13 +175,32 @@ def _modal_contributions(result: xr.Dataset | None) -> dict[str, list[Here]]:
             late = result[name].sel(time=slice(start if math.isfinite(start) else None, None))
             mean = np.abs(late.mean("time").values)
             note = (
-                f"means over the end of the run at k* = {float(result.attrs['k_star']):g}; "
-                f"modes 1 to {mean.size}"
+                f"means over the end of the run at k* = {float(result.attrs['k_star']):g}; a load "
+                f"that is uniform along the span gives {uniform_load_ratio(run, kind):.0f}"
             )
             value = mean[0] / mean[1:].max() if mean.size > 1 and mean[1:].max() else math.nan
             here = Here(float(value), note)
         found[f"first {kind} mode over the others"] = [here]
     return found
+
+
+def uniform_load_ratio(run: Run, kind: str) -> float:
+    """Return the first modal amplitude over the second under a static uniform load.
+
+    An amplitude is (mean of the shape)/(M_ii omega_i^2) times what all modes share (Eqs. 13 and
+    14 without the terms of motion); NaN with fewer than two modes.
+    """
+    mean_name, mass_name = {
+        "torsion": ("f_mean", "mass_theta"),
+        "bending": ("g_mean", "mass_w"),
+    }[kind]
+    mean = run.equivalent[mean_name].values[:2]
+    mass = np.diag(run.equivalent[mass_name].values)[:2]
+    frequency = run.modes["frequency"].values[run.modes["kind"].values == kind][:2]
+    if min(mean.size, mass.size, frequency.size) < 2:
+        return math.nan
+    amplitude = np.abs(mean) / (mass * frequency**2)
+    return float(amplitude[0] / amplitude[1])
 
 
 def onsets(onset: pd.DataFrame, summary: pd.DataFrame, reduction: str) -> list[Here]:

@@ -18,8 +18,13 @@ WANTED_DEG = (1.0, 2.5, 7.0)
 
 
 def incidences_shown(available_deg: Sequence[float]) -> list[float]:
-    """Return the incidences (deg) nearest to those wanted, each once, ascending."""
-    nearest = (min(available_deg, key=lambda a: abs(a - w)) for w in WANTED_DEG if available_deg)
+    """Return the incidences (deg) nearest to those wanted, each once, ascending.
+
+    Of two that are as near the larger one is taken: at zero there is nothing to see.
+    """
+    if not available_deg:
+        return []
+    nearest = (min(available_deg, key=lambda a: (abs(a - w), -a)) for w in WANTED_DEG)
     return sorted(set(nearest))
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +29,7 @@ from equisection.figures.models import LOOKS, Look
 from equisection.figures.models_shown import beam_model, section_model
 from equisection.figures.panels import in_words, letter, say
 from equisection.figures.provenance import add_provenance, solvers_of
-from equisection.figures.style import GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 
 #: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
 _BOUNDED = ("settled", "limit-cycle")
@@ -58,7 +58,7 @@ class Response:
     summary, onset
         ``comparison/summary.csv`` and ``comparison/onset.csv``.
     cases
-        The cases of each model whose histories are shown.
+        The cases of each model whose histories are shown: of the section, then of the beam.
     histories
         Histories by the letters of the cases.
     extents
@@ -132,7 +132,8 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
         say(axes, "No run of the sweep has a mean: every one failed.")
         return
-    _bracket(axes, response.onset)
+    for _, unstable, stable, grey in _brackets(response):
+        axes.axvspan(unstable, stable, color=grey, linewidth=0)
     _extent(axes, response, name)
     for model, runs in summary.groupby("model", sort=False):
         look = LOOKS[str(model)]
@@ -164,24 +165,25 @@ def _means(axes: Axes, response: Response, name: str) -> None:
         _letters(axes, shown, name)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
     low, high = axes.get_ylim()
-    axes.set_ylim(low - 0.1 * (high - low), high)  # room for letters below the lowest points
+    height = high - low
+    axes.set_ylim(low - 0.1 * height, high + 0.06 * height)  # room for the letters
 
 
-def _bracket(axes: Axes, onset: pd.DataFrame) -> None:
-    """Shade the bracket of the onset, if both its sides are known."""
-    bracket = _shown_bracket(onset)
-    if bracket is not None:
-        axes.axvspan(
-            bracket["k_star_unstable"], bracket["k_star_stable"], color=LIGHT_GREY, linewidth=0
-        )
+def _brackets(response: Response) -> list[tuple[Look, float, float, str]]:
+    """Return the brackets that are shown: look of the model, both sides, and their grey.
 
-
-def _shown_bracket(onset: pd.DataFrame) -> pd.Series | None:
-    """Return the bracket of the beam, or that of the section if there is no beam."""
-    closed = onset.dropna(subset=["k_star_stable", "k_star_unstable"])
-    models = closed["model"].tolist()
-    model = beam_model(models) or section_model(models)
-    return None if model is None else closed[closed["model"] == model].iloc[0]
+    Those of the section and of the beam, as far as both sides are known; one for both if they
+    are the same.
+    """
+    closed = response.onset.dropna(subset=["k_star_stable", "k_star_unstable"])
+    found = []
+    for model, grey in zip(response.cases, (FAINT_GREY, LIGHT_GREY), strict=False):
+        for row in closed[closed["model"] == model].itertuples():
+            found.append((LOOKS[model], float(row.k_star_unstable), float(row.k_star_stable), grey))
+    if len(found) == 2 and found[0][1:3] == found[1][1:3]:
+        label = f"{found[0][0].label} and {found[1][0].label}"
+        return [(replace(found[1][0], label=label), *found[1][1:])]
+    return found
 
 
 def _extent(axes: Axes, response: Response, name: str) -> None:
@@ -247,10 +249,10 @@ def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
         handles.append(_mark("o", "still growing"))
     if "failed" in regimes:
         handles.append(_mark("x", "failed"))
-    bracket = _shown_bracket(response.onset)
-    if bracket is not None:
-        label = f"bracket of the onset, {LOOKS[bracket['model']].label}"
-        handles.append(Patch(color=LIGHT_GREY, linewidth=0, label=label))
+    handles += [
+        Patch(color=grey, linewidth=0, label=f"onset bracket, {look.label}")
+        for look, _, _, grey in _brackets(response)
+    ]
     if len(response.extents) > 1:
         model = section_model(list(response.cases))
         label = f"range of motion, {LOOKS[model].label}" if model else "range of motion"

@@ -105,7 +105,7 @@ def _trace(
         list(np.stack([points[:-1], points[1:]], axis=1)),
         array=0.5 * (time[:-1] + time[1:]),
         cmap=_COLOURS.resampled(256),
-        linewidth=0.7,
+        linewidth=0.55,
         rasterized=True,
     )
     lines.set_clim(float(time[0]), float(time[-1]))

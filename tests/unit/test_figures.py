@@ -1,0 +1,312 @@
+"""Every figure draws from good and from poor data, says what made it, and saves reproducibly."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+import equisection
+from equisection.figures import (
+    fig01_workflow,
+    fig03_modes,
+    fig06_section_polar,
+    fig10_spanwise_loads,
+    fig13_lift_correction,
+    fig14_moment_correction,
+    fig15_modal_contributions,
+    fig16_response,
+    fig17_hysteresis,
+)
+from equisection.figures.correction import SteadyData
+from equisection.figures.rule_graph import RuleGraph, RuleText
+from equisection.figures.save import FigureFormatError, save_figure
+from equisection.figures.style import drawing_style
+from equisection.results.netcdf import write_dataset
+from equisection.results.unsteady import UnsteadyResult
+from equisection.solvers.verdicts import refused
+from equisection.structure.plate import Plate
+
+STYLE = Path(__file__).parents[2] / "envs" / "equisection.mplstyle"
+SOLVER = "made-up solver, 5 cells"
+PLATE = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
+
+pytestmark = pytest.mark.filterwarnings("error")
+
+
+@pytest.fixture(autouse=True)
+def _style():
+    with drawing_style(STYLE):
+        yield
+
+
+def words(figure: Figure) -> str:
+    return "\n".join(text.get_text() for text in figure.findobj(Text))
+
+
+def lay_out(figure: Figure) -> None:
+    """Do all of a drawing but the pixels; a layout that finds no room is a warning."""
+    figure.draw_without_rendering()
+
+
+def section_polar(resolutions=("coarse",), missing=()) -> xr.Dataset:
+    incidence = np.linspace(0.0, 10.0, 6)
+    lift = np.tile(np.sin(np.radians(5 * incidence)), (len(resolutions), 1))
+    lift[:, list(missing)] = np.nan
+    over = ("resolution", "incidence_deg")
+    return xr.Dataset(
+        {"cl": (over, lift), "cm": (over, 0.1 * lift), "cd": (over, 0.1 + 0 * lift)},
+        {"resolution": list(resolutions), "incidence_deg": incidence},
+        attrs={f"solver_{name}": SOLVER for name in resolutions},
+    )
+
+
+def beam_polar(missing=()) -> xr.Dataset:
+    polar = section_polar(missing=missing)
+    span = np.linspace(0.05, 0.95, 8)
+    for name in ("cl", "cm"):
+        polar[f"{name}_section"] = polar[name] * xr.DataArray(1 - span**4, {"span": span})
+    return polar
+
+
+def correction(value=1.2) -> xr.Dataset:
+    incidence = np.linspace(0.0, 10.0, 6)
+    factor = ("incidence_deg", np.full(6, value))
+    return xr.Dataset(
+        {"lift_factor": factor, "moment_factor": factor}, {"incidence_deg": incidence}
+    )
+
+
+def modes(count=4) -> xr.Dataset:
+    beam = fig03_modes.analytic_shapes(PLATE)
+    return xr.Dataset(
+        {
+            "shape": (("mode", "span"), np.vstack([beam.bending[:count], beam.torsion[:count]])),
+            "kind": ("mode", ["bending"] * count + ["torsion"] * count),
+        },
+        {"span": beam.span},
+        attrs={"method": "analytic", "elements": "none"},
+    )
+
+
+def run(k_star=8.0, regime="settled", dimension="2d") -> xr.Dataset:
+    """Return a result as a solver leaves it."""
+    time = np.linspace(0.0, 40.0, 401)
+    wave = 0.01 + 0.004 * np.sin(time) * np.exp({"growing": 0.02}.get(regime, 0.0) * time)
+    amplitudes = np.outer([1.0, -0.02, 1e-3, 0.0], wave)
+    beam = {"torsion_amplitudes": amplitudes, "bending_amplitudes": amplitudes}
+    verdict = {"regime": regime, "reason": "made up", "window_start": 20.0}
+    result = UnsteadyResult(
+        time, wave, wave, wave, wave, 0.4 + wave, wave, wave, verdict,
+        **(beam if dimension == "3d" else {}),
+    )  # fmt: skip
+    return _marked(refused("it diverges") if regime == "failed" else result, k_star)
+
+
+def _marked(result: UnsteadyResult, k_star: float) -> xr.Dataset:
+    return result.to_dataset(0.1).assign_attrs(
+        k_star=k_star, solver_description=SOLVER, resolution="coarse"
+    )
+
+
+def sweep(folder: Path, runs: dict[str, dict[float, str]]):
+    """Write results, and return them with their summary and onset."""
+    rows, brackets, paths = [], [], []
+    for model, regimes in runs.items():
+        for k_star, regime in regimes.items():
+            path = folder / model / f"k{k_star:g}.nc"
+            write_dataset(path, run(k_star, regime, model[:2]))
+            paths.append(path)
+            mean = math.nan if regime == "failed" else 5.0 / k_star
+            rows.append((model, k_star, regime, mean, mean, "made-up", "coarse"))
+        stable = [k for k, regime in regimes.items() if regime in ("settled", "limit-cycle")]
+        growing = [k for k, regime in regimes.items() if regime == "growing"]
+        brackets.append((model, min(stable, default=math.nan), max(growing, default=math.nan)))
+    columns = "model k_star regime mean_twist_deg mean_deflection_chords solver resolution"
+    summary = pd.DataFrame(rows, columns=columns.split())
+    onset = pd.DataFrame(brackets, columns=["model", "k_star_stable", "k_star_unstable"])
+    return summary, onset, paths
+
+
+WHOLE = {4.0: "growing", 5.0: "limit-cycle", 6.0: "failed", 8.0: "settled"}
+SWEEPS = {
+    "all models": {"2d": WHOLE, "2d-corrected": WHOLE, "3d": WHOLE},
+    "no beam": {"2d": WHOLE},
+    "no section": {"3d": WHOLE},
+    "one k*": {"2d-corrected": {21.0: "settled"}, "3d": {21.0: "growing"}},
+    "all failed": {"2d": {4.0: "failed", 5.0: "failed"}, "3d": {4.0: "failed"}},
+    "all stable": {"2d-corrected": {4.0: "settled", 5.0: "settled"}},
+}
+
+
+def figures_of_data():
+    whole = SteadyData(section_polar(), beam_polar(), correction(), "coarse")
+    graph = RuleGraph(("all", "modes", "fig03_modes"), frozenset({("modes", "fig03_modes")}))
+    texts = {"modes": RuleText("Modes", "structure"), "fig03_modes": RuleText("", "figures")}
+    return {
+        "fig01": lambda: fig01_workflow.draw(graph, texts, SOLVER),
+        "fig06": lambda: fig06_section_polar.draw(section_polar(("coarse", "fine", "finest"))),
+        "fig10": lambda: fig10_spanwise_loads.draw(beam_polar(), "coarse"),
+        "fig13": lambda: fig13_lift_correction.draw(whole),
+        "fig14": lambda: fig14_moment_correction.draw(whole),
+        "fig15": lambda: fig15_modal_contributions.draw(modes(), run(dimension="3d")),
+    }
+
+
+@pytest.mark.parametrize("name", sorted(figures_of_data()))
+def test_says_solver_and_version(name):
+    figure = figures_of_data()[name]()
+    found = words(figure).replace("\n", " ")
+    assert SOLVER in found
+    assert f"equisection {equisection.__version__}" in found
+    lay_out(figure)
+
+
+def test_modes_have_no_flow_solver():
+    figure = fig03_modes.draw(modes(), fig03_modes.analytic_shapes(PLATE))
+    assert "no flow solver" in words(figure)
+    lay_out(figure)
+
+
+@pytest.mark.parametrize("count", [0, 2])
+def test_modes_may_be_few(count):
+    figure = fig03_modes.draw(modes(count), fig03_modes.analytic_shapes(PLATE))
+    assert ("No bending mode was computed." in words(figure)) == (count == 0)
+    lay_out(figure)
+
+
+def test_a_long_description_is_wrapped_within_the_page():
+    polar = beam_polar()
+    polar.attrs["solver_coarse"] = "OpenFOAM v2406 overPimpleDyMFoam kOmegaSST " * 8
+    figure = fig10_spanwise_loads.draw(polar, "coarse")
+    lines = figure.get_supxlabel().split("\n")
+    assert 1 < len(lines) < 8
+    assert max(map(len, lines)) < 150
+
+
+def test_polars_may_miss_points():
+    figure = fig06_section_polar.draw(section_polar(missing=(2,)))
+    assert "1 of 6 cases have no result" in words(figure).replace("\n", " ")
+    lay_out(figure)
+
+
+def test_polars_may_be_empty():
+    nothing = range(6)
+    for figure in (
+        fig06_section_polar.draw(section_polar(missing=nothing)),
+        fig10_spanwise_loads.draw(beam_polar(missing=nothing), "coarse"),
+        fig13_lift_correction.draw(
+            SteadyData(
+                section_polar(missing=nothing),
+                beam_polar(missing=nothing),
+                correction(math.nan),
+                "coarse",
+            )
+        ),
+    ):
+        assert "No incidence has" in words(figure)
+        lay_out(figure)
+
+
+@pytest.mark.parametrize(
+    ("available", "shown"),
+    [
+        ([0.0, 1.0, 2.5, 7.0, 10.0], [1.0, 2.5, 7.0]),
+        ([0.0, 2.0, 6.0], [2.0, 6.0]),
+        ([5.0], [5.0]),
+        ([], []),
+    ],
+)
+def test_incidences_shown(available, shown):
+    assert fig10_spanwise_loads.incidences_shown(available) == shown
+
+
+def test_modal_parts_add_up_and_compare():
+    parts = fig15_modal_contributions.modal_parts(modes(), run(dimension="3d"), "torsion")
+    assert parts.ratios[:3] == pytest.approx([1.0, 50.0, 1000.0])
+    assert math.isinf(parts.ratios[3])
+    tip = parts.amplitudes.sum()
+    assert parts.parts.sum(axis=0)[-1] == pytest.approx(tip)  # every shape is 1 at the tip
+
+
+def test_modal_parts_of_a_failed_run():
+    figure = fig15_modal_contributions.draw(modes(), run(regime="failed", dimension="3d"))
+    assert "it diverges" in words(figure)
+    lay_out(figure)
+
+
+@pytest.mark.parametrize("name", sorted(SWEEPS))
+def test_response_draws(name, tmp_path):
+    response = fig16_response.read_response(*sweep(tmp_path, SWEEPS[name]), 6.7)
+    figure = fig16_response.draw(response)
+    found = words(figure)
+    assert "made-up" in found
+    assert f"equisection {equisection.__version__}" in found
+    for place in "abcdefgh":
+        assert f"({place})" in "".join(axes.get_title(loc="left") for axes in figure.axes)
+    if name == "no beam":
+        assert "has no 3D" in found
+    if name == "all failed":
+        assert "every one failed" in found.replace("\n", " ")
+    lay_out(figure)
+
+
+@pytest.mark.parametrize("name", sorted(SWEEPS))
+def test_hysteresis_draws(name, tmp_path):
+    loops = fig17_hysteresis.read_loops(*sweep(tmp_path, SWEEPS[name]), 6.7)
+    figure = fig17_hysteresis.draw(loops)
+    assert "made-up" in words(figure)
+    lay_out(figure)
+
+
+def test_response_opens_no_file_that_it_does_not_draw(tmp_path):
+    summary, onset, paths = sweep(tmp_path, SWEEPS["all models"])
+    drawn = {"2d-corrected/k4", "2d-corrected/k5", "2d-corrected/k8", "3d/k4", "3d/k5", "3d/k8"}
+    for path in paths:
+        if f"{path.parent.name}/{path.stem}" not in drawn:
+            path.write_text("not to be opened")
+    response = fig16_response.read_response(summary, onset, paths, 6.7)
+    assert set(response.histories) == set("ABCDEF")
+
+
+def test_failed_runs_are_crosses_on_the_axis(tmp_path):
+    figure = fig16_response.draw(
+        fig16_response.read_response(*sweep(tmp_path, SWEEPS["all models"]), 6.7)
+    )
+    crosses = [line for line in figure.axes[0].get_lines() if line.get_marker() == "x"]
+    assert [list(line.get_xdata()) for line in crosses] == [[6.0]] * 3
+
+
+def test_reduced_time_is_that_of_the_paper(tmp_path):
+    response = fig16_response.read_response(*sweep(tmp_path, SWEEPS["one k*"]), 21.0 / 4.0)
+    assert response.histories["C"].time[-1] == pytest.approx(2.0 * 40.0)
+
+
+@pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])
+def test_saving_twice_gives_the_same_bytes(suffix, tmp_path):
+    data = sweep(tmp_path, {"2d-corrected": {4.0: "growing"}})
+    for place in ("first", "second"):
+        loops = fig17_hysteresis.read_loops(*data, 6.7)  # lines, pixels, text and mathematics
+        save_figure(fig17_hysteresis.draw(loops), [tmp_path / place / f"figure.{suffix}"])
+    first, second = (tmp_path / place / f"figure.{suffix}" for place in ("first", "second"))
+    assert first.read_bytes() == second.read_bytes()
+    assert first.stat().st_size > 10_000
+
+
+def test_an_unknown_format_is_refused(tmp_path):
+    with pytest.raises(FigureFormatError, match="format 'bmp' is not written here"):
+        save_figure(Figure(), [tmp_path / "figure.bmp"])
+
+
+def test_nothing_is_left_of_a_drawing_that_fails(tmp_path):
+    figure = Figure()
+    figure.text(0.5, 0.5, r"$\nosuchcommand$")
+    with pytest.raises(ValueError, match="nosuchcommand"):
+        save_figure(figure, [tmp_path / "figure.png"])
+    assert list(tmp_path.iterdir()) == []
