@@ -6,6 +6,7 @@ from pathlib import Path
 from equisection.figures.fig15_modal_contributions import draw
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
+from equisection.results.index import result_file
 from equisection.results.netcdf import read_dataset
 from equisection.script import logged
 
@@ -20,7 +21,7 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         main(
             Path(snakemake.input.modes),
-            Path(snakemake.input.run),
+            result_file(Path(snakemake.input.index), snakemake.params.case),
             Path(snakemake.input.style),
             [Path(path) for path in snakemake.output],
         )

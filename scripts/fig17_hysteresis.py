@@ -8,6 +8,7 @@ import pandas as pd
 from equisection.figures.fig17_hysteresis import draw, read_loops
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
+from equisection.results.index import result_files
 from equisection.results.netcdf import read_dataset
 from equisection.script import logged
 
@@ -15,7 +16,7 @@ from equisection.script import logged
 def main(
     summary: Path,
     onset: Path,
-    results: Sequence[Path],
+    indices: Sequence[Path],
     equivalent: Path,
     reduction: str,
     *,
@@ -24,7 +25,7 @@ def main(
 ) -> None:
     """Draw the loops of cases A and B."""
     i_star = float(read_dataset(equivalent)["i_star"].sel(reduction=reduction))
-    loops = read_loops(pd.read_csv(summary), pd.read_csv(onset), results, i_star)
+    loops = read_loops(pd.read_csv(summary), pd.read_csv(onset), result_files(indices), i_star)
     with drawing_style(style):
         save_figure(draw(loops), outputs)
 
@@ -34,7 +35,7 @@ if __name__ == "__main__":
         main(
             Path(snakemake.input.summary),
             Path(snakemake.input.onset),
-            [Path(path) for path in snakemake.input.results],
+            [Path(path) for path in snakemake.input.indices],
             Path(snakemake.input.equivalent),
             snakemake.params.reduction,
             style=Path(snakemake.input.style),

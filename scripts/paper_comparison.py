@@ -10,6 +10,7 @@ from equisection.comparison.paper_here import Run
 from equisection.comparison.tables import table_1, table_2
 from equisection.config import load_config
 from equisection.files import written_whole
+from equisection.results.index import result_file
 from equisection.results.netcdf import read_dataset
 from equisection.script import logged
 
@@ -44,13 +45,12 @@ def main(
 if __name__ == "__main__":
     WANTED = ("modes", "equivalent", "mesh_study", "polar_3d", "correction", "summary", "onset")
     with logged(snakemake.log[0]):
+        inputs = {name: Path(snakemake.input[name]) for name in WANTED}
+        for index in snakemake.input.index_3d:
+            inputs["reference_3d"] = result_file(Path(index), snakemake.params.reference)
         main(
             dict(snakemake.params.config),
             snakemake.params.is_paper_case,
-            {
-                name: Path(snakemake.input[name])
-                for name in (*WANTED, "reference_3d")
-                if snakemake.input.get(name)
-            },
+            inputs,
             {name: Path(path) for name, path in snakemake.output.items()},
         )

@@ -6,17 +6,16 @@ from pathlib import Path
 from equisection import plan
 from equisection.comparison.onset import bracket_of, refinement_points
 from equisection.comparison.summary import summarise
-from equisection.results.of_case import attributes_of_case
+from equisection.results.index import read_index
 from equisection.script import logged
 
 
-def main(
-    cases: Sequence[Path], results: Sequence[Path], tolerance: float, points: int, output: Path
-) -> None:
+def main(indices: Sequence[Path], tolerance: float, points: int, output: Path) -> None:
     """Write the k* that narrow the bracket; none when it is open or narrow enough."""
     rows = [
-        (result.parent.name, attributes_of_case(case, result))
-        for case, result in zip(cases, results, strict=True)
+        (index.parent.name, attributes)
+        for index in indices
+        for attributes in read_index(index).values()
     ]
     bracket = bracket_of(summarise(rows))
     plan.write_refinement(output, refinement_points(bracket, tolerance, points))
@@ -25,8 +24,7 @@ def main(
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         main(
-            [Path(path) for path in snakemake.input.cases],
-            [Path(path) for path in snakemake.input.results],
+            [Path(path) for path in snakemake.input.indices],
             snakemake.params.tolerance,
             snakemake.params.points,
             Path(snakemake.output[0]),

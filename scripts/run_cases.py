@@ -2,20 +2,27 @@
 
 from pathlib import Path
 
+from equisection.cases import read_cases
+from equisection.results.index import write_index
 from equisection.script import logged
 from equisection.solvers.job import run_cases
 
 
-def main(cases: list[Path], outputs: list[Path], store: Path, progress: Path) -> None:
-    """Run each case and write its result; see :func:`equisection.solvers.job.run_cases`."""
-    run_cases(cases, outputs, store, progress)
+def main(cases: Path, output: Path, store: Path, progress: Path) -> None:
+    """Run the cases; their results go to the folder of ``output``.
+
+    ``output`` is the index of the results, or the result file of a single case.
+    """
+    attributes = run_cases(read_cases(cases), output.parent, store, progress)
+    if output.suffix == ".json":
+        write_index(output, attributes)
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
         main(
-            [Path(path) for path in snakemake.input],
-            [Path(path) for path in snakemake.output],
+            Path(snakemake.input[0]),
+            Path(snakemake.output[0]),
             Path(snakemake.params.store),
             Path(snakemake.log[0]).with_suffix(".progress.json"),
         )

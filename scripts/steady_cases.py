@@ -1,4 +1,4 @@
-"""Write the case files of the steady polar of a dimension."""
+"""Write the case file of the steady polar of a dimension, or of one of its cases."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -6,20 +6,21 @@ from typing import Any
 
 from equisection import plan
 from equisection.assemble import steady_case
-from equisection.cases.store import write_case
+from equisection.cases import write_cases
 from equisection.config import load_config
 from equisection.script import logged
 from equisection.solvers.registry import solver_from_config
 
 
-def main(raw_config: dict[str, Any], dimension: str, outputs: Sequence[Path]) -> None:
-    """Write one case file for each output, whose name says resolution and incidence."""
+def main(raw_config: dict[str, Any], dimension: str, names: Sequence[str], output: Path) -> None:
+    """Write the cases, whose names say resolution and incidence."""
     config = load_config(raw_config)
     solvers = {name: solver_from_config(config, name) for name in plan.resolutions(config)}
-    for output in outputs:
-        resolution, incidence_deg = plan.angle_of(output.stem)
-        case = steady_case(config, dimension, incidence_deg, resolution, solvers[resolution])
-        write_case(output, case)
+    cases = {}
+    for name in names:
+        resolution, incidence_deg = plan.angle_of(name)
+        cases[name] = steady_case(config, dimension, incidence_deg, resolution, solvers[resolution])
+    write_cases(output, cases)
 
 
 if __name__ == "__main__":
@@ -27,5 +28,6 @@ if __name__ == "__main__":
         main(
             snakemake.params.config,
             snakemake.wildcards.dimension,
-            [Path(path) for path in snakemake.output],
+            list(snakemake.params.cases),
+            Path(snakemake.output[0]),
         )

@@ -5,15 +5,16 @@ from pathlib import Path
 
 from equisection.comparison.summary import summarise
 from equisection.files import written_whole
-from equisection.results.of_case import attributes_of_case
+from equisection.results.index import read_index
 from equisection.script import logged
 
 
-def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:
-    """Summarise the verdicts, each checked to be that of its case."""
+def main(indices: Sequence[Path], output: Path) -> None:
+    """Summarise the verdicts; the folder of an index is named after its model."""
     rows = [
-        (result.parent.name, attributes_of_case(case, result))
-        for case, result in zip(cases, results, strict=True)
+        (index.parent.name, attributes)
+        for index in indices
+        for attributes in read_index(index).values()
     ]
     with written_whole(output) as aside:
         summarise(rows).to_csv(aside, index=False)
@@ -21,8 +22,4 @@ def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        main(
-            [Path(path) for path in snakemake.input.cases],
-            [Path(path) for path in snakemake.input.results],
-            Path(snakemake.output[0]),
-        )
+        main([Path(path) for path in snakemake.input.indices], Path(snakemake.output[0]))

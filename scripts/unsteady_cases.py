@@ -1,4 +1,4 @@
-"""Write the case files of the sweep over k* for a model."""
+"""Write the case file of a batch of k* for a model, or of one of its cases."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -6,7 +6,7 @@ from typing import Any
 
 from equisection import plan
 from equisection.assemble import unsteady_case
-from equisection.cases.store import write_case
+from equisection.cases import write_cases
 from equisection.config import load_config
 from equisection.results.netcdf import read_dataset
 from equisection.script import logged
@@ -17,30 +17,33 @@ def main(
     raw_config: dict[str, Any],
     model_name: str,
     structure_files: dict[str, Path],
-    outputs: Sequence[Path],
+    names: Sequence[str],
+    output: Path,
 ) -> None:
-    """Write one case file for each output, whose name says k*.
+    """Write the cases, whose names say k*.
 
-    ``structure_files`` holds ``modes``, or ``equivalent`` and for corrected models
-    ``correction``.
+    ``structure_files`` holds ``equivalent``, with ``modes`` in 3D and ``correction`` for
+    corrected models.
     """
     config = load_config(raw_config)
     model = plan.model(model_name, config.reduction)
     solver = solver_from_config(config, config.steady.resolution)
     data = {name: read_dataset(path) for name, path in structure_files.items()}
-    for output in outputs:
-        write_case(output, unsteady_case(config, model, plan.k_star_of(output.stem), data, solver))
+    cases = {
+        name: unsteady_case(config, model, plan.k_star_of(name), data, solver) for name in names
+    }
+    write_cases(output, cases)
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
+        made_from = {"modes", "equivalent", "correction"} & set(snakemake.input.keys())
         main(
             snakemake.params.config,
-            snakemake.params.model,
-            {
-                name: Path(path)
-                for name, path in snakemake.input.items()
-                if name in ("modes", "equivalent", "correction")
-            },
-            [Path(path) for path in snakemake.output],
+            snakemake.wildcards.model,
+            {name: Path(snakemake.input[name]) for name in made_from},
+            plan.read_refinement(Path(snakemake.input.chosen))
+            if "chosen" in set(snakemake.input.keys())
+            else list(snakemake.params.cases),
+            Path(snakemake.output[0]),
         )

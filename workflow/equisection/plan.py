@@ -21,6 +21,11 @@ from equisection.files import write_text
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
 CASE_PATTERN = r"k[0-9][0-9.e+-]*"
 DIMENSION_PATTERN = r"[23]d"
+ANGLE_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_.-]*_a-?[0-9][0-9.e+-]*"
+#: A batch is what one job of a solver that takes many cases runs: the sweep, or a round of the
+#: refinement of the onset.
+BATCH_PATTERN = r"sweep|round[1-9][0-9]*"
+SWEEP_BATCH = "sweep"
 
 
 @dataclass(frozen=True)
@@ -93,6 +98,16 @@ def refinement_rounds(config: Config) -> int:
         return 0
     parts = config.sweep.onset_points + 1
     return math.ceil(math.log(widest / config.sweep.onset_tolerance) / math.log(parts) - 1e-9)
+
+
+def batches(config: Config) -> list[str]:
+    """Return the batches of a model: the sweep, then the rounds of refinement."""
+    return [SWEEP_BATCH, *(f"round{n}" for n in range(1, refinement_rounds(config) + 1))]
+
+
+def batches_before(batch: str) -> list[str]:
+    """Return the batches that a round of refinement decides on."""
+    return [SWEEP_BATCH, *(f"round{n}" for n in range(1, int(batch.removeprefix("round"))))]
 
 
 def is_case_name(name: str) -> bool:

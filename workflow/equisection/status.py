@@ -17,7 +17,7 @@ from typing import Any
 import yaml
 
 from equisection import plan
-from equisection.cases import case_hash, read_case
+from equisection.cases import case_hash, read_cases
 from equisection.config import load_config
 from equisection.errors import CaseFileError, ConfigError, EquisectionError, ResultFileError
 from equisection.progress import SUFFIX, Snapshot, read_snapshot
@@ -84,6 +84,16 @@ class RunStatus:
         return Counter(entry.state for entry in self.entries if entry.steady is steady)
 
 
+@dataclass(frozen=True)
+class _Listed:
+    """A case of a case file, or what is wrong with the file."""
+
+    file: Path
+    name: str
+    hash: str
+    problem: str = ""
+
+
 def find_runs(folder: Path) -> list[Path]:
     """Return the folder itself if it is that of a run, or else the runs in it.
 
@@ -108,12 +118,14 @@ def run_status(run: Path) -> RunStatus:
     earlier = _earlier_sweep(run)
     entries = []
     for dimension in ("2d", "3d"):
-        for case in _case_files(run / "cases" / "steady" / dimension, _by_angle):
-            entries.append(_entry(run, f"steady {dimension}", f"steady/{dimension}", case, jobs))
+        place = f"steady/{dimension}"
+        for listed in _cases_in(run / "cases" / place, _by_angle):
+            entries.append(_entry(run, f"steady {dimension}", place, listed, jobs))
     for model in sorted((run / "cases" / "unsteady").glob("*/")):
-        for case in _case_files(model, _by_k_star):
-            if not earlier(case):
-                entries.append(_entry(run, model.name, f"unsteady/{model.name}", case, jobs))
+        place = f"unsteady/{model.name}"
+        for listed in _cases_in(model, _by_k_star):
+            if not earlier(listed.file, listed.name):
+                entries.append(_entry(run, model.name, place, listed, jobs))
     return RunStatus(run.name, tuple(entries), tuple(jobs.troubles()))
 
 
@@ -177,7 +189,7 @@ def last_error(log: Path) -> str:
     return after[0].split(" ERROR ", 1)[1]
 
 
-def _earlier_sweep(run: Path) -> Callable[[Path], bool]:
+def _earlier_sweep(run: Path) -> Callable[[Path, str], bool]:
     """Return what tells whether a case file was left behind by an earlier sweep of the run.
 
     The run's configuration says which are wanted; of a case file that is newer it knows nothing.
@@ -189,28 +201,28 @@ def _earlier_sweep(run: Path) -> Callable[[Path], bool]:
         rounds = (run / "comparison" / "refine").glob("*.json")
         refined = [name for chosen in rounds for name in plan.read_refinement(chosen)]
     except (OSError, ValueError, KeyError, yaml.YAMLError, ConfigError):
-        return lambda case: False
+        return lambda file, name: False
     wanted = {*plan.sweep_cases(config), *refined}
-    return lambda case: case.stem not in wanted and case.stat().st_mtime < written
+    return lambda file, name: name not in wanted and file.stat().st_mtime < written
 
 
-def _entry(run: Path, model: str, place: str, case: Path, jobs: _Jobs) -> Entry:
-    error = jobs.error(place, case)
-    try:
-        wanted = case_hash(read_case(case))
-    except CaseFileError as problem:
-        return Entry(model, case.stem, State.BROKEN, text=str(problem))
+def _entry(run: Path, model: str, place: str, listed: _Listed, jobs: _Jobs) -> Entry:
+    """Return how far one case is."""
+    name, wanted = listed.name, listed.hash
+    error = jobs.error(place, listed.file)
+    if listed.problem:
+        return Entry(model, name, State.BROKEN, text=listed.problem)
     job = jobs.of(wanted)
     broken = ""
-    result = run / place / f"{case.stem}.nc"
+    result = run / place / f"{name}.nc"
     if result.exists():
         try:
-            return _finished(model, case.stem, read_attributes(result, wanted))
+            return _finished(model, name, read_attributes(result, wanted))
         except ResultFileError as problem:
             broken = str(problem).removeprefix(f"{result}: ")
     in_store = (run.parent / ".store" / wanted / "result.nc").exists()
     state, text = _unfinished(job, broken, error, in_store)
-    return Entry(model, case.stem, state, job=job, text=text)
+    return Entry(model, name, state, job=job, text=text)
 
 
 def _unfinished(job: Snapshot | None, broken: str, error: str, in_store: bool) -> tuple[State, str]:
@@ -244,19 +256,32 @@ def _is_run(folder: Path) -> bool:
     return any((folder / name).exists() for name in ("cases", "logs", "config.resolved.yaml"))
 
 
-def _case_files(folder: Path, order: Any) -> list[Path]:
-    return sorted((p for p in folder.glob("*.json") if not p.name.startswith(".")), key=order)
+def _cases_in(folder: Path, order: Callable[[str], tuple[Any, ...]]) -> list[_Listed]:
+    """Return the cases of a folder's case files.
+
+    A case that stands in several files, of a batch and of its own, is listed once.
+    """
+    found: dict[str, _Listed] = {}
+    for file in sorted(folder.glob("*.json")):
+        if file.name.startswith("."):
+            continue
+        try:
+            for name, case in read_cases(file).items():
+                found[name] = _Listed(file, name, case_hash(case))
+        except CaseFileError as problem:
+            found[file.stem] = _Listed(file, file.stem, "", str(problem))
+    return [found[name] for name in sorted(found, key=order)]
 
 
-def _by_k_star(path: Path) -> tuple[float, str]:
+def _by_k_star(name: str) -> tuple[float, str]:
     try:
-        return plan.k_star_of(path.stem), path.stem
+        return plan.k_star_of(name), name
     except ValueError:
-        return math.inf, path.stem
+        return math.inf, name
 
 
-def _by_angle(path: Path) -> tuple[str, float]:
+def _by_angle(name: str) -> tuple[str, float]:
     try:
-        return plan.angle_of(path.stem)
+        return plan.angle_of(name)
     except ValueError:
-        return path.stem, math.inf
+        return name, math.inf

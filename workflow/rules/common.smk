@@ -1,5 +1,6 @@
 """What all rules share: the validated configuration, where files go, and package sources."""
 
+import hashlib
 import os
 import sys
 from pathlib import Path
@@ -8,7 +9,7 @@ import equisection
 from equisection import plan
 from equisection.config import check_files, load_config, resolve_config
 from equisection.errors import ConfigError
-from equisection.results.whole import set_aside_broken
+from equisection.results.mend import mend
 from equisection.solvers.registry import SOLVERS, Capability
 
 try:
@@ -23,32 +24,43 @@ RESULTS = f"results/{CONFIG.run}"
 LOGS = f"{RESULTS}/logs"
 STORE = "results/.store"
 ENVIRONMENT = "../../envs/environment.yaml"
+PROJECT = Path(workflow.current_basedir).parent.parent
 PROVIDES = SOLVERS[CONFIG.solver].provides
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
 
-# A result that was cut short by a crash of the machine must not pass for a finished one.
+# What was cut short by a crash, lost or exchanged must not pass for a finished result.
 if workflow.is_main_process:
-    set_aside_broken(Path(RESULTS))
+    for line in mend(Path(RESULTS)):
+        print(line, file=sys.stderr)
 
 
 wildcard_constraints:
     dimension=plan.DIMENSION_PATTERN,
     model=plan.MODEL_PATTERN,
+    angle=plan.ANGLE_PATTERN,
     case=plan.CASE_PATTERN,
+    batch=plan.BATCH_PATTERN,
 
 
-def sources(*parts):
-    """Return the package's source files of some parts, so that editing one redraws or
-    recomputes what is cheap. Rules that run a solver take none: their case file decides.
-    The paths are relative, so that a project that was moved has nothing to do.
+def of_project(pattern):
+    """Return files of the project by relative paths, so that a project that was moved has nothing
+    to do; they are found from another working directory too.
+    """
+    return [os.path.relpath(path) for path in sorted(PROJECT.glob(pattern))]
+
+
+def code(*parts):
+    """Return a digest of some of the package's modules, for `params`: editing one redraws or
+    recomputes what is cheap. Rules that run a solver have none: their case file decides.
     """
     package = Path(equisection.__file__).parent
-    found = []
+    digest = hashlib.sha256()
     for part in parts:
         place = package / part
-        found += sorted(place.glob("*.py")) if place.is_dir() else [place]
-    return [os.path.relpath(path) for path in found]
+        for path in sorted(place.glob("*.py")) if place.is_dir() else [place]:
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
 
 
 def solver_input_files():
@@ -67,69 +79,79 @@ def structure_of_model(wildcards):
     return files
 
 
-def cases_of_model(model, rounds):
-    """Return the names of a model's cases: the sweep's, then those of rounds of refinement."""
-    names = list(SWEEP)
-    for number in range(1, rounds + 1):
-        chosen = checkpoints.refine_onset.get(model=model, round=number).output[0]
-        names += plan.read_refinement(Path(chosen))
-    return names
-
-
-def case_and_result_files(model, rounds):
-    """Return case files and result files of a model, in the same order."""
-    names = cases_of_model(model, rounds)
-    return {
-        "cases": [f"{RESULTS}/cases/unsteady/{model}/{name}.json" for name in names],
-        "results": [f"{RESULTS}/unsteady/{model}/{name}.nc" for name in names],
-    }
-
-
-def results_before_round(wildcards):
-    """Return what a round of refinement decides on: all runs of the rounds before."""
-    return case_and_result_files(wildcards.model, int(wildcards.round) - 1)
-
-
-def last_rounds_of_refinement():
-    """Return the last round of each model, so that all models are refined side by side; the
-    search for the results alone stops at the first model that is not refined yet.
-    """
-    rounds = plan.refinement_rounds(CONFIG)
-    models = CONFIG.sweep.models if rounds else ()
-    return [f"{RESULTS}/comparison/refine/{model}_{rounds}.json" for model in models]
-
-
-def results_of_sweep(wildcards):
-    """Return all runs of all models, with those of the refinement of the onset."""
-    files = {"cases": [], "results": []}
-    for model in CONFIG.sweep.models:
-        found = case_and_result_files(model, plan.refinement_rounds(CONFIG))
-        files["cases"] += found["cases"]
-        files["results"] += found["results"]
+def inputs_of_batch(wildcards):
+    """Return what a batch of a model's cases is made from; a round has the k* chosen for it."""
+    files = structure_of_model(wildcards)
+    if wildcards.batch != plan.SWEEP_BATCH:
+        files["chosen"] = (
+            f"{RESULTS}/comparison/refine/{wildcards.model}_{wildcards.batch}.json"
+        )
     return files
 
 
-def runs_of_sweep(wildcards):
-    """Return the results of all runs of all models."""
-    return results_of_sweep(wildcards)["results"]
+def indices_of_sweep(wildcards):
+    """Return the indices of all results of all models."""
+    return [
+        f"{RESULTS}/unsteady/{model}/{batch}.json"
+        for model in CONFIG.sweep.models
+        for batch in plan.batches(CONFIG)
+    ]
+
+
+def index_of_beam():
+    """Return the index of the beam's results, if the beam is run."""
+    there = "3d" in CONFIG.sweep.models
+    return [f"{RESULTS}/unsteady/3d/{plan.SWEEP_BATCH}.json"] if there else []
+
+
+def indices_before_round(wildcards):
+    """Return the results that a round of refinement decides on: those of the batches before."""
+    return [
+        f"{RESULTS}/unsteady/{wildcards.model}/{batch}.json"
+        for batch in plan.batches_before(wildcards.batch)
+    ]
+
+
+def cases_of_batch(wildcards):
+    """Return case file and result file of each case of a batch that runs them one by one."""
+    names = SWEEP
+    if wildcards.batch != plan.SWEEP_BATCH:
+        chosen = checkpoints.refine_onset.get(**wildcards).output[0]
+        names = plan.read_refinement(Path(chosen))
+    place = f"unsteady/{wildcards.model}"
+    return {
+        "cases": [f"{RESULTS}/cases/{place}/{name}.json" for name in names],
+        "results": [f"{RESULTS}/{place}/{name}.nc" for name in names],
+    }
+
+
+def this_case(wildcards):
+    """Return the one case that a rule is about."""
+    return [wildcards.case]
+
+
+def this_angle(wildcards):
+    """Return the one steady case that a rule is about."""
+    return [wildcards.angle]
 
 
 def structure_files():
     """Return what is known of the beam without a flow."""
     return [
-        f"{RESULTS}/structure/{name}.nc" for name in ("modes", "mesh_study", "equivalent")
+        f"{RESULTS}/structure/{name}.nc"
+        for name in ("modes", "mesh_study", "equivalent")
     ]
 
 
 def steady_files():
-    """Return the results of the rigid section and beam, one by one and gathered."""
-    single = [
-        f"{RESULTS}/steady/{dimension}/{case}.nc"
-        for dimension in ("2d", "3d")
-        for case in STEADY
+    """Return the results of the rigid section and beam, indexed and gathered."""
+    return [
+        *(f"{RESULTS}/steady/{dimension}/polar.json" for dimension in ("2d", "3d")),
+        *(
+            f"{RESULTS}/steady/{name}.nc"
+            for name in ("polar_2d", "polar_3d", "correction")
+        ),
     ]
-    gathered = ("polar_2d", "polar_3d", "correction")
-    return single + [f"{RESULTS}/steady/{name}.nc" for name in gathered]
 
 
 def figure_files():

@@ -3,8 +3,6 @@
 
 rule config_resolved:
     """The configuration with every default filled in."""
-    input:
-        sources=sources("config"),
     output:
         f"{RESULTS}/config.resolved.yaml",
     log:
@@ -16,6 +14,7 @@ rule config_resolved:
         mem_mb=500,
         runtime=5,
     params:
+        code=code("config"),
         config=RESOLVED,
     message:
         "resolved configuration"
@@ -26,9 +25,7 @@ rule config_resolved:
 rule summary:
     """One line for each run of each model."""
     input:
-        unpack(results_of_sweep),
-        refinement=last_rounds_of_refinement(),
-        sources=sources("comparison/summary.py", "results"),
+        indices=indices_of_sweep,
     output:
         f"{RESULTS}/comparison/summary.csv",
     log:
@@ -40,6 +37,7 @@ rule summary:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code("comparison/summary.py", "results"),
         models=list(CONFIG.sweep.models),
     message:
         "summary"
@@ -51,7 +49,6 @@ rule onset:
     """The bracket of the onset of each model."""
     input:
         summary=f"{RESULTS}/comparison/summary.csv",
-        sources=sources("comparison/onset.py"),
     output:
         f"{RESULTS}/comparison/onset.csv",
     log:
@@ -62,6 +59,8 @@ rule onset:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code("comparison/onset.py"),
     message:
         "onset of the instability"
     script:
@@ -74,12 +73,11 @@ rule paper_comparison:
         modes=f"{RESULTS}/structure/modes.nc",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
         mesh_study=f"{RESULTS}/structure/mesh_study.nc",
-        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        index_3d=index_of_beam(),
         correction=f"{RESULTS}/steady/correction.nc",
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
-        sources=sources("comparison"),
     output:
         paper=report(
             f"{RESULTS}/comparison/paper.csv",
@@ -105,8 +103,10 @@ rule paper_comparison:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code("comparison"),
         is_paper_case=CONFIG.is_paper_case,
         config=RESOLVED,
+        reference=plan.reference_case(CONFIG),
     message:
         "comparison with the paper"
     script:

@@ -5,7 +5,6 @@ rule equivalent_section:
     """Reduce the beam to its equivalent section, in both forms."""
     input:
         modes=f"{RESULTS}/structure/modes.nc",
-        sources=sources("reduction", "results/modes.py", "results/equivalent.py"),
     output:
         f"{RESULTS}/structure/equivalent.nc",
     log:
@@ -17,6 +16,7 @@ rule equivalent_section:
         mem_mb=500,
         runtime=5,
     params:
+        code=code("reduction", "results/modes.py", "results/equivalent.py"),
         beam=RESOLVED["beam"],
         flow=RESOLVED["flow"],
     message:
@@ -31,7 +31,6 @@ rule correction_factors:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
-        sources=sources("reduction/correction.py", "results/polar.py"),
     output:
         f"{RESULTS}/steady/correction.nc",
     log:
@@ -43,6 +42,7 @@ rule correction_factors:
         mem_mb=500,
         runtime=5,
     params:
+        code=code("reduction/correction.py", "results/polar.py"),
         resolution=CONFIG.steady.resolution,
     message:
         "correction factors"

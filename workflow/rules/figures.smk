@@ -3,30 +3,31 @@
 from equisection.figures.models_shown import beam_model, section_model
 
 # What every figure is made with; the rules name the modules of their own beside.
-DRAWING = sources(
+DRAWING = (
     "figures/panels.py",
     "figures/provenance.py",
     "figures/save.py",
     "figures/style.py",
 )
-CASES_SHOWN = sources(
+CASES_SHOWN = (
     "figures/cases_shown.py",
     "figures/history.py",
     "figures/models.py",
     "figures/models_shown.py",
 )
-RULE_FILES = sorted(str(path) for path in Path("workflow/rules").glob("*.smk"))
+(STYLE,) = of_project("envs/equisection.mplstyle")
+(SNAKEFILE,) = of_project("workflow/Snakefile")
+RULE_FILES = of_project("workflow/rules/*.smk")
 
 
-def results_of_histories(wildcards):
+def indices_of_histories(wildcards):
     """Return the runs of which histories are shown: of the corrected section and the beam."""
     models = (section_model(CONFIG.sweep.models), beam_model(CONFIG.sweep.models))
-    rounds = plan.refinement_rounds(CONFIG)
     return [
-        path
+        f"{RESULTS}/unsteady/{model}/{batch}.json"
         for model in models
         if model is not None
-        for path in case_and_result_files(model, rounds)["results"]
+        for batch in plan.batches(CONFIG)
     ]
 
 
@@ -34,16 +35,9 @@ rule fig01_workflow:
     """Block diagram of the procedure: the rules and what flows between them (Fig. 1)."""
     input:
         config=f"{RESULTS}/config.resolved.yaml",
-        snakefile="workflow/Snakefile",
+        snakefile=SNAKEFILE,
         rule_files=RULE_FILES,
-        style="envs/equisection.mplstyle",
-        sources=DRAWING
-        + sources(
-            "figures/fig01_workflow.py",
-            "figures/layers.py",
-            "figures/rule_graph.py",
-            "figures/snakemake_query.py",
-        ),
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig01-workflow.png",
@@ -60,6 +54,14 @@ rule fig01_workflow:
     resources:
         mem_mb=1000,
         runtime=5,
+    params:
+        code=code(
+            *DRAWING,
+            "figures/fig01_workflow.py",
+            "figures/layers.py",
+            "figures/rule_graph.py",
+            "figures/snakemake_query.py",
+        ),
     message:
         "Fig. 1, the workflow"
     script:
@@ -70,11 +72,7 @@ rule fig03_modes:
     """Deformation modes along the span (Fig. 3)."""
     input:
         modes=f"{RESULTS}/structure/modes.nc",
-        style="envs/equisection.mplstyle",
-        sources=DRAWING
-        + sources(
-            "figures/fig03_modes.py", "structure/analytic.py", "structure/span.py"
-        ),
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig03-modes.png",
@@ -92,6 +90,12 @@ rule fig03_modes:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code(
+            *DRAWING,
+            "figures/fig03_modes.py",
+            "structure/analytic.py",
+            "structure/span.py",
+        ),
         beam=RESOLVED["beam"],
     message:
         "Fig. 3, modes"
@@ -103,8 +107,7 @@ rule fig06_section_polar:
     """Section polars at each resolution (Fig. 6)."""
     input:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
-        style="envs/equisection.mplstyle",
-        sources=DRAWING + sources("figures/fig06_section_polar.py"),
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig06-section-polar.png",
@@ -121,6 +124,8 @@ rule fig06_section_polar:
     resources:
         mem_mb=1000,
         runtime=5,
+    params:
+        code=code(*DRAWING, "figures/fig06_section_polar.py"),
     message:
         "Fig. 6, section polars"
     script:
@@ -131,8 +136,7 @@ rule fig10_spanwise_loads:
     """Lift and moment along the span (Fig. 10)."""
     input:
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
-        style="envs/equisection.mplstyle",
-        sources=DRAWING + sources("figures/fig10_spanwise_loads.py"),
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig10-spanwise-loads.png",
@@ -150,6 +154,7 @@ rule fig10_spanwise_loads:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code(*DRAWING, "figures/fig10_spanwise_loads.py"),
         resolution=CONFIG.steady.resolution,
     message:
         "Fig. 10, spanwise loads"
@@ -163,13 +168,7 @@ rule fig13_lift_correction:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
         correction=f"{RESULTS}/steady/correction.nc",
-        style="envs/equisection.mplstyle",
-        sources=DRAWING
-        + sources(
-            "figures/fig13_lift_correction.py",
-            "figures/correction.py",
-            "figures/models.py",
-        ),
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig13-lift-correction.png",
@@ -187,6 +186,12 @@ rule fig13_lift_correction:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code(
+            *DRAWING,
+            "figures/fig13_lift_correction.py",
+            "figures/correction.py",
+            "figures/models.py",
+        ),
         resolution=CONFIG.steady.resolution,
     message:
         "Fig. 13, correction of the lift"
@@ -200,13 +205,7 @@ rule fig14_moment_correction:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
         correction=f"{RESULTS}/steady/correction.nc",
-        style="envs/equisection.mplstyle",
-        sources=DRAWING
-        + sources(
-            "figures/fig14_moment_correction.py",
-            "figures/correction.py",
-            "figures/models.py",
-        ),
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig14-moment-correction.png",
@@ -224,6 +223,12 @@ rule fig14_moment_correction:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code(
+            *DRAWING,
+            "figures/fig14_moment_correction.py",
+            "figures/correction.py",
+            "figures/models.py",
+        ),
         resolution=CONFIG.steady.resolution,
     message:
         "Fig. 14, correction of the moment"
@@ -235,9 +240,8 @@ rule fig15_modal_contributions:
     """Contribution of each mode to the deformation (Fig. 15)."""
     input:
         modes=f"{RESULTS}/structure/modes.nc",
-        run=f"{RESULTS}/unsteady/3d/{plan.reference_case(CONFIG)}.nc",
-        style="envs/equisection.mplstyle",
-        sources=DRAWING + sources("figures/fig15_modal_contributions.py"),
+        index=f"{RESULTS}/unsteady/3d/sweep.json",
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig15-modal-contributions.png",
@@ -254,6 +258,9 @@ rule fig15_modal_contributions:
     resources:
         mem_mb=1000,
         runtime=5,
+    params:
+        case=plan.reference_case(CONFIG),
+        code=code(*DRAWING, "figures/fig15_modal_contributions.py"),
     message:
         "Fig. 15, modal contributions"
     script:
@@ -265,10 +272,9 @@ rule fig16_response:
     input:
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
-        results=results_of_histories,
+        indices=indices_of_histories,
         equivalent=f"{RESULTS}/structure/equivalent.nc",
-        style="envs/equisection.mplstyle",
-        sources=DRAWING + CASES_SHOWN + sources("figures/fig16_response.py"),
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig16-response.png",
@@ -286,6 +292,7 @@ rule fig16_response:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code(*DRAWING, *CASES_SHOWN, "figures/fig16_response.py"),
         reduction=CONFIG.reduction,
     message:
         "Fig. 16, response"
@@ -298,10 +305,9 @@ rule fig17_hysteresis:
     input:
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
-        results=results_of_histories,
+        indices=indices_of_histories,
         equivalent=f"{RESULTS}/structure/equivalent.nc",
-        style="envs/equisection.mplstyle",
-        sources=DRAWING + CASES_SHOWN + sources("figures/fig17_hysteresis.py"),
+        style=STYLE,
     output:
         png=report(
             f"{RESULTS}/figures/fig17-hysteresis.png",
@@ -319,6 +325,7 @@ rule fig17_hysteresis:
         mem_mb=1000,
         runtime=5,
     params:
+        code=code(*DRAWING, *CASES_SHOWN, "figures/fig17_hysteresis.py"),
         reduction=CONFIG.reduction,
     message:
         "Fig. 17, hysteresis"

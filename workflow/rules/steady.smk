@@ -7,16 +7,11 @@ every job that depends on a file written anew.
 
 
 checkpoint steady_cases:
-    """Write the case file of each incidence and resolution."""
+    """Write the cases of all incidences and resolutions of a dimension into one case file."""
     input:
         polars=solver_input_files(),
-        sources=sources("cases", "solvers", "plan.py"),
     output:
-        expand(
-            f"{RESULTS}/cases/steady/{{dimension}}/{{case}}.json",
-            case=STEADY,
-            allow_missing=True,
-        ),
+        f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
     log:
         f"{LOGS}/steady_cases_{{dimension}}.log",
     conda:
@@ -26,11 +21,59 @@ checkpoint steady_cases:
         mem_mb=500,
         runtime=5,
     params:
+        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
+        cases=STEADY,
     message:
-        "case files of the steady {wildcards.dimension} polar"
+        "cases of the steady {wildcards.dimension} polar"
     script:
         "../../scripts/steady_cases.py"
+
+
+checkpoint steady_case_file:
+    """Write the case file of one incidence and resolution."""
+    input:
+        polars=solver_input_files(),
+    output:
+        f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
+    log:
+        f"{LOGS}/steady_case_file_{{dimension}}_{{angle}}.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
+        config=RESOLVED,
+        cases=this_angle,
+    message:
+        "case file of the steady {wildcards.dimension} case {wildcards.angle}"
+    script:
+        "../../scripts/steady_cases.py"
+
+
+rule steady_case:
+    """Run one incidence."""
+    input:
+        f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
+    output:
+        f"{RESULTS}/steady/{{dimension}}/{{angle}}.nc",
+    log:
+        f"{LOGS}/steady_{{dimension}}_{{angle}}.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=240,
+    params:
+        store=STORE,
+    message:
+        "steady {wildcards.dimension} case {wildcards.angle}"
+    script:
+        "../../scripts/run_cases.py"
 
 
 if Capability.BATCH in PROVIDES:
@@ -38,17 +81,9 @@ if Capability.BATCH in PROVIDES:
     rule steady_batch:
         """Run all incidences of a dimension in one job."""
         input:
-            expand(
-                f"{RESULTS}/cases/steady/{{dimension}}/{{case}}.json",
-                case=STEADY,
-                allow_missing=True,
-            ),
+            f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
         output:
-            expand(
-                f"{RESULTS}/steady/{{dimension}}/{{case}}.nc",
-                case=STEADY,
-                allow_missing=True,
-            ),
+            f"{RESULTS}/steady/{{dimension}}/polar.json",
         log:
             f"{LOGS}/steady_{{dimension}}.log",
         conda:
@@ -66,42 +101,39 @@ if Capability.BATCH in PROVIDES:
 
 else:
 
-    rule steady_case:
-        """Run one incidence."""
+    rule steady_results:
+        """Index the results of all incidences of a dimension, which ran one by one."""
         input:
-            f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
+            cases=expand(
+                f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
+                angle=STEADY,
+                allow_missing=True,
+            ),
+            results=expand(
+                f"{RESULTS}/steady/{{dimension}}/{{angle}}.nc",
+                angle=STEADY,
+                allow_missing=True,
+            ),
         output:
-            f"{RESULTS}/steady/{{dimension}}/{{angle}}.nc",
+            f"{RESULTS}/steady/{{dimension}}/polar.json",
         log:
-            f"{LOGS}/steady_{{dimension}}_{{angle}}.log",
+            f"{LOGS}/steady_results_{{dimension}}.log",
         conda:
             ENVIRONMENT
         threads: 1
         resources:
-            mem_mb=2000,
-            runtime=240,
-        params:
-            store=STORE,
+            mem_mb=500,
+            runtime=5,
         message:
-            "steady {wildcards.dimension} case {wildcards.angle}"
+            "index of the steady {wildcards.dimension} results"
         script:
-            "../../scripts/run_cases.py"
+            "../../scripts/index_results.py"
 
 
 rule polar:
     """Gather the steady results of a dimension into its polar."""
     input:
-        cases=expand(
-            f"{RESULTS}/cases/steady/{{dimension}}/{{case}}.json",
-            case=STEADY,
-            allow_missing=True,
-        ),
-        results=expand(
-            f"{RESULTS}/steady/{{dimension}}/{{case}}.nc",
-            case=STEADY,
-            allow_missing=True,
-        ),
-        sources=sources("results"),
+        index=f"{RESULTS}/steady/{{dimension}}/polar.json",
     output:
         f"{RESULTS}/steady/polar_{{dimension}}.nc",
     log:
@@ -112,6 +144,8 @@ rule polar:
     resources:
         mem_mb=500,
         runtime=5,
+    params:
+        code=code("results"),
     message:
         "{wildcards.dimension} polar"
     script:

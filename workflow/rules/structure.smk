@@ -3,8 +3,6 @@
 
 rule modes:
     """Natural frequencies and mode shapes of the beam."""
-    input:
-        sources=sources("structure", "results/modes.py"),
     output:
         f"{RESULTS}/structure/modes.nc",
     log:
@@ -16,6 +14,7 @@ rule modes:
         mem_mb=2500,
         runtime=10,
     params:
+        code=code("structure", "results/modes.py"),
         beam=RESOLVED["beam"],
         structure=RESOLVED["structure"],
     message:
@@ -26,8 +25,6 @@ rule modes:
 
 rule mesh_study:
     """The natural frequencies on coarser meshes, and those of the analytic beam."""
-    input:
-        sources=sources("structure", "results/modes.py"),
     output:
         f"{RESULTS}/structure/mesh_study.nc",
     log:
@@ -39,6 +36,7 @@ rule mesh_study:
         mem_mb=2000,
         runtime=10,
     params:
+        code=code("structure", "results/modes.py"),
         beam=RESOLVED["beam"],
         structure=RESOLVED["structure"],
     message:

@@ -4,23 +4,15 @@ Case files are written by checkpoints, for the reason given in steady.smk.
 """
 
 
-ruleorder: unsteady_cases > refined_case
-
-
 checkpoint unsteady_cases:
-    """Write the case file of each k* of the sweep for a model."""
+    """Write the cases of a batch of k* (the sweep, or a round of refinement) into one case file."""
     input:
-        unpack(structure_of_model),
+        unpack(inputs_of_batch),
         polars=solver_input_files(),
-        sources=sources("cases", "solvers", "plan.py"),
     output:
-        expand(
-            f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
-            case=SWEEP,
-            allow_missing=True,
-        ),
+        f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
     log:
-        f"{LOGS}/unsteady_cases_{{model}}.log",
+        f"{LOGS}/unsteady_cases_{{model}}_{{batch}}.log",
     conda:
         ENVIRONMENT
     threads: 1
@@ -28,24 +20,24 @@ checkpoint unsteady_cases:
         mem_mb=500,
         runtime=5,
     params:
+        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
-        model="{model}",
+        cases=SWEEP,
     message:
-        "case files of the sweep, model {wildcards.model}"
+        "cases of {wildcards.model}, {wildcards.batch}"
     script:
         "../../scripts/unsteady_cases.py"
 
 
-checkpoint refined_case:
-    """Write the case file of a k* that the refinement of the onset asks for."""
+checkpoint unsteady_case_file:
+    """Write the case file of one k*."""
     input:
         unpack(structure_of_model),
         polars=solver_input_files(),
-        sources=sources("cases", "solvers", "plan.py"),
     output:
         f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
     log:
-        f"{LOGS}/refined_case_{{model}}_{{case}}.log",
+        f"{LOGS}/unsteady_case_file_{{model}}_{{case}}.log",
     conda:
         ENVIRONMENT
     threads: 1
@@ -53,10 +45,11 @@ checkpoint refined_case:
         mem_mb=500,
         runtime=5,
     params:
+        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
         config=RESOLVED,
-        model="{model}",
+        cases=this_case,
     message:
-        "case file of {wildcards.case}, model {wildcards.model}"
+        "case file of {wildcards.model} at {wildcards.case}"
     script:
         "../../scripts/unsteady_cases.py"
 
@@ -85,24 +78,14 @@ rule unsteady_case:
 
 if Capability.BATCH in PROVIDES:
 
-    ruleorder: unsteady_batch > unsteady_case
-
     rule unsteady_batch:
-        """Run all k* of the sweep for a model in one job."""
+        """Run all k* of a batch in one job."""
         input:
-            expand(
-                f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
-                case=SWEEP,
-                allow_missing=True,
-            ),
+            f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
         output:
-            expand(
-                f"{RESULTS}/unsteady/{{model}}/{{case}}.nc",
-                case=SWEEP,
-                allow_missing=True,
-            ),
+            f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
-            f"{LOGS}/unsteady_{{model}}.log",
+            f"{LOGS}/unsteady_{{model}}_{{batch}}.log",
         conda:
             ENVIRONMENT
         threads: 1
@@ -112,20 +95,40 @@ if Capability.BATCH in PROVIDES:
         params:
             store=STORE,
         message:
-            "sweep of {wildcards.model}"
+            "{wildcards.model}, {wildcards.batch}"
         script:
             "../../scripts/run_cases.py"
+
+else:
+
+    rule unsteady_results:
+        """Index the results of a batch whose k* ran one by one."""
+        input:
+            unpack(cases_of_batch),
+        output:
+            f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
+        log:
+            f"{LOGS}/unsteady_results_{{model}}_{{batch}}.log",
+        conda:
+            ENVIRONMENT
+        threads: 1
+        resources:
+            mem_mb=500,
+            runtime=5,
+        message:
+            "index of {wildcards.model}, {wildcards.batch}"
+        script:
+            "../../scripts/index_results.py"
 
 
 checkpoint refine_onset:
     """Choose the next k* inside the bracket of a model's onset."""
     input:
-        unpack(results_before_round),
-        sources=sources("comparison", "plan.py"),
+        indices=indices_before_round,
     output:
-        f"{RESULTS}/comparison/refine/{{model}}_{{round}}.json",
+        f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
     log:
-        f"{LOGS}/refine_onset_{{model}}_{{round}}.log",
+        f"{LOGS}/refine_onset_{{model}}_{{batch}}.log",
     conda:
         ENVIRONMENT
     threads: 1
@@ -133,9 +136,10 @@ checkpoint refine_onset:
         mem_mb=500,
         runtime=5,
     params:
+        code=code("comparison/onset.py", "comparison/summary.py"),
         tolerance=CONFIG.sweep.onset_tolerance,
         points=CONFIG.sweep.onset_points,
     message:
-        "onset of {wildcards.model}, round {wildcards.round}"
+        "onset of {wildcards.model}, {wildcards.batch}"
     script:
         "../../scripts/refine_onset.py"

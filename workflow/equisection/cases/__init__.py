@@ -11,7 +11,7 @@ from equisection.cases.model import (
     SteadyCase,
     UnsteadyCase,
 )
-from equisection.cases.store import case_hash, read_case, write_case
+from equisection.cases.store import case_hash, read_cases, write_cases
 
 __all__ = [
     "BeamModes",
@@ -24,6 +24,6 @@ __all__ = [
     "SteadyCase",
     "UnsteadyCase",
     "case_hash",
-    "read_case",
-    "write_case",
+    "read_cases",
+    "write_cases",
 ]

@@ -1,9 +1,16 @@
-"""Case files: canonical JSON, so that the same case is the same bytes and the same hash."""
+"""Case files: canonical JSON, so that the same case is the same bytes and the same hash.
+
+A case file holds the cases of one job, one or a thousand: what they share stands once, under
+``shared``; what differs stands under the name of each. The hash is that of the whole case, so it
+does not depend on the company that a case keeps.
+"""
 
 from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Mapping
+from functools import reduce
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -30,13 +37,20 @@ def case_hash(case: Case) -> str:
     return hashlib.sha256(canonical(case).encode()).hexdigest()
 
 
-def write_case(path: Path, case: Case) -> None:
-    """Write the case file, whole or not at all."""
-    write_text(path, canonical(case))
+def write_cases(path: Path, cases: Mapping[str, Case]) -> None:
+    """Write the cases of a job under their names, whole or not at all."""
+    dumped = {name: _rounded(case.model_dump(mode="json")) for name, case in cases.items()}
+    shared = reduce(_common, dumped.values()) if dumped else {}
+    document = {
+        "schema_version": SCHEMA_VERSION,
+        "shared": shared,
+        "cases": {name: _without(case, shared) for name, case in dumped.items()},
+    }
+    write_text(path, json.dumps(document, sort_keys=True, indent=1) + "\n")
 
 
-def read_case(path: Path) -> Case:
-    """Read a case file.
+def read_cases(path: Path) -> dict[str, Case]:
+    """Read a case file: the cases by name, in the order of their names in the file.
 
     Raises
     ------
@@ -44,23 +58,63 @@ def read_case(path: Path) -> Case:
         The file is missing, malformed, or of another schema version.
     """
     try:
-        raw = json.loads(path.read_text(encoding="utf-8"))
+        document = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise CaseFileError(
-            f"{path}: cannot be read as a case ({error}); delete it and run again"
+            f"{path}: cannot be read as a case file ({error}); delete it and run again"
         ) from None
-    found = raw.get("schema_version") if isinstance(raw, dict) else None
+    found = document.get("schema_version") if isinstance(document, dict) else None
     if found != SCHEMA_VERSION:
         raise CaseFileError(
             f"{path}: schema version {found}; version {SCHEMA_VERSION} is read here. "
             "It was not written by this version of the workflow: delete it and run again"
         )
     try:
-        return _CASE.validate_python(raw)
+        shared, entries = document["shared"], document["cases"]
+        return {name: _CASE.validate_python(_merged(shared, entries[name])) for name in entries}
+    except (KeyError, TypeError, AttributeError):
+        raise CaseFileError(
+            f"{path}: 'shared' and 'cases' with a case under each name are needed. "
+            "It was not written by this version of the workflow: delete it and run again"
+        ) from None
     except ValidationError as error:
         problem = error.errors()[0]
         where = ".".join(str(part) for part in problem["loc"])
         raise CaseFileError(f"{path}: {where}: {problem['msg']}; delete it and run again") from None
+
+
+def _common(first: dict[str, Any], second: dict[str, Any]) -> dict[str, Any]:
+    """Return what two nested dictionaries have in common."""
+    common: dict[str, Any] = {}
+    for key in first.keys() & second.keys():
+        one, other = first[key], second[key]
+        if one == other:
+            common[key] = one
+        elif isinstance(one, dict) and isinstance(other, dict):
+            common[key] = _common(one, other)
+    return common
+
+
+def _without(whole: dict[str, Any], shared: dict[str, Any]) -> dict[str, Any]:
+    """Return what a nested dictionary has beyond the shared part."""
+    own: dict[str, Any] = {}
+    for key, value in whole.items():
+        if key not in shared:
+            own[key] = value
+        elif value != shared[key]:
+            own[key] = _without(value, shared[key])
+    return own
+
+
+def _merged(shared: dict[str, Any], own: dict[str, Any]) -> dict[str, Any]:
+    merged = dict(shared)
+    for key, value in own.items():
+        inside = shared.get(key)
+        if isinstance(value, dict) and isinstance(inside, dict):
+            merged[key] = _merged(inside, value)
+        else:
+            merged[key] = value
+    return merged
 
 
 def _rounded(value: Any) -> Any:

@@ -12,17 +12,18 @@ import logging
 import os
 import shutil
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
-from equisection.cases import Case, SteadyCase, UnsteadyCase, case_hash, read_case
+from equisection.cases import Case, SteadyCase, UnsteadyCase, case_hash
 from equisection.errors import ResultFileError, SolverError
 from equisection.files import written_whole
 from equisection.progress import JobProgress
-from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.results.netcdf import read_attributes, write_dataset
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.protocol import Solver
@@ -34,52 +35,63 @@ logger = logging.getLogger(__name__)
 
 @dataclass(frozen=True)
 class Task:
-    """One case of a job, and where its result goes."""
+    """One case of a job under its hash."""
 
     case: Case
     hash: str
-    output: Path
 
 
 def run_cases(
-    case_files: Sequence[Path], outputs: Sequence[Path], store: Path, progress_file: Path
-) -> None:
+    cases: Mapping[str, Case], folder: Path, store: Path, progress_file: Path
+) -> dict[str, dict[str, Any]]:
     """Run the cases that the store does not have, and publish the results of all.
 
     Parameters
     ----------
-    case_files, outputs
-        Case files and the result file of each, in the same order; all for one solver.
+    cases
+        Cases by name.
+    folder
+        Where the results go, as ``<name>.nc``.
     store
         Folder of the results by hash.
     progress_file
         Where the job says how far it is.
 
+    Returns
+    -------
+    dict
+        The attributes of each result by name: verdict, hash, provenance and cost.
+
     Raises
     ------
     CaseFileError
-        A case file cannot be read, or asks for another solver than the first.
+        A case asks for a solver, or a version of it, that is not here.
     SolverError
         The solver could not run, or left a case without a result.
     """
-    tasks = [
-        Task(case, case_hash(case), output)
-        for case, output in zip(map(read_case, case_files), outputs, strict=True)
-    ]
-    missing = {task.hash: task for task in tasks if not _in_store(store, task.hash)}
-    logger.info("%d cases, %d of them in the store", len(tasks), len(tasks) - len(missing))
+    tasks = {name: Task(case, case_hash(case)) for name, case in cases.items()}
+    missing = {task.hash: task for task in tasks.values() if not _in_store(store, task.hash)}
+    logger.info("%d cases, %d of them to be computed", len(tasks), len(missing))
     for group in _alike(list(missing.values())):
         _compute(group, store, progress_file)
-    for task in tasks:
-        _publish(store / task.hash / "result.nc", task.output)
+    attributes = {}
+    for name, task in tasks.items():
+        stored = _result(store, task.hash)
+        attributes[name] = read_attributes(stored, task.hash)
+        _publish(stored, folder / f"{name}.nc")
+    return attributes
+
+
+def _result(store: Path, case_hash: str) -> Path:
+    return store / case_hash / "result.nc"
 
 
 def _in_store(store: Path, wanted: str) -> bool:
-    path = store / wanted / "result.nc"
+    path = _result(store, wanted)
     if not path.exists():
         return False
     try:
-        read_dataset(path, wanted).close()
+        read_attributes(path, wanted)
     except ResultFileError as error:
         logger.warning("%s; it is computed again", error)
         return False
@@ -99,7 +111,9 @@ def _compute(tasks: list[Task], store: Path, progress_file: Path) -> None:
     work = store / tasks[0].hash
     work.mkdir(parents=True, exist_ok=True)
     wall, cpu = time.perf_counter(), time.process_time()
-    with JobProgress(progress_file, [task.hash for task in tasks], solver.describe()) as progress:
+    unit = "cases" if isinstance(tasks[0].case, SteadyCase) else "c/V"
+    hashes = [task.hash for task in tasks]
+    with JobProgress(progress_file, hashes, solver.describe(), unit) as progress:
         results = _run(solver, [task.case for task in tasks], work, progress)
     if len(results) != len(tasks):
         raise SolverError(
@@ -119,7 +133,7 @@ def _compute(tasks: list[Task], store: Path, progress_file: Path) -> None:
             resolution=task.case.resolution,
             **cost,
         )
-        write_dataset(store / task.hash / "result.nc", dataset)
+        write_dataset(_result(store, task.hash), dataset)
 
 
 def _run(

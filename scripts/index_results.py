@@ -1,0 +1,27 @@
+"""Index the results of cases that ran one by one."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from equisection.cases import case_hash, read_cases
+from equisection.results.index import write_index
+from equisection.results.netcdf import read_attributes
+from equisection.script import logged
+
+
+def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:
+    """Write the index, each result checked to be that of its case."""
+    attributes = {}
+    for case_file, result in zip(cases, results, strict=True):
+        (case,) = read_cases(case_file).values()
+        attributes[result.stem] = read_attributes(result, case_hash(case))
+    write_index(output, attributes)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            [Path(path) for path in snakemake.input.get("cases", [])],
+            [Path(path) for path in snakemake.input.get("results", [])],
+            Path(snakemake.output[0]),
+        )

@@ -1,0 +1,80 @@
+"""The index of a job's results: which case is in which file, with its hash and its verdict.
+
+The index is what the workflow waits for; it is written after all the result files that it
+names. A sweep of thousands of cases is then one file to Snakemake, and its summary needs no result
+file to be opened.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from equisection.errors import ResultFileError
+from equisection.files import write_text
+
+SCHEMA_VERSION = 1
+
+
+def write_index(path: Path, attributes: Mapping[str, Mapping[str, Any]]) -> None:
+    """Write the index beside the result files.
+
+    Parameters
+    ----------
+    path
+        The index; result files are ``<name>.nc`` in the same folder.
+    attributes
+        Attributes of the result of each case, by the case's name.
+    """
+    results = {
+        name: {key: _plain(value) for key, value in sorted(found.items())}
+        for name, found in attributes.items()
+    }
+    document = {"schema_version": SCHEMA_VERSION, "results": results}
+    write_text(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
+
+
+def read_index(path: Path) -> dict[str, dict[str, Any]]:
+    """Return the attributes of each result by the case's name; what is unknown is NaN.
+
+    Raises
+    ------
+    ResultFileError
+        The file is missing, malformed or of another schema version.
+    """
+    try:
+        document = json.loads(path.read_text(encoding="utf-8"))
+        found = document["schema_version"]
+        results = document["results"].items()
+    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+        raise ResultFileError(
+            f"{path}: cannot be read as an index of results ({error!r}); delete it and run again"
+        ) from None
+    if found != SCHEMA_VERSION:
+        raise ResultFileError(
+            f"{path}: schema version {found}; version {SCHEMA_VERSION} is read here. "
+            "Delete it and run again"
+        )
+    return {
+        name: {key: math.nan if value is None else value for key, value in attributes.items()}
+        for name, attributes in results
+    }
+
+
+def result_file(index: Path, name: str) -> Path:
+    """Return the result file of a case."""
+    return index.parent / f"{name}.nc"
+
+
+def result_files(indices: Sequence[Path]) -> list[Path]:
+    """Return the result files that some indices name."""
+    return [result_file(index, name) for index in indices for name in read_index(index)]
+
+
+def _plain(value: Any) -> Any:
+    """Return a number of the standard library, and None for NaN, which JSON does not know."""
+    value = value.item() if hasattr(value, "item") else value
+    return None if isinstance(value, float) and not math.isfinite(value) else value
