@@ -8,6 +8,7 @@ from pathlib import Path
 import equisection
 from equisection import plan
 from equisection.config import check_files, load_config, resolve_config
+from equisection.config.sections import FLAT_PLATE
 from equisection.errors import ConfigError
 from equisection.results.mend import mend
 from equisection.solvers.registry import SOLVERS, Capability
@@ -65,7 +66,13 @@ def code(*parts):
 
 def solver_input_files():
     """Return the files that the configured solver reads, for instance section polars."""
-    return [path for path in CONFIG.embedded.polars.values() if path != "flat-plate"]
+    return [path for path in CONFIG.embedded.polars.values() if path != FLAT_PLATE]
+
+
+def section_polar():
+    """Return the file of the section polar of the run's resolution, if it is one."""
+    path = CONFIG.embedded.polars.get(CONFIG.steady.resolution, FLAT_PLATE)
+    return [] if path == FLAT_PLATE else path
 
 
 def structure_of_model(wildcards):

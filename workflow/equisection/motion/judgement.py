@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
-from equisection.motion.sections import SectionParameters, release_sections
+from equisection.motion.sections import SectionHistories, SectionParameters, release_sections
 from equisection.signals.cycles import find_cycles
 
 Floats = NDArray[np.float64]
@@ -56,18 +57,46 @@ class ReleaseJudgement:
         return (self.recorded.growth_rate > 0.0) == (self.modelled.growth_rate > 0.0)
 
 
-def judge_release(history: ReferenceHistory, loads: UnsteadyLoads) -> ReleaseJudgement:
-    """Release the section of ``history`` with the model and compare."""
+def release_of(history: ReferenceHistory, loads: UnsteadyLoads) -> SectionHistories:
+    """Release the section of a history with the model, for as long as it was recorded."""
     parameters = SectionParameters.from_ratios(
         history.k_star, history.i_star, history.mass_ratio, history.stiffness_ratio
     )
-    run = release_sections(parameters, loads, history.incidence_rad, float(history.time[-1]))
+    return release_sections(parameters, loads, history.incidence_rad, float(history.time[-1]))
+
+
+def judge_release(history: ReferenceHistory, loads: UnsteadyLoads) -> ReleaseJudgement:
+    """Release the section of ``history`` with the model and compare."""
+    run = release_of(history, loads)
     valid = slice(0, int(run.samples[0]))
     return ReleaseJudgement(
         history.k_star,
         release_numbers(history.time, history.twist, history.deflection),
         release_numbers(run.time[valid], run.twist[valid, 0], run.deflection[valid, 0]),
     )
+
+
+def judgement_table(
+    judgements: Sequence[tuple[str, ReleaseJudgement]],
+) -> list[dict[str, str | float]]:
+    """Return a row for each release and quantity: what was recorded and what is modelled.
+
+    Parameters
+    ----------
+    judgements
+        What each release was used for, and its judgement.
+    """
+    return [
+        {
+            "use": use,
+            "k_star": judgement.k_star,
+            "quantity": quantity.name,
+            "recorded": getattr(judgement.recorded, quantity.name),
+            "modelled": getattr(judgement.modelled, quantity.name),
+        }
+        for use, judgement in judgements
+        for quantity in fields(ReleaseNumbers)
+    ]
 
 
 def release_numbers(time: Floats, twist: Floats, deflection: Floats) -> ReleaseNumbers:

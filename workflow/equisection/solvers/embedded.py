@@ -24,6 +24,7 @@ from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.config import Config
+from equisection.config.sections import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
 from equisection.motion.beams import BeamHistories, BeamParameters, release_beams
 from equisection.motion.march import Failure
@@ -63,11 +64,7 @@ class Adapter:
             The polar file cannot be used.
         """
         section = config.embedded
-        source = section.polars[resolution]
-        if source == "flat-plate":
-            polar = SectionPolar.flat_plate(FLAT_PLATE_LIMIT)
-        else:
-            polar = read_polar(Path(source), section.symmetric)
+        polar = read_section_polar(section, resolution)
         lags = SeparationLags(**section.separation.model_dump(), provenance="configuration")
         return cls(polar, section.strips, lags)
 
@@ -224,6 +221,20 @@ class Adapter:
         )
         for lane, case in enumerate(cases):
             yield _beam_result(case, histories, lane)
+
+
+def read_section_polar(section: Embedded, resolution: str) -> SectionPolar:
+    """Return the section polar that a configuration names for a resolution.
+
+    Raises
+    ------
+    PolarFileError
+        The file cannot be used.
+    """
+    source = section.polars[resolution]
+    if source == FLAT_PLATE:
+        return SectionPolar.flat_plate(FLAT_PLATE_LIMIT)
+    return read_polar(Path(source), section.symmetric)
 
 
 def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:

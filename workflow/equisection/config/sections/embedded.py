@@ -23,6 +23,19 @@ class Separation(Section):
     lift_lag: NotNegative = Field(0.85, description="tau_3 of the lift behind the bubble (c/V).")
 
 
+class Identification(Section):
+    """CFD histories behind the lags; `snakemake identification` identifies them again."""
+
+    fitted_to: Annotated[tuple[str, ...], Field(min_length=1)] = Field(
+        ("results/reference/prototype/release_k10.nc",),
+        description="Releases of the section that the lags are fitted to (NetCDF files).",
+    )
+    judged_on: tuple[str, ...] = Field(
+        ("results/reference/prototype/release_k5.nc",),
+        description="Releases that the fitted model is judged on and never sees (NetCDF files).",
+    )
+
+
 class Embedded(Section):
     """The embedded solver."""
 
@@ -36,6 +49,9 @@ class Embedded(Section):
         description="Whether the files hold incidences from 0 deg on, of a symmetric section.",
     )
     separation: Separation = Field(Separation(), description="Lags of the separation bubble.")
+    identification: Identification = Field(
+        Identification(), description="Where the lags come from."
+    )
     strips: Annotated[int, Field(ge=4, le=100), WHOLE] = Field(
         20, description="Strips along the span (-)."
     )

@@ -1,0 +1,30 @@
+"""The lags of the embedded solver, identified again from CFD histories; asked for by name."""
+
+
+rule identification:
+    """Fit the lags to some releases and judge the model on others."""
+    input:
+        polar=section_polar(),
+        fitted_to=list(CONFIG.embedded.identification.fitted_to),
+        judged_on=list(CONFIG.embedded.identification.judged_on),
+        style=STYLE,
+    output:
+        lags=f"{RESULTS}/identification/lags.yaml",
+        judgement=f"{RESULTS}/identification/judgement.csv",
+        figures=multiext(f"{RESULTS}/identification/judgement", ".png", ".svg", ".pdf"),
+    log:
+        f"{LOGS}/identification.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=10,
+    params:
+        code=code("aerodynamics", "motion", "figures/identification.py", *DRAWING),
+        embedded=RESOLVED["embedded"],
+        resolution=CONFIG.steady.resolution,
+    message:
+        "lags of the embedded solver"
+    script:
+        "../../scripts/identification.py"
