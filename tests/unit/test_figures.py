@@ -310,3 +310,11 @@ def test_nothing_is_left_of_a_drawing_that_fails(tmp_path):
     with pytest.raises(ValueError, match="nosuchcommand"):
         save_figure(figure, [tmp_path / "figure.png"])
     assert list(tmp_path.iterdir()) == []
+
+
+def test_cases_that_are_close_share_a_mark(tmp_path):
+    close = {4.0: "growing", 10.0: "growing", 10.02: "settled", 20.0: "settled"}
+    data = sweep(tmp_path, {"2d": close})
+    found = words(fig16_response.draw(fig16_response.read_response(*data, 6.7)))
+    assert "\nA, B\n" in found
+    assert "\nC\n" in found

@@ -92,8 +92,16 @@ if SOLVER:
 
 
 def test_figures_are_counted():
-    rules = ["fig13_lift", "fig01_workflow", "fig03_modes", "fig14_moment", "fig15_modal"]
-    assert figures_sentence(rules) == "Draw Figs. 1, 3, 13–15 of the paper"
+    rules = [
+        "fig13_lift",
+        "fig01_workflow",
+        "fig03_modes",
+        "fig14_moment",
+        "fig15_modal",
+        "fig17_a",
+        "fig18_b",
+    ]
+    assert figures_sentence(rules) == "Draw Figs. 1, 3, 13–15, 17, 18 of the paper"
     assert figures_sentence([]) == ""
 
 

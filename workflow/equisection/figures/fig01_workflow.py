@@ -34,8 +34,8 @@ _TARGETS = ("all", "run")
 
 # Inches.
 _BOX_WIDTH = 1.62
-_BOX_HEIGHT = 0.5
-_LAYER_HEIGHT = 0.72
+_BOX_HEIGHT = 0.56
+_LAYER_HEIGHT = 0.79
 _GAP = 0.14
 _PASSING = 0.3
 
@@ -76,7 +76,7 @@ def draw(graph: RuleGraph, texts: Mapping[str, RuleText], *sources: str) -> Figu
     for rule in shown.rules:
         across, layer = layout.position[rule]
         phase = "figures" if rule == FIGURES_BOX else _phase(rule, texts)
-        lines = textwrap.wrap(sentences.get(rule, ""), columns, max_lines=2, placeholder=" …")
+        lines = textwrap.wrap(sentences.get(rule, ""), columns, max_lines=3, placeholder=" …")
         _box(axes, (across, -layer * _LAYER_HEIGHT), rule, lines, phase)
     _legend(figure, [_phase(rule, texts) for rule in graph.rules if rule not in _TARGETS])
     add_provenance(figure, "rules as Snakemake plans them", *sources)
@@ -92,7 +92,7 @@ def figures_sentence(rules: list[str]) -> str:
             runs[-1].append(number)
         else:
             runs.append([number])
-    words = [f"{run[0]}–{run[-1]}" if len(run) > 1 else str(run[0]) for run in runs]
+    words = [f"{run[0]}–{run[-1]}" if len(run) > 2 else ", ".join(map(str, run)) for run in runs]
     return f"Draw Figs. {', '.join(words)} of the paper" if words else ""
 
 

@@ -33,6 +33,10 @@ from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 
 #: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
 _BOUNDED = ("settled", "limit-cycle")
+#: Markers of a model at most, but for the few that are of another kind than the rest.
+_MOST_MARKERS = 40
+#: Part of the axis below which two letters would stand on each other.
+_TOO_CLOSE = 0.03
 #: Symbols and units of the two upper panels.
 _QUANTITIES = {
     "mean_twist_deg": r"mean twist of the tip  $\overline{\theta}$ (deg)",
@@ -118,8 +122,6 @@ def draw(response: Response) -> Figure:
                 say(axes, f"The sweep has no {dimension} model.", 24)
             else:
                 _history(axes, place, shown[name], response.histories.get(name), LOOKS[model])
-            if column == 0:
-                axes.set_ylabel(r"$\theta$ (deg)")
     figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
     add_provenance(figure, *_sources(response))
     return figure
@@ -147,6 +149,7 @@ def _means(axes: Axes, response: Response, name: str) -> None:
                 color=look.colour,
                 linestyle="none",
                 marker=look.marker,
+                markevery=1 + len(there) // _MOST_MARKERS,
                 markerfacecolor=look.colour if filled else "white",
             )
         failed = runs.loc[runs["regime"] == "failed", "k_star"]
@@ -202,16 +205,19 @@ def _extent(axes: Axes, response: Response, name: str) -> None:
 
 
 def _letters(axes: Axes, cases: Sequence[ShownCase], name: str) -> None:
-    """Mark the cases whose histories are shown; those at the same k* share a mark."""
-    places: dict[float, list[ShownCase]] = {}
-    for case in cases:
-        if case.exists:
-            places.setdefault(case.k_star, []).append(case)
-    for k_star, same in places.items():
+    """Mark the cases whose histories are shown; those too close to tell apart share a mark."""
+    low, high = axes.get_xlim()
+    groups: list[list[ShownCase]] = []
+    for case in sorted((c for c in cases if c.exists), key=lambda c: c.k_star):
+        if groups and case.k_star - groups[-1][0].k_star < _TOO_CLOSE * (high - low):
+            groups[-1].append(case)
+        else:
+            groups.append([case])
+    for same in groups:
         above = same[0].letter in SECTION_LETTERS
         axes.annotate(
-            ", ".join(case.letter for case in same),
-            (k_star, getattr(same[0], name)),
+            ", ".join(sorted(case.letter for case in same)),
+            (same[0].k_star, getattr(same[0], name)),
             xytext=(4, 15) if above else (-5, -15),
             textcoords="offset points",
             ha="center",
@@ -235,7 +241,7 @@ def _history(axes: Axes, place: str, case: ShownCase, history: History | None, l
         say(axes, "The run left no history.", 24)
         return
     axes.plot(history.time, history.tip_twist_deg, color=look.colour, linewidth=0.6)
-    axes.set(xlabel="$t^*$", xlim=(0.0, float(history.time[-1])))
+    axes.set(xlabel="$t^*$", ylabel=r"$\theta$ (deg)", xlim=(0.0, float(history.time[-1])))
 
 
 def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
