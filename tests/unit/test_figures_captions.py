@@ -1,0 +1,23 @@
+"""The captions of the report are sound reStructuredText."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from docutils.core import publish_string
+from jinja2 import Environment, StrictUndefined
+
+CAPTIONS = sorted((Path(__file__).parents[2] / "workflow" / "report").glob("fig*.rst"))
+
+
+@pytest.mark.parametrize("path", CAPTIONS, ids=lambda path: path.stem)
+def test_caption_renders(path):
+    snakemake = SimpleNamespace(config={}, params=SimpleNamespace(resolution="coarse"))
+    template = Environment(undefined=StrictUndefined).from_string(path.read_text("utf-8"))
+    publish_string(
+        template.render(snakemake=snakemake),
+        writer="html",
+        settings_overrides={"halt_level": 2, "report_level": 2},
+    )
