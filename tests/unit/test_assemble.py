@@ -1,0 +1,186 @@
+"""What is put into a case."""
+
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+import xarray as xr
+from tests.sample_cases import STEADY
+
+from equisection import plan
+from equisection.assemble import nominal_k_star, steady_case, unsteady_case
+from equisection.cases import UnsteadyCase, case_hash
+from equisection.config import Config, load_config
+from equisection.reduction.correction import CorrectionFactors
+from equisection.reduction.integrals import span_integrals
+from equisection.reduction.section import REDUCTIONS, reduce_beam
+from equisection.results.correction import factors_to_dataset
+from equisection.results.equivalent import equivalent_to_dataset
+from equisection.results.modes import modes_to_dataset
+from equisection.solvers.registry import solver_from_config
+from equisection.structure.modes import compute_modes, frequency_constants
+from equisection.structure.plate import Plate
+
+RAW: dict[str, Any] = {
+    "structure": {"bending_modes": 2, "torsion_modes": 2},
+    "embedded": {"polars": {"thin": "flat-plate"}, "strips": 8},
+    "steady": {"resolution": "thin"},
+}
+
+
+@pytest.fixture(scope="module")
+def config() -> Config:
+    return load_config(RAW)
+
+
+@pytest.fixture(scope="module")
+def data(config: Config) -> dict[str, xr.Dataset]:
+    """Modes, equivalent section and a correction by one half, of the paper's plate."""
+    plate = Plate(**config.beam.model_dump())
+    modes = compute_modes(plate, "beam", (4, 15, 1), count=8)
+    polar = solver_from_config(config, "thin")._polar  # type: ignore[attr-defined]
+    half = type(polar)(
+        polar.incidence, 0.5 * polar.drag, 0.5 * polar.lift, 0.5 * polar.moment, "half"
+    )
+    flow = config.flow
+    return {
+        "modes": modes_to_dataset(modes, list(frequency_constants(modes, plate))),
+        "equivalent": equivalent_to_dataset(
+            [reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS],
+            span_integrals(plate, modes, 2),
+            (),
+            density=flow.density,
+            speed=flow.speed,
+            chord=config.beam.chord,
+        ),
+        "correction": factors_to_dataset(CorrectionFactors(polar, half)),
+    }
+
+
+def case(
+    name: str, k_star: float, data: dict[str, xr.Dataset], config: Config | None = None
+) -> UnsteadyCase:
+    config = config or load_config(RAW)
+    solver = solver_from_config(config, "thin")
+    return unsteady_case(config, plan.model(name, config.reduction), k_star, data, solver)
+
+
+@pytest.mark.parametrize("k_star", [2.0, 6.44, 21.0])
+def test_section_of_the_paper_has_the_k_star_of_its_case(
+    k_star: float, data: dict[str, xr.Dataset]
+) -> None:
+    section = case("2d-paper", k_star, data).section
+    assert section is not None
+    assert section.torsional_stiffness == pytest.approx(k_star, rel=1e-12)
+
+
+@pytest.mark.parametrize("name", ["2d", "2d-paper"])
+def test_stiffness_alone_grows_with_k_star(name: str, data: dict[str, xr.Dataset]) -> None:
+    soft, stiff = case(name, 5.0, data).section, case(name, 10.0, data).section
+    assert soft is not None
+    assert stiff is not None
+    assert stiff.torsional_stiffness == pytest.approx(2 * soft.torsional_stiffness, rel=1e-12)
+    assert stiff.flexural_stiffness == pytest.approx(2 * soft.flexural_stiffness, rel=1e-12)
+    for kept in ("inertia", "mass", "twist_recovery", "deflection_recovery"):
+        assert getattr(stiff, kept) == getattr(soft, kept)
+
+
+def test_frequencies_of_the_beam_grow_as_the_root_of_k_star(data: dict[str, xr.Dataset]) -> None:
+    soft, stiff = case("3d", 5.0, data).beam, case("3d", 20.0, data).beam
+    assert soft is not None
+    assert stiff is not None
+    np.testing.assert_allclose(stiff.torsion_frequency, 2 * np.array(soft.torsion_frequency))
+    np.testing.assert_allclose(stiff.bending_frequency, 2 * np.array(soft.bending_frequency))
+    assert stiff.torsion_shape == soft.torsion_shape
+    assert len(soft.bending_frequency) == len(soft.torsion_frequency) == 2
+
+
+def test_beam_at_its_own_k_star_has_its_own_frequencies(
+    config: Config, data: dict[str, xr.Dataset]
+) -> None:
+    beam = case("3d", nominal_k_star(config, data["equivalent"]), data).beam
+    modes = data["modes"]
+    first = float(modes["frequency"].values[modes["kind"].values == "torsion"][0])
+    assert beam is not None
+    reduced = 2 * math.pi * first * config.beam.chord / config.flow.speed
+    assert beam.torsion_frequency[0] == pytest.approx(reduced, rel=1e-12)
+
+
+def test_consistent_section_has_the_natural_frequency_of_the_beam(
+    data: dict[str, xr.Dataset],
+) -> None:
+    section, beam = case("2d-consistent", 9.0, data).section, case("3d", 9.0, data).beam
+    assert section is not None
+    assert beam is not None
+    pitch = math.sqrt(section.torsional_stiffness / section.inertia)
+    heave = math.sqrt(section.flexural_stiffness / section.mass)
+    assert pitch == pytest.approx(beam.torsion_frequency[0], rel=1e-4)
+    assert heave == pytest.approx(beam.bending_frequency[0], rel=1e-4)
+
+
+def test_correction_multiplies_masses_and_stiffnesses(data: dict[str, xr.Dataset]) -> None:
+    """Eq. 20: a beam with half the section's coefficients makes the factors two."""
+    plain, corrected = case("2d", 21.0, data).section, case("2d-corrected", 21.0, data).section
+    assert plain is not None
+    assert corrected is not None
+    for name in ("torsional_stiffness", "flexural_stiffness", "inertia", "mass"):
+        assert getattr(corrected, name) == pytest.approx(2 * getattr(plain, name), rel=1e-9)
+    assert corrected.twist_recovery == plain.twist_recovery
+
+
+def test_corrected_section_that_diverges_is_refused_in_its_case(
+    data: dict[str, xr.Dataset],
+) -> None:
+    refused = case("2d-corrected", 0.05, data)
+    assert refused.section is None
+    assert refused.refusal
+    assert case("2d-corrected", 21.0, data).refusal == ""
+
+
+def test_case_holds_no_name_and_no_path_of_the_run(data: dict[str, xr.Dataset]) -> None:
+    other = load_config({**RAW, "run": "other"})
+    assert case_hash(case("2d", 9.0, data)) == case_hash(case("2d", 9.0, data, other))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"flow": {"speed": 19.0}},
+        {"flow": {"incidence_deg": 2.0}},
+        {"flow": {"channel": None}},
+        {"unsteady": {"time_step": 0.1}},
+        {"unsteady": {"verdict": {"periods": 6}}},
+        {"embedded": {"polars": {"thin": "flat-plate"}, "strips": 9}},
+    ],
+    ids=str,
+)
+def test_what_decides_a_result_is_in_the_case(
+    change: dict[str, Any], data: dict[str, xr.Dataset]
+) -> None:
+    changed = load_config({**RAW, **change})
+    assert case_hash(case("3d", 9.0, data)) != case_hash(case("3d", 9.0, data, changed))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"sweep": {"k_star": [9.0]}},
+        {"sweep": {"onset": "refine"}},
+        {"steady": {"resolution": "thin", "incidence_deg": [0, 1, 2, 3, 9]}},
+    ],
+    ids=str,
+)
+def test_what_decides_no_result_of_a_case_is_not_in_it(
+    change: dict[str, Any], data: dict[str, xr.Dataset]
+) -> None:
+    changed = load_config({**RAW, **change})
+    assert case_hash(case("3d", 9.0, data)) == case_hash(case("3d", 9.0, data, changed))
+
+
+def test_steady_case_has_its_angle_and_the_geometry_in_chords(config: Config) -> None:
+    made = steady_case(config, "3d", 2.5, "thin", solver_from_config(config, "thin"))
+    assert (made.dimension, made.incidence_deg, made.resolution) == ("3d", 2.5, "thin")
+    # the sample cases are written down by hand for the same plate
+    assert made.geometry.model_dump() == pytest.approx(STEADY.geometry.model_dump())
+    assert made.medium == STEADY.medium

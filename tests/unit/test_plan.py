@@ -1,0 +1,159 @@
+import re
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from equisection import plan
+from equisection.comparison.onset import OnsetBracket, refinement_points
+from equisection.config import Config, load_config
+
+k_stars = st.floats(min_value=1e-3, max_value=1e6).map(lambda value: float(f"{value:.6g}"))
+angles = st.floats(min_value=-89, max_value=89).map(lambda value: float(f"{value:.6g}"))
+words = st.from_regex(r"[A-Za-z0-9](\.?[A-Za-z0-9_-]){0,8}", fullmatch=True)
+
+
+def config(**sweep: object) -> Config:
+    return load_config({"sweep": sweep})
+
+
+@given(k_stars)
+def test_name_of_a_case_says_its_k_star(k_star: float) -> None:
+    name = plan.case_name(k_star)
+    assert plan.k_star_of(name) == k_star
+    assert re.fullmatch(plan.CASE_PATTERN, name)
+    assert plan.is_case_name(name)
+
+
+@given(words, angles)
+def test_name_of_a_steady_case_says_resolution_and_incidence(word: str, angle: float) -> None:
+    name = plan.angle_name(word, angle)
+    assert plan.angle_of(name) == (word, angle)
+    assert re.fullmatch(plan.ANGLE_PATTERN, name)
+
+
+@pytest.mark.parametrize("name", ["", "k", "7", "sweep", "round1", "k6/../k7", "K6"])
+def test_other_names_are_no_cases(name: str) -> None:
+    assert not plan.is_case_name(name)
+
+
+@given(k_stars)
+def test_names_of_cases_and_of_batches_are_never_the_same(k_star: float) -> None:
+    assert not re.fullmatch(plan.BATCH_PATTERN, plan.case_name(k_star))
+
+
+@pytest.mark.parametrize(
+    ("name", "dimension", "corrected", "reduction"),
+    [
+        ("2d", "2d", False, "consistent"),
+        ("2d-corrected", "2d", True, "consistent"),
+        ("2d-paper", "2d", False, "paper"),
+        ("2d-corrected-paper", "2d", True, "paper"),
+        ("2d-corrected-consistent", "2d", True, "consistent"),
+        ("3d", "3d", False, "consistent"),
+    ],
+)
+def test_name_of_a_model_is_taken_apart(
+    name: str, dimension: str, corrected: bool, reduction: str
+) -> None:
+    assert plan.model(name, "consistent") == plan.Model(name, dimension, corrected, reduction)
+    assert re.fullmatch(plan.MODEL_PATTERN, name)
+
+
+def test_sweep_is_in_ascending_order() -> None:
+    assert plan.sweep_cases(config(k_star=[21, 4, 6.44])) == ["k4", "k6.44", "k21"]
+    assert plan.reference_case(config(k_star=[21, 4, 6.44])) == "k21"
+
+
+def test_range_of_k_star_holds_both_ends() -> None:
+    names = plan.sweep_cases(config(k_star={"start": 4, "stop": 6, "number": 5}))
+    assert names == ["k4", "k4.5", "k5", "k5.5", "k6"]
+
+
+def test_steady_cases_are_those_of_every_resolution() -> None:
+    raw = {
+        "steady": {"incidence_deg": [0, 2.5, 5, 10], "resolution": "b", "study": ["a"]},
+        "embedded": {"polars": {"a": "flat-plate", "b": "flat-plate"}},
+    }
+    names = plan.steady_cases(load_config(raw))
+    assert names == [f"{word}_a{angle}" for word in "ba" for angle in ("0", "2.5", "5", "10")]
+
+
+def test_no_refinement_has_the_sweep_alone() -> None:
+    assert plan.refinement_rounds(config(k_star=[4, 21], onset="sweep")) == 0
+    assert plan.batches(config(k_star=[4, 21], onset="sweep")) == ["sweep"]
+
+
+@pytest.mark.parametrize("values", [[7.0], [7.0, 7.05]], ids=["one k*", "narrow enough"])
+def test_nothing_to_refine_takes_no_round(values: list[float]) -> None:
+    assert plan.refinement_rounds(config(k_star=values, onset="refine")) == 0
+
+
+def test_batches_before_a_round_are_all_that_it_can_know() -> None:
+    assert plan.batches_before("round1") == ["sweep"]
+    assert plan.batches_before("round3") == ["sweep", "round1", "round2"]
+
+
+@given(
+    unstable=st.floats(1.0, 50.0),
+    width=st.floats(0.01, 10.0),
+    tolerance=st.floats(0.01, 0.5),
+    points=st.integers(1, 6),
+    sides=st.lists(st.integers(0, 6), min_size=40, max_size=40),
+)
+def test_planned_rounds_are_enough_wherever_the_onset_is(
+    unstable: float, width: float, tolerance: float, points: int, sides: list[int]
+) -> None:
+    low, high = unstable, unstable * (1 + width)
+    planned = plan.refinement_rounds(
+        config(k_star=[low, high], onset="refine", onset_tolerance=tolerance, onset_points=points)
+    )
+    for side in sides[:planned]:
+        chosen = refinement_points(OnsetBracket(high, low), tolerance, points)
+        if not chosen:
+            break
+        ends = [low, *chosen, high]
+        part = side % (len(ends) - 1)
+        low, high = ends[part], ends[part + 1]
+    # k* are rounded to four digits, so that parts differ a little from even ones
+    assert (high - low) / low <= tolerance * 1.02 + 2e-3
+
+
+@given(st.lists(k_stars, max_size=5))
+def test_round_of_refinement_is_read_as_written(k_star: list[float]) -> None:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "2d_round1.json"
+        plan.write_refinement(path, k_star)
+        assert [plan.k_star_of(name) for name in plan.read_refinement(path)] == k_star
+
+
+@pytest.mark.parametrize(
+    ("models", "wanted", "unwanted"),
+    [
+        (["3d"], "fig15-modal-contributions", "fig17-hysteresis"),
+        (["2d-corrected"], "fig17-hysteresis", "fig15-modal-contributions"),
+    ],
+)
+def test_figures_of_a_model_are_drawn_only_with_it(
+    models: list[str], wanted: str, unwanted: str
+) -> None:
+    names = plan.figures(config(models=models))
+    assert wanted in names
+    assert unwanted not in names
+    assert names == sorted(names)
+
+
+def test_plan_needs_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    asked: list[Callable[[Config], object]] = [
+        plan.sweep_cases,
+        plan.steady_cases,
+        plan.figures,
+        plan.batches,
+    ]
+    for function in asked:
+        assert function(load_config({}))
+    assert list(tmp_path.iterdir()) == []
