@@ -21,7 +21,7 @@ from equisection.cases import (
     UnsteadyCase,
 )
 from equisection.config import Config
-from equisection.errors import EquisectionError
+from equisection.errors import DivergenceError, EquisectionError
 from equisection.plan import Model
 from equisection.reduction.correction import corrected_equilibrium
 from equisection.reduction.section import EquivalentSection, Reduction
@@ -66,11 +66,11 @@ def unsteady_case(
 
     Notes
     -----
-    A corrected section without a static equilibrium inside the polars (divergence) is refused:
-    its case says why and its result is ``failed``, so that the other k* go on.
+    A corrected section without a static equilibrium inside the polars is refused: its case says
+    why, and the other k* go on. Its result is ``growing`` if it diverges, else ``failed``.
     """
     stiffness_scale = k_star / nominal_k_star(config, data["equivalent"])
-    section, beam, refusal = None, None, ""
+    section, beam, refusal, diverges = None, None, "", False
     if model.dimension == "3d":
         beam = _beam_modes(config, data["modes"], stiffness_scale)
     else:
@@ -78,6 +78,7 @@ def unsteady_case(
             section = _section(config, model, data, stiffness_scale)
         except EquisectionError as error:
             refusal = str(error)
+            diverges = isinstance(error, DivergenceError)
     unsteady = config.unsteady
     return UnsteadyCase(
         dimension=model.dimension,
@@ -94,6 +95,7 @@ def unsteady_case(
         criteria=Criteria(**unsteady.verdict.model_dump()),
         solver=_solver_block(solver),
         refusal=refusal,
+        diverges=diverges,
     )
 
 

@@ -25,6 +25,10 @@ class ReductionError(EquisectionError):
     """The beam has no equivalent section (for instance no rotational restraint)."""
 
 
+class DivergenceError(ReductionError):
+    """The moment outgrows the stiffness: the section has no static equilibrium."""
+
+
 class ModesError(EquisectionError):
     """The mode computation failed or did not find the modes that are needed."""
 

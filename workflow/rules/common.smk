@@ -10,6 +10,7 @@ from equisection import plan
 from equisection.config import check_files, load_config, resolve_config
 from equisection.config.sections import FLAT_PLATE
 from equisection.errors import ConfigError
+from equisection.figures.models_shown import beam_model, section_model
 from equisection.results.mend import mend
 from equisection.solvers.registry import SOLVERS, Capability
 
@@ -59,7 +60,7 @@ def code(*parts):
     digest = hashlib.sha256()
     for part in parts:
         place = package / part
-        for path in sorted(place.glob("*.py")) if place.is_dir() else [place]:
+        for path in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
             digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
@@ -116,6 +117,17 @@ def indices_before_round(wildcards):
     return [
         f"{RESULTS}/unsteady/{wildcards.model}/{batch}.json"
         for batch in plan.batches_before(wildcards.batch)
+    ]
+
+
+def indices_of_histories(wildcards):
+    """Return the runs of which histories are shown: of the corrected section and the beam."""
+    models = (section_model(CONFIG.sweep.models), beam_model(CONFIG.sweep.models))
+    return [
+        f"{RESULTS}/unsteady/{model}/{batch}.json"
+        for model in models
+        if model is not None
+        for batch in plan.batches(CONFIG)
     ]
 
 

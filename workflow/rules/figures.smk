@@ -1,7 +1,5 @@
 """The paper's figures, one rule each, named by the paper's number."""
 
-from equisection.figures.models_shown import beam_model, section_model
-
 # What every figure is made with; the rules name the modules of their own beside.
 DRAWING = (
     "figures/panels.py",
@@ -18,17 +16,6 @@ CASES_SHOWN = (
 (STYLE,) = of_project("envs/equisection.mplstyle")
 (SNAKEFILE,) = of_project("workflow/Snakefile")
 RULE_FILES = of_project("workflow/rules/*.smk")
-
-
-def indices_of_histories(wildcards):
-    """Return the runs of which histories are shown: of the corrected section and the beam."""
-    models = (section_model(CONFIG.sweep.models), beam_model(CONFIG.sweep.models))
-    return [
-        f"{RESULTS}/unsteady/{model}/{batch}.json"
-        for model in models
-        if model is not None
-        for batch in plan.batches(CONFIG)
-    ]
 
 
 rule fig01_workflow:

@@ -116,7 +116,8 @@ class UnsteadyCase(Block):
     output_interval: float  # c/V
     criteria: Criteria
     solver: SolverBlock
-    refusal: str = ""  # why there is no structure to move; such a case fails without a run
+    refusal: str = ""  # why there is no structure to move; such a case is not run
+    diverges: bool = False  # the refusal is a static divergence, which is an instability
 
     @model_validator(mode="after")
     def _one_structure(self) -> UnsteadyCase:

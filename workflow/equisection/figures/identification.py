@@ -47,7 +47,7 @@ def draw(
         right.set_ylabel("$w_{2D}/c$")
     for panel in panels[-1]:
         panel.set_xlabel("$tV_\\infty/c$")
-    panels[0, 0].legend(loc="upper left")
+    panels[0, 1].legend(loc="lower right")
     sources = dict.fromkeys(history.source for _, history in releases)
     add_provenance(figure, f"embedded solver, polar {label}", *sources)
     return figure

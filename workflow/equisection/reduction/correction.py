@@ -31,7 +31,7 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator, PPoly
 
 from equisection.aerodynamics.polar import SectionPolar
-from equisection.errors import ReductionError
+from equisection.errors import DivergenceError, ReductionError
 
 Floats = NDArray[np.float64]
 
@@ -174,9 +174,13 @@ def _first_twist(beam: SectionPolar, incidence_rad: float, k_star: float) -> flo
 
 def _no_equilibrium(beam: SectionPolar, incidence_rad: float, k_star: float) -> ReductionError:
     least, greatest = np.degrees(beam.incidence_range)
-    return ReductionError(
+    what = (
         f"no static equilibrium at k* = {k_star:.4g} from theta_0 = "
         f"{np.degrees(incidence_rad):.4g} deg inside polar {beam.label!r} ({least:.4g} to "
-        f"{greatest:.4g} deg): the moment outgrows the stiffness (divergence) or the polar is "
-        "too short; raise k* or extend the polar"
+        f"{greatest:.4g} deg)"
     )
+    cubic = beam.moment_cubic
+    end = beam.incidence_range[0 if cubic(incidence_rad) < 0 else 1]
+    if float(cubic(end, 1)) >= k_star:  # the gap still widens where the polar ends
+        return DivergenceError(f"{what}: the moment outgrows the stiffness (static divergence)")
+    return ReductionError(f"{what}: the polar is too short; extend it or raise k*")

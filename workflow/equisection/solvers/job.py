@@ -147,7 +147,7 @@ def _run(
         return solver.run_steady(steady, work, progress.update)
     possible = [case for case in unsteady if not case.refusal]
     ran = iter(solver.run_unsteady(possible, work, progress.update) if possible else [])
-    return [refused(case.refusal) if case.refusal else next(ran) for case in unsteady]
+    return [refused(case) if case.refusal else next(ran) for case in unsteady]
 
 
 def _dataset(case: Case, result: SteadyResult | UnsteadyResult) -> xr.Dataset:

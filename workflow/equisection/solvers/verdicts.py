@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from equisection.cases import UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady import Regime, UnsteadyResult
-from equisection.signals import Criteria, assess
+from equisection.signals import Criteria, Verdict, assess
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -61,10 +61,9 @@ def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
     tip
         Its whole history.
     failure
-        Why the run ended early, if it did; its regime is then ``failed``.
+        Why the run ended early, if it did. Its regime is then ``failed``, unless it had grown
+        beyond the bound before.
     """
-    if failure:
-        return _failed(failure)
     try:
         verdict = assess(
             tip.time,
@@ -75,10 +74,12 @@ def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
             natural_frequency=pitch_frequency(case),
         )
     except ResultFileError as error:
-        return _failed(str(error))
+        return _without_numbers(Regime.FAILED, failure or str(error))
+    if failure and not _beyond_bound(case, verdict):
+        return _without_numbers(Regime.FAILED, failure)
     return {
         "regime": str(Regime(verdict.regime)),
-        "reason": verdict.reason,
+        "reason": f"{verdict.reason}; {failure}" if failure else verdict.reason,
         "periods_used": verdict.periods_used,
         "window_start": verdict.start_time,
         "mean_twist_deg": math.degrees(verdict.mean_twist),
@@ -89,8 +90,9 @@ def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
     }
 
 
-def refused(reason: str) -> UnsteadyResult:
-    """Return the result of a case that has no structure to move: no history, regime failed."""
+def refused(case: UnsteadyCase) -> UnsteadyResult:
+    """Return the result of a case that has no structure to move: a regime without a history."""
+    regime = Regime.GROWING if case.diverges else Regime.FAILED
     nothing = np.empty(0)
     return UnsteadyResult(
         time=nothing,
@@ -101,7 +103,7 @@ def refused(reason: str) -> UnsteadyResult:
         lift=nothing,
         moment=nothing,
         incidence=nothing,
-        verdict=_failed(reason),
+        verdict=_without_numbers(regime, case.refusal),
     )
 
 
@@ -125,7 +127,12 @@ def _decided(case: UnsteadyCase, tip: Motion) -> bool:
     return assess(tip.time, tip.twist, tip.deflection, criteria_of(case)).decided
 
 
-def _failed(reason: str) -> dict[str, Any]:
+def _beyond_bound(case: UnsteadyCase, verdict: Verdict) -> bool:
+    bound = math.radians(case.criteria.growing_amplitude_deg)
+    return verdict.regime == "growing" and verdict.twist_amplitude > bound
+
+
+def _without_numbers(regime: Regime, reason: str) -> dict[str, Any]:
     unknown = (
         "window_start",
         "mean_twist_deg",
@@ -135,7 +142,7 @@ def _failed(reason: str) -> dict[str, Any]:
         "growth_rate",
     )
     return {
-        "regime": str(Regime.FAILED),
+        "regime": str(regime),
         "reason": reason,
         "periods_used": 0.0,
         **dict.fromkeys(unknown, math.nan),

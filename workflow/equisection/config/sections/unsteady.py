@@ -25,7 +25,7 @@ class Verdict(Section):
         0.02, description="Relative change of amplitude that a limit cycle may still have (-)."
     )
     periods: Annotated[int, Field(ge=2, le=50), WHOLE] = Field(
-        5, description="Periods that a verdict rests on (-)."
+        10, description="Periods that a verdict rests on (-)."
     )
 
 
