@@ -30,7 +30,6 @@ from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import write_dataset
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.verdicts import refused
 from equisection.structure.plate import Plate
 
 STYLE = Path(__file__).parents[2] / "envs" / "equisection.mplstyle"
@@ -106,10 +105,10 @@ def run(k_star=8.0, regime="settled", dimension="2d") -> xr.Dataset:
         time, wave, wave, wave, wave, 0.4 + wave, wave, wave, verdict,
         **(beam if dimension == "3d" else {}),
     )  # fmt: skip
-    return _marked(refused("it diverges") if regime == "failed" else result, k_star)
-
-
-def _marked(result: UnsteadyResult, k_star: float) -> xr.Dataset:
+    if regime in ("failed", "diverged"):
+        nothing = np.empty(0)
+        verdict = {"regime": regime, "reason": "it diverges", "window_start": math.nan}
+        result = UnsteadyResult(*[nothing] * 8, verdict)
     return result.to_dataset(0.1).assign_attrs(
         k_star=k_star, solver_description=SOLVER, resolution="coarse"
     )
@@ -123,10 +122,11 @@ def sweep(folder: Path, runs: dict[str, dict[float, str]]):
             path = folder / model / f"k{k_star:g}.nc"
             write_dataset(path, run(k_star, regime, model[:2]))
             paths.append(path)
-            mean = math.nan if regime == "failed" else 5.0 / k_star
-            rows.append((model, k_star, regime, mean, mean, "made-up", "coarse"))
+            mean = math.nan if regime in ("failed", "diverged") else 5.0 / k_star
+            told = regime.replace("diverged", "growing")
+            rows.append((model, k_star, told, mean, mean, "made-up", "coarse"))
         stable = [k for k, regime in regimes.items() if regime in ("settled", "limit-cycle")]
-        growing = [k for k, regime in regimes.items() if regime == "growing"]
+        growing = [k for k, regime in regimes.items() if regime in ("growing", "diverged")]
         brackets.append((model, min(stable, default=math.nan), max(growing, default=math.nan)))
     columns = "model k_star regime mean_twist_deg mean_deflection_chords solver resolution"
     summary = pd.DataFrame(rows, columns=columns.split())
@@ -141,6 +141,7 @@ SWEEPS = {
     "no section": {"3d": WHOLE},
     "one k*": {"2d-corrected": {21.0: "settled"}, "3d": {21.0: "growing"}},
     "all failed": {"2d": {4.0: "failed", 5.0: "failed"}, "3d": {4.0: "failed"}},
+    "diverged": {"2d": {4.0: "diverged", 5.0: "settled", 8.0: "settled"}},
     "all stable": {"2d-corrected": {4.0: "settled", 5.0: "settled"}},
 }
 
@@ -252,8 +253,11 @@ def test_response_draws(name, tmp_path):
         assert f"({place})" in "".join(axes.get_title(loc="left") for axes in figure.axes)
     if name == "no beam":
         assert "has no 3D" in found
+    if name == "diverged":
+        assert "diverged, no mean" in found
+        assert "it diverged" in found.replace("\n", " ")
     if name == "all failed":
-        assert "every one failed" in found.replace("\n", " ")
+        assert "every one failed or diverged" in found.replace("\n", " ")
     lay_out(figure)
 
 

@@ -51,6 +51,11 @@ class ShownCase:
         """Whether there is such a case."""
         return not math.isnan(self.k_star)
 
+    @property
+    def has_mean(self) -> bool:
+        """Whether it has a mean; a section that diverges statically has none."""
+        return not math.isnan(self.mean_twist_deg)
+
 
 def cases_shown(
     summary: pd.DataFrame, onset: pd.DataFrame, model: str, letters: Sequence[str]

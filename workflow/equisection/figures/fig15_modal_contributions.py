@@ -89,7 +89,7 @@ def draw(modes: xr.Dataset, run: xr.Dataset) -> Figure:
         letter(along, "ab"[column], f"{titles[kind]}, mean deformation")
         parts = modal_parts(modes, run, kind)
         if parts is None:
-            reason = f"The run at k* = {run.attrs['k_star']:g} failed: {run.attrs['reason']}."
+            reason = f"No history at k* = {run.attrs['k_star']:g}: {run.attrs['reason']}."
             say(along, reason)
             letter(sizes, "cd"[column], f"{titles[kind]}, part of each mode")
             say(sizes, "No amplitudes to show.")

@@ -33,6 +33,8 @@ from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 
 #: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
 _BOUNDED = ("settled", "limit-cycle")
+#: Marks, on the axis, of runs without a mean.
+_FAILED, _DIVERGED = "x", "+"
 #: Markers of a model at most, but for the few that are of another kind than the rest.
 _MOST_MARKERS = 40
 #: Part of the axis below which two letters would stand on each other.
@@ -132,7 +134,7 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     summary = response.summary
     axes.set(xlabel="$k^*$", ylabel=_QUANTITIES[name])
     if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
-        say(axes, "No run of the sweep has a mean: every one failed.")
+        say(axes, "No run of the sweep has a mean: every one failed or diverged.")
         return
     for _, unstable, stable, grey in _brackets(response):
         axes.axvspan(unstable, stable, color=grey, linewidth=0)
@@ -152,14 +154,13 @@ def _means(axes: Axes, response: Response, name: str) -> None:
                 markevery=1 + len(there) // _MOST_MARKERS,
                 markerfacecolor=look.colour if filled else "white",
             )
-        failed = runs.loc[runs["regime"] == "failed", "k_star"]
-        if len(failed):
+        for marker, without in _without_mean(runs).items():
             axes.plot(
-                failed,
-                np.zeros(len(failed)),
+                without,
+                np.zeros(len(without)),
                 color=look.colour,
                 linestyle="none",
-                marker="x",
+                marker=marker,
                 transform=axes.get_xaxis_transform(),
                 clip_on=False,
                 zorder=5,
@@ -189,6 +190,14 @@ def _brackets(response: Response) -> list[tuple[Look, float, float, str]]:
     return found
 
 
+def _without_mean(runs: pd.DataFrame) -> dict[str, list[float]]:
+    """Return the k* of runs that have no mean, by the mark that stands for them on the axis."""
+    failed = runs["regime"] == "failed"
+    diverged = ~failed & runs["mean_twist_deg"].isna()
+    marks = {_FAILED: runs.loc[failed, "k_star"], _DIVERGED: runs.loc[diverged, "k_star"]}
+    return {mark: list(k_star) for mark, k_star in marks.items() if len(k_star)}
+
+
 def _extent(axes: Axes, response: Response, name: str) -> None:
     """Shade between what values the section moves."""
     if len(response.extents) < 2:
@@ -208,7 +217,7 @@ def _letters(axes: Axes, cases: Sequence[ShownCase], name: str) -> None:
     """Mark the cases whose histories are shown; those too close to tell apart share a mark."""
     low, high = axes.get_xlim()
     groups: list[list[ShownCase]] = []
-    for case in sorted((c for c in cases if c.exists), key=lambda c: c.k_star):
+    for case in sorted((c for c in cases if c.has_mean), key=lambda c: c.k_star):
         if groups and case.k_star - groups[-1][0].k_star < _TOO_CLOSE * (high - low):
             groups[-1].append(case)
         else:
@@ -238,7 +247,7 @@ def _history(axes: Axes, place: str, case: ShownCase, history: History | None, l
     outcome = f"$k^*$ = {case.k_star:g}, {in_words(case.regime)}"
     letter(axes, place, f"{case.letter}: {look.label}\n{outcome}")
     if history.time.size == 0:
-        say(axes, "The run left no history.", 24)
+        say(axes, "The run left no history: it diverged.", 24)
         return
     axes.plot(history.time, history.tip_twist_deg, color=look.colour, linewidth=0.6)
     axes.set(xlabel="$t^*$", ylabel=r"$\theta$ (deg)", xlim=(0.0, float(history.time[-1])))
@@ -253,8 +262,8 @@ def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
     regimes = set(response.summary["regime"])
     if "growing" in regimes:
         handles.append(_mark("o", "still growing"))
-    if "failed" in regimes:
-        handles.append(_mark("x", "failed"))
+    labels = {_FAILED: "failed", _DIVERGED: "diverged, no mean"}
+    handles += [_mark(mark, labels[mark]) for mark in _without_mean(response.summary)]
     handles += [
         Patch(color=grey, linewidth=0, label=f"onset bracket, {look.label}")
         for look, _, _, grey in _brackets(response)

@@ -78,7 +78,7 @@ def draw(loops: Loops) -> Figure:
         letter(top, "ab"[column], title)
         letter(bottom, "cd"[column], f"{name}, phase portrait")
         if case is None or history is None or history.time.size < 3:
-            reason = "the sweep has no 2D model" if case is None else case.regime
+            reason = _why_nothing(case)
             for axes in (top, bottom):
                 say(axes, f"No history of case {name}: {reason}.")
             continue
@@ -91,6 +91,12 @@ def draw(loops: Loops) -> Figure:
     words = solvers_of((h.description, h.resolution) for h in loops.histories.values())
     add_provenance(figure, *(words or (loops.solver,)))
     return figure
+
+
+def _why_nothing(case: ShownCase | None) -> str:
+    if case is None:
+        return "the sweep has no 2D model"
+    return "it diverged" if case.exists else case.regime
 
 
 def _trace(
