@@ -21,7 +21,7 @@ from equisection.cases import (
     SteadyCase,
     UnsteadyCase,
     case_hash,
-    write_case,
+    write_cases,
 )
 from equisection.command_line import main
 from equisection.progress import Process, Snapshot
@@ -78,7 +78,8 @@ class Run:
     def case(self, k_star: float) -> str:
         """Write a case that waits; return its hash."""
         case = unsteady(k_star)
-        write_case(self.folder / f"cases/unsteady/2d/k{k_star:g}.json", case)
+        name = f"k{k_star:g}"
+        write_cases(self.folder / f"cases/unsteady/2d/{name}.json", {name: case})
         return case_hash(case)
 
     def result(self, path: Path, **attributes: str | float) -> None:
@@ -124,6 +125,20 @@ class TestStates:
         run.finished(6.0, "failed", "left the polar")
         entry = run.entry("k6")
         assert (entry.state, entry.text) == (State.FAILED, "left the polar")
+
+    def test_the_cases_of_a_batch_are_told_apart(self, run: Run) -> None:
+        cases = {f"k{k:g}": unsteady(k) for k in (10.0, 6.0, 8.0)}
+        write_cases(run.folder / "cases/unsteady/2d/sweep.json", cases)
+        result = run.folder / "unsteady/2d/k8.nc"
+        run.result(result, case_hash=case_hash(cases["k8"]), regime="settled", reason="at rest")
+        entries = run_status(run.folder).entries
+        assert [entry.case for entry in entries] == ["k6", "k8", "k10"]
+        assert [entry.state for entry in entries] == [State.WAITING, State.DONE, State.WAITING]
+
+    def test_a_case_in_a_batch_and_on_its_own_is_listed_once(self, run: Run) -> None:
+        run.case(6.0)
+        write_cases(run.folder / "cases/unsteady/2d/sweep.json", {"k6": unsteady(6.0)})
+        assert len(run_status(run.folder).entries) == 1
 
     def test_waiting(self, run: Run) -> None:
         run.case(6.0)
@@ -193,7 +208,7 @@ class TestStates:
     def test_steady_cases(self, run: Run) -> None:
         case = SteadyCase(dimension="3d", **PARTS)  # type: ignore[arg-type]
         for name, failure in (("coarse_a0", ""), ("coarse_a10", "left the polar")):
-            write_case(run.folder / f"cases/steady/3d/{name}.json", case)
+            write_cases(run.folder / f"cases/steady/3d/{name}.json", {name: case})
             path = run.folder / f"steady/3d/{name}.nc"
             run.result(path, case_hash=case_hash(case), failure=failure)
         assert run.entry("coarse_a0").state is State.DONE
