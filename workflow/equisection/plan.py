@@ -136,14 +136,15 @@ FIGURES = (
     "fig14-moment-correction",
     "fig16-response",
 )
-#: Figures that show a model, drawn only where it is run.
-FIGURES_OF_MODEL = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d-corrected"}
+#: Figures of one dimension, drawn only where a model of it is run.
+FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
 
 
 def figures(config: Config) -> list[str]:
     """Return the names of the run's figures."""
-    of_models = [name for name, model in FIGURES_OF_MODEL.items() if model in config.sweep.models]
-    return sorted([*FIGURES, *of_models])
+    dimensions = {model(name, config.reduction).dimension for name in config.sweep.models}
+    shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in dimensions]
+    return sorted([*FIGURES, *shown])
 
 
 def reference_case(config: Config) -> str:
