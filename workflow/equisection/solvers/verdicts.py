@@ -24,7 +24,7 @@ Indices = NDArray[np.intp]
 Histories = TypeVar("Histories")
 
 #: A verdict is looked for again when the run has become this many times longer (-).
-LOOK_AGAIN = 1.1
+LOOK_AGAIN = 1.2
 #: Time (c/V) over which a motion beyond the bound is looked for; longer than a slow period.
 LATE = 20.0
 
@@ -118,11 +118,12 @@ def monitor_of(
     """Return a monitor that ends each lane of a batch when its verdict is in.
 
     Looking for a verdict costs more than the motion in between, the more the longer the run is.
-    So it is looked for at times that only the length of the run decides, alike in a batch and
-    alone; a motion that may be beyond the bound is looked at every time, before it leaves the
-    polar.
+    So it is looked for after as many natural periods as it rests on, and then at times that only
+    the length of the run decides, alike in a batch and alone; a motion that may be beyond the
+    bound is looked at every time, before it leaves the polar.
     """
     due = 0.0
+    earliest = [case.criteria.periods / pitch_frequency(case) for case in cases]
 
     def monitor(histories: Any, active: Indices) -> Indices:
         nonlocal due
@@ -133,7 +134,8 @@ def monitor_of(
         done = []
         for lane in active:
             tip = lane_of(histories, cases[lane], int(lane))
-            if (is_due or _may_be_beyond_bound(cases[lane], tip)) and _decided(cases[lane], tip):
+            looks = is_due and now >= earliest[lane]
+            if (looks or _may_be_beyond_bound(cases[lane], tip)) and _decided(cases[lane], tip):
                 done.append(lane)
         return np.array(done, dtype=np.intp)
 
