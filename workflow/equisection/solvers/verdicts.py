@@ -24,7 +24,7 @@ Indices = NDArray[np.intp]
 Histories = TypeVar("Histories")
 
 #: A verdict is looked for again when the run has become this many times longer (-).
-LOOK_AGAIN = 1.2
+LOOK_AGAIN = 1.3
 #: Time (c/V) over which a motion beyond the bound is looked for; longer than a slow period.
 LATE = 20.0
 
