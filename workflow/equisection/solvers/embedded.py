@@ -21,14 +21,12 @@ from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import SectionPolar
 from equisection.aerodynamics.polar_file import read_polar
 from equisection.aerodynamics.separation import SeparationLags
-from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.sections import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.embedded_releases import release_all_beams, release_all_sections
 from equisection.solvers.protocol import Capability, Progress
 
 Floats = NDArray[np.float64]
@@ -129,6 +127,13 @@ class Adapter:
         return [results[index] for index in range(len(cases))]
 
     def _release(self, cases: list[UnsteadyCase], progress: Progress) -> list[UnsteadyResult]:
+        # Imported here: writing a case file takes this module too, and none of what follows.
+        from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
+        from equisection.solvers.embedded_releases import (  # noqa: PLC0415
+            release_all_beams,
+            release_all_sections,
+        )
+
         loads = UnsteadyLoads.from_polar(self._polar, self._lags)
         if cases[0].dimension == "2d":
             return release_all_sections(cases, loads, progress)
