@@ -1,5 +1,6 @@
 """Time and memory of a command with all its children."""
 
+import resource
 import subprocess
 import time
 from collections.abc import Mapping, Sequence
@@ -31,6 +32,7 @@ class Cost:
     """What a command took."""
 
     seconds: float
+    processor_seconds: float  # of all children; does not grow on a busy machine as the other does
     peak_gigabytes: float  # resident, summed over the processes alive at one time
     output: str
 
@@ -51,7 +53,7 @@ def measured(
         The command failed; with what it said.
     """
     said = folder / "benchmark.log"
-    peak, start = 0, time.perf_counter()
+    peak, start, before = 0, time.perf_counter(), _processor_seconds()
     with said.open("w", encoding="utf-8") as log:
         process = psutil.Popen(
             command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT
@@ -63,7 +65,12 @@ def measured(
     output = said.read_text(encoding="utf-8")
     if process.returncode != 0:
         raise RuntimeError(f"{' '.join(command)} ended with {process.returncode}:\n{output}")
-    return Cost(seconds, peak / 1e9, output)
+    return Cost(seconds, _processor_seconds() - before, peak / 1e9, output)
+
+
+def _processor_seconds() -> float:
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def _resident(process: psutil.Process) -> int:

@@ -49,7 +49,7 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
         polar=2,
         refine_onset=models * rounds,
         fig15_modal_contributions="3d" in config.sweep.models,
-        fig17_hysteresis="2d-corrected" in config.sweep.models,
+        fig17_hysteresis=any(model.startswith("2d") for model in config.sweep.models),
     )
     if batches:
         of_sweep = models * (1 + rounds)
