@@ -13,7 +13,7 @@ import xarray as xr
 from tests.workflow.project import Project, has_nothing_to_do, small
 
 SUMMARY = "comparison/summary.csv"
-KILLS = 4
+KILLS = 3
 
 
 def kill_while_working(run: subprocess.Popen[str], delay: float) -> bool:
