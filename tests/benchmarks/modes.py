@@ -1,4 +1,4 @@
-"""Modes of the plate at the paper's resolution: 24 x 89 elements in plan, two through the thickness.
+"""Modes of the plate at the paper's resolution: 24 x 89 elements in plan, two in thickness.
 
 The paper has four linear elements through the thickness; two quadratic ones stand for them.
 """
