@@ -16,6 +16,7 @@ from pathlib import Path
 
 from equisection.config import Config
 from equisection.files import write_text
+from equisection.solvers.registry import SOLVERS
 
 #: Patterns of the wildcards of the rules.
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
@@ -127,15 +128,9 @@ def read_refinement(path: Path) -> list[str]:
 
 
 #: Figures of every run, by the paper's number.
-FIGURES = (
-    "fig01-workflow",
-    "fig03-modes",
-    "fig06-section-polar",
-    "fig10-spanwise-loads",
-    "fig13-lift-correction",
-    "fig14-moment-correction",
-    "fig16-response",
-)
+FIGURES = ("fig01-workflow", "fig03-modes", "fig06-section-polar", "fig16-response")
+#: Figures of the rigid beam, drawn only where the solver has 3D cases.
+FIGURES_OF_BEAM = ("fig10-spanwise-loads", "fig13-lift-correction", "fig14-moment-correction")
 #: Figures that show a model, drawn only where it is run.
 FIGURES_OF_MODEL = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d-corrected"}
 
@@ -143,7 +138,13 @@ FIGURES_OF_MODEL = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d-c
 def figures(config: Config) -> list[str]:
     """Return the names of the run's figures."""
     of_models = [name for name, model in FIGURES_OF_MODEL.items() if model in config.sweep.models]
-    return sorted([*FIGURES, *of_models])
+    of_beam = FIGURES_OF_BEAM if "3d" in dimensions(config) else ()
+    return sorted([*FIGURES, *of_beam, *of_models])
+
+
+def dimensions(config: Config) -> tuple[str, ...]:
+    """Return the dimensions that the configured solver has cases of."""
+    return SOLVERS[config.solver].dimensions
 
 
 def reference_case(config: Config) -> str:

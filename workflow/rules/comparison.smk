@@ -73,20 +73,15 @@ rule paper_comparison:
         modes=f"{RESULTS}/structure/modes.nc",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
         mesh_study=f"{RESULTS}/structure/mesh_study.nc",
-        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        polar_3d=polar_of_beam(),
         index_3d=index_of_beam(),
-        correction=f"{RESULTS}/steady/correction.nc",
+        correction=correction_of_beam(),
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
     output:
         paper=report(
             f"{RESULTS}/comparison/paper.csv",
             caption="../report/paper.rst",
-            category="Tables",
-        ),
-        table1=report(
-            f"{RESULTS}/tables/table1.csv",
-            caption="../report/table1.rst",
             category="Tables",
         ),
         table2=report(
@@ -111,3 +106,30 @@ rule paper_comparison:
         "comparison with the paper"
     script:
         "../../scripts/paper_comparison.py"
+
+
+rule rigid_beam_table:
+    """Loads of the rigid beam beside those of the paper (Table 1)."""
+    input:
+        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+    output:
+        report(
+            f"{RESULTS}/tables/table1.csv",
+            caption="../report/table1.rst",
+            category="Tables",
+        ),
+    log:
+        f"{LOGS}/rigid_beam_table.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("comparison/tables.py", "comparison/paper_values.py"),
+        is_paper_case=CONFIG.is_paper_case,
+    message:
+        "Table 1, loads of the rigid beam"
+    script:
+        "../../scripts/rigid_beam_table.py"

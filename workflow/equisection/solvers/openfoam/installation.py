@@ -1,7 +1,8 @@
 """Where OpenFOAM is on this machine, and how its programs are started.
 
-In this order: a prefix from the configuration (a launcher or a container call), an environment
-that was sourced, programs on the path (as Debian installs them), a launcher such as
+In this order: a command before each program (a launcher or a container call, from the variable
+``EQUISECTION_OPENFOAM``, which the workflow sets from its configuration), an environment that was
+sourced, programs on the path (as Debian installs them), a launcher such as
 ``openfoam2312``. No version decides a result: it is written beside it.
 """
 
@@ -16,14 +17,13 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from pathlib import Path
 
+from equisection.config.sections.openfoam import PREFIX_VARIABLE
 from equisection.errors import SolverError
 
 #: Programs that a case needs.
 PROGRAMS = ("blockMesh", "checkMesh", "simpleFoam", "pimpleFoam")
 #: Where Debian's package has OpenFOAM's ``etc``; its own ``etc/bashrc`` cannot be sourced.
 DEBIAN = Path("/usr/share/openfoam")
-#: Environment variable of the prefix, over the configuration: it is the machine's, not the run's.
-PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
 _HOW = (
     "install OpenFOAM (`make openfoam` does it on Debian and Ubuntu), source the etc/bashrc of an "
     f"installation, or name the command before its programs in {PREFIX_VARIABLE} or in "
@@ -69,13 +69,11 @@ class Installation:
         return _version(self.prefix, tuple(sorted(self.environment.items())))
 
 
-def find(prefix: str = "", search: str | None = None, debian: Path = DEBIAN) -> Installation:
+def find(search: str | None = None, debian: Path = DEBIAN) -> Installation:
     """Return the installation of this machine.
 
     Parameters
     ----------
-    prefix
-        Configured command before each program; empty to look for one.
     search
         Where programs are looked for (by default ``PATH``).
     debian
@@ -87,7 +85,7 @@ def find(prefix: str = "", search: str | None = None, debian: Path = DEBIAN) -> 
         There is none, or a part of it is missing; the message says what and how to mend it.
     """
     search = os.environ.get("PATH", "") if search is None else search
-    prefix = os.environ.get(PREFIX_VARIABLE, "") or prefix
+    prefix = os.environ.get(PREFIX_VARIABLE, "")
     if prefix:
         words = tuple(prefix.split())
         if shutil.which(words[0], path=search) is None:

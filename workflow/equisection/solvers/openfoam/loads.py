@@ -18,6 +18,8 @@ Floats = NDArray[np.float64]
 BEYOND_REASON = 1e3
 #: A coefficient counts as this large at least where a relative change of it is judged.
 _FLOOR = 0.02
+#: Samples of an impulsive start.
+_IMPULSIVE = 20
 
 
 @dataclass(frozen=True)
@@ -33,6 +35,11 @@ class Loads:
         """Return the part after a time."""
         late = self.time > start
         return Loads(self.time[late], self.drag[late], self.lift[late], self.moment[late])
+
+    def first(self, samples: int) -> Loads:
+        """Return the first samples."""
+        part = slice(samples)
+        return Loads(self.time[part], self.drag[part], self.lift[part], self.moment[part])
 
     def last(self, samples: int) -> Loads:
         """Return the last samples."""
@@ -65,18 +72,35 @@ def read_loads(folder: Path) -> Loads:
 
     Raises
     ------
-    BlowUpError
-        They are not finite or beyond reason.
     SolverError
         There are none, or their file has an unknown layout.
     """
     place = folder / "postProcessing" / LOADS
     columns = read_history(place, "coefficient.dat", ["Cd", "Cl", "CmPitch"])
-    loads = Loads(columns["Time"], columns["Cd"], columns["Cl"], columns["CmPitch"])
-    # the first step after an impulsive start has a peak of pressure
-    later = np.stack([loads.drag, loads.lift, loads.moment])[:, 20:]
-    wrong = ~(np.abs(later) < BEYOND_REASON).all(axis=0)
-    if wrong.any():
-        time = loads.time[20:][wrong][0]
-        raise BlowUpError(f"the loads are beyond reason from time {time:g} on; see {folder}")
-    return loads
+    return Loads(columns["Time"], columns["Cd"], columns["Cl"], columns["CmPitch"])
+
+
+def reasonable(loads: Loads) -> int:
+    """Return how many samples there are before the loads are not finite or beyond reason.
+
+    The first steps after an impulsive start have a peak of pressure and are let pass.
+    """
+    values = np.stack([loads.drag, loads.lift, loads.moment])
+    sane = (np.abs(values) < BEYOND_REASON).all(axis=0)
+    sane[:_IMPULSIVE] |= np.isfinite(values[:, :_IMPULSIVE]).all(axis=0)
+    return int(sane.size if sane.all() else np.argmin(sane))
+
+
+def require_reasonable(loads: Loads, folder: Path) -> None:
+    """Refuse loads of a flow that has blown up.
+
+    Raises
+    ------
+    BlowUpError
+        They are not finite or beyond reason.
+    """
+    samples = reasonable(loads)
+    if samples < loads.time.size:
+        raise BlowUpError(
+            f"the loads are beyond reason from time {loads.time[samples]:g} on; see {folder}"
+        )

@@ -77,21 +77,7 @@ class Mesh:
     @property
     def cells(self) -> int:
         """Number of cells."""
-        columns, rows = self.columns, self.rows
-        return sum(columns) * sum(rows) - columns[2] * rows[2]
-
-    @property
-    def columns(self) -> tuple[int, ...]:
-        """Cells between the lines along x."""
-        return tuple(self._refined(number) for number in _COLUMNS)
-
-    @property
-    def rows(self) -> tuple[int, ...]:
-        """Cells between the lines along y."""
-        return tuple(self._refined(number) for number in _ROWS)
-
-    def _refined(self, number: int) -> int:
-        return 2 * round(number * self.refinement / 2)
+        return cells_of(self.refinement)
 
     def points(self) -> NDArray[np.float64]:
         """Return where the lines cross (chords), shape (6, 6, 2), by x and then y.
@@ -160,10 +146,22 @@ class Mesh:
         # the order of blockMesh's edges: x at the four corners (y, z), y at (x, z), then z
         gradings = [along[0], along[1], along[1], along[0]]
         gradings += [across[0], across[1], across[1], across[0]]
+        columns, rows = _refined(_COLUMNS, self.refinement), _refined(_ROWS, self.refinement)
         return (
-            f"    hex ({' '.join(map(str, corners))}) ({self.columns[i]} {self.rows[j]} 1) "
+            f"    hex ({' '.join(map(str, corners))}) ({columns[i]} {rows[j]} 1) "
             f"edgeGrading ({' '.join([*gradings, '1', '1', '1', '1'])})"
         )
+
+
+def cells_of(refinement: float) -> int:
+    """Return the number of cells of a mesh."""
+    columns, rows = _refined(_COLUMNS, refinement), _refined(_ROWS, refinement)
+    return sum(columns) * sum(rows) - columns[2] * rows[2]
+
+
+def _refined(numbers: tuple[int, ...], refinement: float) -> list[int]:
+    """Return numbers of cells, even so that both ends of a side get as many."""
+    return [2 * round(number * refinement / 2) for number in numbers]
 
 
 def expansion(length: float, cells: int, first: float) -> float:

@@ -31,6 +31,21 @@ _TIME = re.compile(rb"^Time = ([-+0-9.eE]+)", re.MULTILINE)
 Watch = Callable[[float], bool]
 
 
+class Every:
+    """Tells whether an interval has passed since it last did."""
+
+    def __init__(self, interval: float, start: float = 0.0) -> None:
+        self._interval = interval
+        self._last = start
+
+    def is_due(self, now: float) -> bool:
+        """Tell whether it is time."""
+        if now < self._last + self._interval:
+            return False
+        self._last = now
+        return True
+
+
 class BlowUpError(SolverError):
     """The flow or the mesh left what can be computed: a result of the case, not of the machine."""
 

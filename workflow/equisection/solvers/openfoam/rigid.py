@@ -10,7 +10,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.cases import SteadyCase, UnsteadyCase
@@ -25,9 +25,9 @@ from equisection.solvers.openfoam.dictionaries import (
     write_system,
 )
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.loads import Loads, read_loads
+from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
 from equisection.solvers.openfoam.mesh import Channel, Mesh
-from equisection.solvers.openfoam.process import run_program
+from equisection.solvers.openfoam.process import Every, run_program
 
 logger = logging.getLogger(__name__)
 
@@ -99,14 +99,19 @@ def run_steady(
     run_program(installation, "blockMesh", folder)
     run_program(installation, "checkMesh", folder)
     require_sound_mesh(folder / "log.checkMesh")
-    seen = _Every(50)
+    seen = Every(50)
 
     def converged(iteration: float) -> bool:
         tell(iteration, MOST)
-        return seen.is_due(iteration) and has_converged(read_loads(folder))
+        if not seen.is_due(iteration):
+            return False
+        loads = read_loads(folder)
+        require_reasonable(loads, folder)
+        return has_converged(loads)
 
     run_program(installation, "simpleFoam", folder, converged)
     loads = read_loads(folder)
+    require_reasonable(loads, folder)
     return folder, loads, has_converged(loads)
 
 
@@ -168,33 +173,17 @@ def _rigid_unsteady(installation: Installation, source: Path, work: Path, tell: 
         flow.schemes(steady=False),
         flow.solution(steady=False),
     )
-    seen = _Every(5.0)
+    seen = Every(5.0)
 
     def known(time: float) -> bool:
         tell(MOST * time / (DISCARDED + LONGEST), MOST)
         if time < DISCARDED + SHORTEST or not seen.is_due(time):
             return False
-        return read_loads(folder).since(DISCARDED).drift() <= KNOWN
+        loads = read_loads(folder)
+        require_reasonable(loads, folder)
+        return loads.since(DISCARDED).drift() <= KNOWN
 
     run_program(installation, "pimpleFoam", folder, known)
-    return read_loads(folder).since(DISCARDED)
-
-
-def as_attributes(loads: RigidLoads) -> dict[str, str | float | int]:
-    """Return the loads as plain values."""
-    return asdict(loads)
-
-
-class _Every:
-    """Tells whether an interval has passed since it last did."""
-
-    def __init__(self, interval: float) -> None:
-        self._interval = interval
-        self._last = 0.0
-
-    def is_due(self, now: float) -> bool:
-        """Tell whether it is time."""
-        if now < self._last + self._interval:
-            return False
-        self._last = now
-        return True
+    loads = read_loads(folder)
+    require_reasonable(loads, folder)
+    return loads.since(DISCARDED)

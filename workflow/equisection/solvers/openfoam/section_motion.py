@@ -3,21 +3,18 @@
 Without dimensions (chord, speed and density 1) the section of Eq. 18 has, per unit span, the
 inertia I*/2, the mass m*/2 and the stiffnesses k*/2 and k_w*/2.
 
-Newmark's rule takes the springs at the position known when it is applied. With one outer
-iteration that is the position one step ago, which feeds the oscillation: its amplitude grows at
-omega^2 dt/2 (per c/V) by that alone. From the second iteration on the position is the new one.
+Newmark's rule (gamma 1/2, beta 1/4) is applied anew in each outer iteration of a time step, with
+the loads and the springs at what is known of the new position.
 """
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 from typing import Any
 
 from equisection.cases import SectionProperties
 from equisection.files import write_text
 from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
-from equisection.solvers.openfoam.mesh import ASIDE
 
 #: Name of the function object of the motion.
 MOTION = "motion"
@@ -111,11 +108,3 @@ def motion_output() -> dict[str, Any]:
             "writeInterval": 1,
         }
     }
-
-
-def amplification_of_lag(omega: float, step: float) -> float:
-    """Return the growth rate (V/c) that one outer iteration adds at a frequency omega c/V."""
-    return omega**2 * step / 2
-
-
-__all__ = ["ASIDE", "MOTION", "amplification_of_lag", "math", "motion_output", "write_motion"]
