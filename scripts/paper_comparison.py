@@ -47,7 +47,8 @@ if __name__ == "__main__":
     with logged(snakemake.log[0]):
         inputs = {name: Path(snakemake.input[name]) for name in WANTED}
         for name in ("polar_3d", "correction"):
-            inputs |= {name: Path(path) for path in snakemake.input[name]}
+            for path in snakemake.input[name]:
+                inputs[name] = Path(path)
         for index in snakemake.input.index_3d:
             inputs["reference_3d"] = result_file(Path(index), snakemake.params.reference)
         main(

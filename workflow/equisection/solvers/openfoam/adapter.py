@@ -15,7 +15,7 @@ from equisection.config import Config
 from equisection.errors import SolverError
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.openfoam.free import run_section
+from equisection.solvers.openfoam.free import SectionRun
 from equisection.solvers.openfoam.installation import find
 from equisection.solvers.openfoam.mesh import PRESETS, cells_of
 from equisection.solvers.openfoam.process import BlowUpError
@@ -94,9 +94,8 @@ class Adapter:
             _require_section(case)
             mesh = mesh_of(case, PRESETS[self._mesh])
             place = work / f"case{number}"
-            results.append(
-                run_section(installation, case, mesh, self._outer_correctors, place, tell)
-            )
+            run = SectionRun(installation, case, mesh, self._outer_correctors, place)
+            results.append(run.run(tell))
             done += case.duration
         return results
 

@@ -52,6 +52,17 @@ def drop_broken_states(folder: Path) -> float:
     return 0.0
 
 
+def drop_histories_after(folder: Path, time: float) -> None:
+    """Remove histories of starts later than the one that comes, which go by their order."""
+    for path in folder.glob("postProcessing/*/*"):
+        try:
+            later = float(path.name) > time
+        except ValueError:
+            continue
+        if later:
+            shutil.rmtree(path)
+
+
 def _is_whole(state: Path) -> bool:
     files = [path for path in state.rglob("*") if path.is_file()]
     return {*_FIELDS, "time"} <= {path.name for path in files} and all(map(_has_end, files))

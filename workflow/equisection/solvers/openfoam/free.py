@@ -22,6 +22,7 @@ from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.case_folder import (
     copy_flow,
     drop_broken_states,
+    drop_histories_after,
     emptied,
     is_ready,
     mark_ready,
@@ -31,10 +32,10 @@ from equisection.solvers.openfoam.histories import read_history
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import Loads, read_loads, reasonable, require_reasonable
 from equisection.solvers.openfoam.mesh import Mesh
-from equisection.solvers.openfoam.process import BlowUpError, Every, run_program
+from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.rigid import WINDOW, Tell, run_steady
 from equisection.solvers.openfoam.section_motion import MOTION, motion_output, write_motion
-from equisection.solvers.verdicts import Motion, criteria_of, judge
+from equisection.solvers.verdicts import Motion, criteria_of, judge, refused
 
 logger = logging.getLogger(__name__)
 
@@ -79,79 +80,99 @@ class SectionHistory:
         )
 
 
-def run_section(
-    installation: Installation,
-    case: UnsteadyCase,
-    mesh: Mesh,
-    outer_correctors: int,
-    work: Path,
-    tell: Tell,
-) -> UnsteadyResult:
-    """Release the section and follow it until its verdict is in.
+@dataclass(frozen=True)
+class SectionRun:
+    """The run of one case.
 
-    Raises
-    ------
-    SolverError
-        A program failed. A flow that blew up is a result: ``failed``, or ``growing`` if the
-        motion had grown beyond the bound before.
+    Attributes
+    ----------
+    installation
+        OpenFOAM.
+    case
+        The case.
+    mesh
+        Its mesh.
+    outer_correctors
+        Iterations of flow, loads and motion a time step.
+    work
+        Where its folders are.
     """
-    assert case.section is not None
-    folder = work / "free"
-    if not is_ready(folder):
-        _set_up(installation, case, mesh, outer_correctors, work, tell)
-    start = drop_broken_states(folder)
-    if start:
-        logger.info("goes on from %g c/V", start)
-    due = Every(VERDICT_INTERVAL, start)
 
-    def decided(time: float) -> bool:
-        tell(time, case.duration)
-        if not due.is_due(time):
-            return False
-        require_reasonable(read_loads(folder), folder)
-        return _is_decided(case, read_section(folder))
+    installation: Installation
+    case: UnsteadyCase
+    mesh: Mesh
+    outer_correctors: int
+    work: Path
 
-    failure = ""
-    if start < case.duration:
+    @property
+    def folder(self) -> Path:
+        """Folder of the free run, beside that of the steady flow which it starts from."""
+        return self.work / "free"
+
+    def run(self, tell: Tell) -> UnsteadyResult:
+        """Release the section and follow it until its verdict is in.
+
+        Raises
+        ------
+        SolverError
+            A program failed. A flow that blew up is a result: ``failed``, or ``growing`` if the
+            motion had grown beyond the bound before.
+        """
+        case, failure = self.case, ""
         try:
-            run_program(installation, "pimpleFoam", folder, decided)
+            if not is_ready(self.folder):
+                self._set_up(tell)
+            start = drop_broken_states(self.folder)
+            drop_histories_after(self.folder, start)
+            if start:
+                logger.info("goes on from %g c/V", start)
+            if start < case.duration:
+                run_program(self.installation, "pimpleFoam", self.folder, self._watch(start, tell))
         except BlowUpError as error:
             failure = str(error)
-    return _result(case, folder, failure)
+            if not is_ready(self.folder):
+                return refused(case.model_copy(update={"refusal": failure}))
+        return _result(case, self.folder, failure)
 
+    def _watch(self, start: float, tell: Tell) -> Watch:
+        case, due = self.case, Every(VERDICT_INTERVAL, start)
 
-def _set_up(
-    installation: Installation,
-    case: UnsteadyCase,
-    mesh: Mesh,
-    outer_correctors: int,
-    work: Path,
-    tell: Tell,
-) -> None:
-    """Make the folder of the free run from the rigid steady flow, converged or not."""
+        def decided(time: float) -> bool:
+            tell(time, case.duration)
+            if not due.is_due(time):
+                return False
+            require_reasonable(read_loads(self.folder), self.folder)
+            return _is_decided(case, read_section(self.folder))
 
-    def nothing_yet(done: float, total: float) -> None:
-        del done, total
-        tell(0.0, case.duration)
+        return decided
 
-    assert case.section is not None
-    source, loads, converged = run_steady(installation, case, mesh, work, nothing_yet)
-    if not converged:
-        logger.info("the steady flow does not converge; the section is released from its last state")
-    folder = emptied(work / "free")
-    copy_flow(source, folder)
-    write_motion(folder, case.section, mesh.channel.height)
-    entries = control("pimpleFoam", case.duration, case.time_step, STATE_INTERVAL)
-    entries["functions"] |= motion_output()
-    write_system(
-        folder,
-        entries,
-        flow.schemes(steady=False),
-        flow.solution(steady=False, outer_correctors=outer_correctors),
-    )
-    _, lift, moment = loads.last(WINDOW // 3).means()
-    write_text(folder / _AT_RELEASE, json.dumps({"lift": lift, "moment": moment}))
-    mark_ready(folder)
+    def _set_up(self, tell: Tell) -> None:
+        """Make the folder of the free run from the rigid steady flow, converged or not."""
+        case = self.case
+        assert case.section is not None
+
+        def nothing_yet(done: float, total: float) -> None:
+            del done, total
+            tell(0.0, case.duration)
+
+        steady = run_steady(self.installation, case, self.mesh, self.work, nothing_yet)
+        source, loads, converged = steady
+        if not converged:
+            logger.info("the steady flow does not converge; the release is from its last state")
+        folder = emptied(self.folder)
+        copy_flow(source, folder)
+        write_motion(folder, case.section, self.mesh.channel.height)
+        entries = control("pimpleFoam", case.duration, case.time_step, STATE_INTERVAL)
+        entries["functions"] |= motion_output()
+        write_system(
+            folder,
+            entries,
+            flow.schemes(steady=False),
+            flow.solution(steady=False, outer_correctors=self.outer_correctors),
+        )
+        _, lift, moment = loads.last(WINDOW // 3).means()
+        write_text(folder / _AT_RELEASE, json.dumps({"lift": lift, "moment": moment}))
+        mark_ready(folder)
 
 
 def read_section(folder: Path) -> SectionHistory:

@@ -63,8 +63,11 @@ def _files(folder: Path, name: str) -> list[Path]:
             continue
         # a second start from the same time has its time in the name of the file
         files = [start / name, *start.glob(f"{stem}_*.{suffix}")]
-        found += [(time, path.name != name, path.stat().st_mtime, path) for path in files
-                  if path.is_file()]
+        found += [
+            (time, path.name != name, path.stat().st_mtime, path)
+            for path in files
+            if path.is_file()
+        ]
     return [path for *_, path in sorted(found)]
 
 

@@ -86,9 +86,9 @@ def reasonable(loads: Loads) -> int:
     The first steps after an impulsive start have a peak of pressure and are let pass.
     """
     values = np.stack([loads.drag, loads.lift, loads.moment])
-    sane = (np.abs(values) < BEYOND_REASON).all(axis=0)
-    sane[:_IMPULSIVE] |= np.isfinite(values[:, :_IMPULSIVE]).all(axis=0)
-    return int(sane.size if sane.all() else np.argmin(sane))
+    bound = np.where(np.arange(loads.time.size) < _IMPULSIVE, np.inf, BEYOND_REASON)
+    wrong = np.flatnonzero(~(np.abs(values) < bound).all(axis=0))
+    return int(wrong[0]) if wrong.size else loads.time.size
 
 
 def require_reasonable(loads: Loads, folder: Path) -> None:

@@ -38,7 +38,7 @@ _ROOM = 0.85
 #: Height of rows 2 to 3 and 1 to 4 where they leave the near field and at inlet and outlet.
 _WAKE_AT_OUTLET, _NEAR_AT_OUTLET = 0.4, 0.55  # chords; part of the channel's height
 #: Cells of the coarse mesh between the lines, along x and along y.
-_COLUMNS, _ROWS = (9, 20, 56, 30, 22), (6, 32, 10, 32, 6)
+_COLUMNS, _ROWS = (8, 20, 56, 30, 22), (6, 32, 10, 32, 6)
 #: First cells of the coarse mesh (chords): at the walls, at the plate's edges along it, ahead of
 #: and behind these, and across the plate's thickness as a part of it.
 _AT_WALL, _AT_EDGE, _OFF_EDGE, _ACROSS = 3e-4, 2.5e-3, 1.2e-3, 0.04
@@ -118,9 +118,7 @@ class Mesh:
         """Return the text of ``blockMeshDict``, for one layer of cells of depth 1."""
         points = self.points()
         vertices = [
-            f"    ({x:.12g} {y:.12g} {z:g})"
-            for z in (-0.5, 0.5)
-            for x, y in points.reshape(-1, 2)
+            f"    ({x:.12g} {y:.12g} {z:g})" for z in (-0.5, 0.5) for x, y in points.reshape(-1, 2)
         ]
         blocks = [self._block(points, i, j) for i, j in _blocks()]
         patches = [

@@ -95,7 +95,7 @@ def _started(
             stdout=output,
             stderr=subprocess.STDOUT,
             start_new_session=True,
-            preexec_fn=_die_with_parent,
+            preexec_fn=_die_with_parent,  # noqa: PLW1509 (a job has one thread)
         )
     except OSError as error:
         raise SolverError(f"{' '.join(command)} does not start: {error}") from None
@@ -158,4 +158,4 @@ def _fault(program: str, status: int, log: Path, start: int) -> SolverError:
         return BlowUpError(f"{program}: floating-point exception; see {log}")
     how = f"signal {-status}" if status < 0 else f"status {status}"
     last = " / ".join(said.strip().splitlines()[-3:])
-    return SolverError(f"{program} ended with {how}: {last[:_LINES * 50]}; see {log}")
+    return SolverError(f"{program} ended with {how}: {last[: _LINES * 50]}; see {log}")
