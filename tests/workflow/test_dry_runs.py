@@ -20,18 +20,23 @@ ONCE = (
     "modes",
     "mesh_study",
     "equivalent_section",
-    "correction_factors",
     "summary",
     "onset",
     "paper_comparison",
     "fig01_workflow",
     "fig03_modes",
     "fig06_section_polar",
+    "fig16_response",
+    "run",
+)
+
+#: Rules that run once where the solver has 3D cases.
+ONCE_WITH_BEAM = (
+    "correction_factors",
     "fig10_spanwise_loads",
     "fig13_lift_correction",
     "fig14_moment_correction",
-    "fig16_response",
-    "run",
+    "rigid_beam_table",
 )
 
 
@@ -40,18 +45,20 @@ def jobs_wanted(raw: dict[str, Any]) -> Counter[str]:
     config = load_config(raw)
     models, k_star = len(config.sweep.models), len(config.sweep.values())
     angles = len(config.steady.incidence_deg) * (1 + len(config.steady.study))
-    jobs = Counter(ONCE)
+    dimensions = len(plan.dimensions(config))
+    jobs = Counter((*ONCE, *(ONCE_WITH_BEAM if dimensions == 2 else ())))
     jobs.update(
-        steady_cases=2,
-        polar=2,
-        unsteady_cases=models,
+        polar=dimensions,
         fig15_modal_contributions="3d" in config.sweep.models,
         fig17_hysteresis="2d-corrected" in config.sweep.models,
     )
     if config.solver == "embedded":
+        jobs.update(steady_cases=2, unsteady_cases=models)
         jobs.update(steady_batch=2, unsteady_batch=models)
     else:
-        jobs.update(steady_case=2 * angles, unsteady_case=models * k_star)
+        jobs.update(steady_case_file=dimensions * angles, steady_case=dimensions * angles)
+        jobs.update(unsteady_case_file=models * k_star, unsteady_case=models * k_star)
+        jobs.update(steady_results=dimensions, unsteady_results=models)
     if config.sweep.onset == "refine":
         # the first and the last round; those between stand in the graph once the first is done
         jobs.update(refine_onset=models * min(plan.refinement_rounds(config), 2))
