@@ -9,15 +9,23 @@ BIN := $(ENV)/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profiles/default \
 	$(if $(CONFIG),--configfile $(CONFIG))
 
-.PHONY: run test report lint bench openfoam status identify docs-config clean
+.PHONY: run report identification status test lint bench openfoam clean
 
 run: $(ENV)/run
 	$(SNAKEMAKE)
-	@$(BIN)/equisection where $(CONFIG)
+	@folder=$$($(BIN)/equisection folder $(CONFIG)) && printf '%s\n' '' \
+		"figures:    $$folder/figures/" \
+		"tables:     $$folder/tables/ and $$folder/comparison/" \
+		"report:     make report$(if $(CONFIG), CONFIG=$(CONFIG)) writes $$folder/report.html" \
+		"each run:   $(BIN)/equisection status $$folder"
 
 report: run
-	@report=$$($(BIN)/equisection where --folder $(CONFIG))/report.html; \
-	$(SNAKEMAKE) --report $$report && echo "report: $$report"
+	@folder=$$($(BIN)/equisection folder $(CONFIG)) && \
+	$(SNAKEMAKE) --report $$folder/report.html && echo "report: $$folder/report.html"
+
+identification: $(ENV)/run
+	$(SNAKEMAKE) identification
+	@folder=$$($(BIN)/equisection folder $(CONFIG)) && cat $$folder/identification/lags.yaml
 
 status: $(ENV)/run
 	$(BIN)/equisection status

@@ -7,7 +7,8 @@ from equisection.config.sections import Beam, Structure
 from equisection.results.modes import modes_to_dataset
 from equisection.results.netcdf import write_dataset
 from equisection.script import logged
-from equisection.structure.modes import compute_modes, frequency_constants
+from equisection.structure.mode_set import frequency_constants
+from equisection.structure.modes import compute_modes
 from equisection.structure.plate import Plate
 
 #: Modes computed beside those of bending and torsion that are wanted, since some are in-plane.

@@ -8,9 +8,10 @@ from functools import cache
 import numpy as np
 import pytest
 
-from equisection.reduction import span_integrals, validity_warnings
-from equisection.reduction.integrals import Integrals
-from equisection.structure import BOUNDARIES, Plate, compute_modes
+from equisection.reduction.integrals import Integrals, span_integrals
+from equisection.reduction.section import validity_warnings
+from equisection.structure.modes import compute_modes
+from equisection.structure.plate import BOUNDARIES, Plate
 
 PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
 STATIONS = (1, 89, 1)

@@ -11,8 +11,12 @@ from scipy.integrate import simpson, solve_bvp
 from scipy.sparse.linalg import splu
 
 from equisection.errors import ReductionError
-from equisection.reduction import EquivalentSection, reduce_beam, span_integrals
-from equisection.structure import BOUNDARIES, ModeSet, Plate, compute_modes, solid
+from equisection.reduction.integrals import span_integrals
+from equisection.reduction.section import EquivalentSection, reduce_beam
+from equisection.structure import solid
+from equisection.structure.mode_set import ModeSet
+from equisection.structure.modes import compute_modes
+from equisection.structure.plate import BOUNDARIES, Plate
 
 PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
 DENSITY, SPEED, CHORD = 1.18, 20.0, 0.1

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from equisection.errors import ModesError
-from equisection.structure import BOUNDARIES, Plate, compute_modes
 from equisection.structure.analytic import bending_modes, bending_roots, torsion_modes
+from equisection.structure.modes import compute_modes
+from equisection.structure.plate import BOUNDARIES, Plate
 from equisection.structure.span import gram
 
 PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from equisection.errors import ConfigError
-from equisection.structure import BOUNDARIES, Plate
+from equisection.structure.plate import BOUNDARIES, Plate
 
 PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)  # Section 2 of the paper
 

@@ -12,8 +12,10 @@ from skfem import Basis, BilinearForm, ElementHex2, ElementVector, MeshHex
 from skfem.helpers import dot
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
-from equisection.structure import ModeSet, Plate, compute_modes, frequency_constants, mesh_study
 from equisection.structure.classify import KINDS, classify
+from equisection.structure.mode_set import ModeSet, frequency_constants
+from equisection.structure.modes import compute_modes, mesh_study
+from equisection.structure.plate import Plate
 from equisection.structure.solid import solid_modes
 from equisection.structure.span import gram
 

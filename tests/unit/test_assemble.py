@@ -19,7 +19,8 @@ from equisection.results.correction import factors_to_dataset
 from equisection.results.equivalent import equivalent_to_dataset
 from equisection.results.modes import modes_to_dataset
 from equisection.solvers.registry import solver_from_config
-from equisection.structure.modes import compute_modes, frequency_constants
+from equisection.structure.mode_set import frequency_constants
+from equisection.structure.modes import compute_modes
 from equisection.structure.plate import Plate
 
 RAW: dict[str, Any] = {

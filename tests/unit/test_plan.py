@@ -134,10 +134,10 @@ def test_round_of_refinement_is_read_as_written(k_star: list[float]) -> None:
     ("models", "wanted", "unwanted"),
     [
         (["3d"], "fig15-modal-contributions", "fig17-hysteresis"),
-        (["2d-corrected"], "fig17-hysteresis", "fig15-modal-contributions"),
+        (["2d-paper"], "fig17-hysteresis", "fig15-modal-contributions"),
     ],
 )
-def test_figures_of_a_model_are_drawn_only_with_it(
+def test_figures_of_a_dimension_are_drawn_only_with_a_model_of_it(
     models: list[str], wanted: str, unwanted: str
 ) -> None:
     names = plan.figures(config(models=models))

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from equisection.errors import ResultFileError
 from equisection.files import write_text, written_whole
 from equisection.results import netcdf
-from equisection.results.mend import is_whole
 from equisection.results.netcdf import read_attributes, read_dataset, write_dataset
+from equisection.results.whole import is_whole
 
 UNITS = {"units": "1", "long_name": "a number"}
 

@@ -133,6 +133,14 @@ class Project:
         }
 
 
+def one_case_at_a_time(project: Project) -> None:
+    """Let the copy's solver say that it takes no batches, as a CFD solver does."""
+    registry = project.folder / "workflow" / "equisection" / "solvers" / "registry.py"
+    text = registry.read_text()
+    assert "frozenset({Capability.BATCH})" in text
+    registry.write_text(text.replace("frozenset({Capability.BATCH})", "frozenset()"))
+
+
 def jobs_planned(dry_run: str) -> Counter[str]:
     """Return how many jobs of each rule a dry run lists."""
     table = dry_run.partition("Job stats:")[2].partition("\ntotal")[0]

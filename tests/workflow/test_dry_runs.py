@@ -8,7 +8,8 @@ from snakemake.utils import update_config
 
 from equisection import plan
 from equisection.config import load_config
-from tests.workflow.project import ROOT, Project, jobs_planned, small
+from equisection.solvers.registry import SOLVERS, Capability
+from tests.workflow.project import ROOT, Project, jobs_planned, one_case_at_a_time, small
 
 SHIPPED = sorted((ROOT / "config").glob("*.yaml")) + sorted(
     (ROOT / "config" / "examples").glob("*.yaml")
@@ -40,28 +41,32 @@ ONCE_WITH_BEAM = (
 )
 
 
-def jobs_wanted(raw: dict[str, Any]) -> Counter[str]:
-    """Return the jobs of a run on a fresh clone, counted from its configuration alone."""
+def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
+    """Return the jobs of a run on a fresh clone, counted from its configuration alone.
+
+    ``batches`` is whether the solver takes many cases in one job.
+    """
     config = load_config(raw)
     models, k_star = len(config.sweep.models), len(config.sweep.values())
     angles = len(config.steady.incidence_deg) * (1 + len(config.steady.study))
+    rounds = plan.refinement_rounds(config)
     dimensions = len(plan.dimensions(config))
     jobs = Counter((*ONCE, *(ONCE_WITH_BEAM if dimensions == 2 else ())))
     jobs.update(
         polar=dimensions,
+        refine_onset=models * rounds,
         fig15_modal_contributions="3d" in config.sweep.models,
-        fig17_hysteresis="2d-corrected" in config.sweep.models,
+        fig17_hysteresis=any(model.startswith("2d") for model in config.sweep.models),
     )
-    if config.solver == "embedded":
-        jobs.update(steady_cases=2, unsteady_cases=models)
-        jobs.update(steady_batch=2, unsteady_batch=models)
+    if batches:
+        of_sweep = models * (1 + rounds)
+        jobs.update(steady_cases=dimensions, steady_batch=dimensions)
+        jobs.update(unsteady_cases=of_sweep, unsteady_batch=of_sweep)
     else:
         jobs.update(steady_case_file=dimensions * angles, steady_case=dimensions * angles)
+        jobs.update(steady_results=dimensions)
         jobs.update(unsteady_case_file=models * k_star, unsteady_case=models * k_star)
-        jobs.update(steady_results=dimensions, unsteady_results=models)
-    if config.sweep.onset == "refine":
-        # the first and the last round; those between stand in the graph once the first is done
-        jobs.update(refine_onset=models * min(plan.refinement_rounds(config), 2))
+        jobs.update(unsteady_results=models * (1 + rounds))
     return +jobs
 
 
@@ -92,7 +97,8 @@ def test_dry_run_of_a_shipped_config_plans_the_jobs_that_it_asks_for(
     ended = clone.attempt(*command, environment=without_anything_but_python(clone))
 
     assert ended.returncode == 0, ended.stdout
-    assert jobs_planned(ended.stdout) == jobs_wanted(raw)
+    batches = Capability.BATCH in SOLVERS[raw["solver"]].provides
+    assert jobs_planned(ended.stdout) == jobs_wanted(raw, batches)
     created = {
         path.relative_to(clone.folder).parts[0] for path in set(clone.folder.rglob("*")) - before
     }
@@ -120,8 +126,15 @@ def test_overrides_on_the_command_line_reach_the_plan(project: Project) -> None:
         "--dry-run", "--config", "run=plate_2.b-1", "sweep={k_star: [7.0], models: [2d]}"
     )
     assert jobs_planned(planned)["unsteady_batch"] == 1
-    assert "results/plate_2.b-1/unsteady/2d/k7.nc" in planned
-    assert "/k6.44.nc" not in planned
+    assert "results/plate_2.b-1/unsteady/2d/sweep.json" in planned
+    assert "results/paper-plate/" not in planned
+
+
+def test_solver_that_takes_one_case_at_a_time_has_a_job_for_each(project: Project) -> None:
+    one_case_at_a_time(project)
+    sweep = {"models": ["2d", "3d"], "k_star": [6.0, 10.0, 21.0]}
+    project.config = small(sweep=sweep)
+    assert jobs_planned(project.run("--dry-run")) == jobs_wanted(small(sweep=sweep), batches=False)
 
 
 def test_lint_finds_nothing(project: Project) -> None:

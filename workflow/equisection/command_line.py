@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import equisection
-from equisection.errors import EquisectionError
+from equisection.errors import ConfigError, EquisectionError
 
 _EXAMPLES = """\
 examples:
@@ -31,7 +31,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return 0
     try:
-        _status(options.run_folder, options.plain)
+        if options.command == "folder":
+            print(_folder(options.configfile))
+        else:
+            _status(options.run_folder, options.plain)
     except EquisectionError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
@@ -72,7 +75,37 @@ def _parser() -> argparse.ArgumentParser:
         action="store_true",
         help="tab-separated lines with every case, for pipes; the first names the columns",
     )
+    folder = commands.add_parser(
+        "folder",
+        help="where a configuration's results go",
+        description="Print the folder of the run that config/config.yaml and the files given "
+        "configure, as 'snakemake --configfile' reads them.",
+    )
+    folder.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
     return parser
+
+
+def _folder(files: Sequence[Path]) -> Path:
+    """Return the results' folder of a configuration.
+
+    Raises
+    ------
+    ConfigError
+        A file cannot be read, or the configuration is not valid.
+    """
+    # Imported here, so that --help and --version come at once.
+    import yaml  # noqa: PLC0415
+    from snakemake.utils import update_config  # noqa: PLC0415
+
+    from equisection.config import load_config  # noqa: PLC0415
+
+    raw: dict[str, object] = {}
+    for path in (Path("config/config.yaml"), *files):
+        try:
+            update_config(raw, yaml.safe_load(path.read_text(encoding="utf-8")) or {})
+        except (OSError, yaml.YAMLError, AttributeError) as error:
+            raise ConfigError(f"{path}: cannot be read as a configuration ({error})") from None
+    return Path("results") / load_config(raw).run
 
 
 def _status(folders: Sequence[Path], plain: bool) -> None:

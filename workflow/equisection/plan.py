@@ -131,15 +131,16 @@ def read_refinement(path: Path) -> list[str]:
 FIGURES = ("fig01-workflow", "fig03-modes", "fig06-section-polar", "fig16-response")
 #: Figures of the rigid beam, drawn only where the solver has 3D cases.
 FIGURES_OF_BEAM = ("fig10-spanwise-loads", "fig13-lift-correction", "fig14-moment-correction")
-#: Figures that show a model, drawn only where it is run.
-FIGURES_OF_MODEL = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d-corrected"}
+#: Figures of one dimension, drawn only where a model of it is run.
+FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
 
 
 def figures(config: Config) -> list[str]:
     """Return the names of the run's figures."""
-    of_models = [name for name, model in FIGURES_OF_MODEL.items() if model in config.sweep.models]
     of_beam = FIGURES_OF_BEAM if "3d" in dimensions(config) else ()
-    return sorted([*FIGURES, *of_beam, *of_models])
+    run = {model(name, config.reduction).dimension for name in config.sweep.models}
+    shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
+    return sorted([*FIGURES, *of_beam, *shown])
 
 
 def dimensions(config: Config) -> tuple[str, ...]:

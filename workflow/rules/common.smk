@@ -51,6 +51,19 @@ wildcard_constraints:
     batch=plan.BATCH_PATTERN,
 
 
+# Modules that decide what stands in a case file.
+CASES_MADE_OF = (
+    "assemble.py",
+    "plan.py",
+    "aerodynamics",
+    "cases",
+    "reduction",
+    "results",
+    "solvers",
+    "structure/plate.py",
+)
+
+
 def of_project(pattern):
     """Return files of the project by relative paths, so that a project that was moved has nothing
     to do; they are found from another working directory too.

@@ -27,7 +27,12 @@ rule summary:
     input:
         indices=indices_of_sweep,
     output:
-        f"{RESULTS}/comparison/summary.csv",
+        report(
+            f"{RESULTS}/comparison/summary.csv",
+            caption="../report/summary.rst",
+            category="Tables",
+            labels={"table": "summary", "shows": "one line for each run"},
+        ),
     log:
         f"{LOGS}/summary.log",
     conda:
@@ -50,7 +55,12 @@ rule onset:
     input:
         summary=f"{RESULTS}/comparison/summary.csv",
     output:
-        f"{RESULTS}/comparison/onset.csv",
+        report(
+            f"{RESULTS}/comparison/onset.csv",
+            caption="../report/onset.rst",
+            category="Tables",
+            labels={"table": "onset", "shows": "bracket of the onset of each model"},
+        ),
     log:
         f"{LOGS}/onset.log",
     conda:
@@ -83,11 +93,13 @@ rule paper_comparison:
             f"{RESULTS}/comparison/paper.csv",
             caption="../report/paper.rst",
             category="Tables",
+            labels={"table": "numbers", "shows": "every number that the paper states"},
         ),
         table2=report(
             f"{RESULTS}/tables/table2.csv",
             caption="../report/table2.rst",
             category="Tables",
+            labels={"table": "2", "shows": "natural frequencies in vacuum"},
         ),
     log:
         f"{LOGS}/paper_comparison.log",
@@ -117,6 +129,7 @@ rule rigid_beam_table:
             f"{RESULTS}/tables/table1.csv",
             caption="../report/table1.rst",
             category="Tables",
+            labels={"table": "1", "shows": "force coefficients of the rigid plate"},
         ),
     log:
         f"{LOGS}/rigid_beam_table.log",

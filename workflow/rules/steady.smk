@@ -21,7 +21,7 @@ checkpoint steady_cases:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
+        code=code(*CASES_MADE_OF),
         config=RESOLVED,
         cases=STEADY,
     message:
@@ -45,7 +45,7 @@ checkpoint steady_case_file:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
+        code=code(*CASES_MADE_OF),
         config=RESOLVED,
         cases=this_angle,
     message:

@@ -20,7 +20,7 @@ checkpoint unsteady_cases:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
+        code=code(*CASES_MADE_OF),
         config=RESOLVED,
         cases=SWEEP,
     message:
@@ -45,7 +45,7 @@ checkpoint unsteady_case_file:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("assemble.py", "plan.py", "cases", "solvers", "aerodynamics"),
+        code=code(*CASES_MADE_OF),
         config=RESOLVED,
         cases=this_case,
     message:

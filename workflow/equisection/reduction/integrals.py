@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.structure.modes import ModeSet, torsion_strain
+from equisection.structure.mode_set import ModeSet, torsion_strain
 from equisection.structure.plate import Plate
 from equisection.structure.span import gram, integrate
 

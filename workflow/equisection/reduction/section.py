@@ -16,7 +16,7 @@ from typing import Literal
 from equisection.conventions import dynamic_pressure
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import Integrals, span_integrals
-from equisection.structure.modes import ModeSet
+from equisection.structure.mode_set import ModeSet
 from equisection.structure.plate import Plate
 
 Reduction = Literal["paper", "consistent"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import xarray as xr
 
-from equisection.structure.modes import MeshStudy, ModeSet
+from equisection.structure.mode_set import MeshStudy, ModeSet
 
 
 def modes_to_dataset(modes: ModeSet, constants: list[float]) -> xr.Dataset:

@@ -16,7 +16,7 @@ import xarray as xr
 import equisection
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
-from equisection.results.mend import is_whole
+from equisection.results.whole import is_whole
 
 SCHEMA_VERSION = 1
 

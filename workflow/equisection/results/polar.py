@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import xarray as xr
@@ -39,7 +39,10 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
     angles = sorted({angle for _, angle in results})
     parts = []
     for resolution in resolutions:
-        row = [results[resolution, angle].expand_dims(incidence_deg=[angle]) for angle in angles]
+        row = [
+            _as_all(results[resolution, angle], results.values()).expand_dims(incidence_deg=[angle])
+            for angle in angles
+        ]
         joined = xr.concat(row, "incidence_deg", data_vars="all", combine_attrs="drop")
         parts.append(joined.expand_dims(resolution=[resolution]))
     polar = xr.concat(parts, "resolution", data_vars="all", combine_attrs="drop")
@@ -71,6 +74,17 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
         failures="; ".join(failures),
         **{f"solver_{name}": text for name, text in solvers.items()},
     )
+
+
+def _as_all(result: xr.Dataset, others: Iterable[xr.Dataset]) -> xr.Dataset:
+    """Return a result with the stations of the others; one that failed has none of its own."""
+    if "span" in result.coords:
+        return result
+    with_span = next((other for other in others if "span" in other.coords), None)
+    if with_span is None:
+        return result
+    unknown = xr.full_like(with_span[list(_SECTIONAL)], np.nan)
+    return result.merge(unknown)
 
 
 def polar_at(dataset: xr.Dataset, resolution: str) -> SectionPolar:

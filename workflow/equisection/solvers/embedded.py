@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -21,18 +21,13 @@ from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import SectionPolar
 from equisection.aerodynamics.polar_file import read_polar
 from equisection.aerodynamics.separation import SeparationLags
-from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.sections import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
-from equisection.motion.beams import BeamHistories, BeamParameters, release_beams
-from equisection.motion.march import Failure
-from equisection.motion.sections import SectionHistories, SectionParameters, release_sections
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.protocol import Capability, Progress
-from equisection.solvers.verdicts import Motion, judge, monitor_of
 
 Floats = NDArray[np.float64]
 
@@ -46,7 +41,7 @@ class Adapter:
     """The embedded solver on one section polar; fulfils the solver protocol."""
 
     name = "embedded"
-    version = "1"
+    version = "2"
     provides = frozenset({Capability.BATCH})
 
     def __init__(self, polar: SectionPolar, strips: int, lags: SeparationLags) -> None:
@@ -127,10 +122,23 @@ class Adapter:
             def tell(now: float, end: float, share: float = share, before: float = done) -> None:
                 progress(before + share * now / end, total)
 
-            run = self._sections if members[0].dimension == "2d" else self._beams
-            results.update(zip(group, run(members, tell), strict=True))
+            results.update(zip(group, self._release(members, tell), strict=True))
             done += share
         return [results[index] for index in range(len(cases))]
+
+    def _release(self, cases: list[UnsteadyCase], progress: Progress) -> list[UnsteadyResult]:
+        # Imported here: writing a case file takes this module too, and none of what follows.
+        from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
+        from equisection.solvers.embedded_releases import (  # noqa: PLC0415
+            release_all_beams,
+            release_all_sections,
+        )
+
+        loads = UnsteadyLoads.from_polar(self._polar, self._lags)
+        if cases[0].dimension == "2d":
+            return release_all_sections(cases, loads, progress)
+        strips, matrix = self._induction(cases[0].geometry)
+        return release_all_beams(cases, loads, strips, matrix, progress)
 
     def _section(self, case: SteadyCase) -> SteadyResult:
         alpha = math.radians(case.incidence_deg)
@@ -171,57 +179,6 @@ class Adapter:
         )
         return strips, matrix
 
-    def _sections(self, cases: list[UnsteadyCase], progress: Progress) -> Iterable[UnsteadyResult]:
-        section = [case.section for case in cases]
-        parameters = SectionParameters(
-            inertia=np.array([s.inertia for s in section if s]),
-            torsional_stiffness=np.array([s.torsional_stiffness for s in section if s]),
-            mass=np.array([s.mass for s in section if s]),
-            heave_stiffness=np.array([s.flexural_stiffness for s in section if s]),
-        )
-        first = cases[0]
-        histories = release_sections(
-            parameters,
-            UnsteadyLoads.from_polar(self._polar, self._lags),
-            math.radians(first.incidence_deg),
-            first.duration,
-            time_step=first.time_step,
-            output_interval=first.output_interval,
-            monitor=monitor_of(cases, _section_lane),
-            progress=progress,
-        )
-        for lane, case in enumerate(cases):
-            yield _section_result(case, histories, lane)
-
-    def _beams(self, cases: list[UnsteadyCase], progress: Progress) -> Iterable[UnsteadyResult]:
-        first = cases[0]
-        strips, matrix = self._induction(first.geometry)
-        modes = [case.beam for case in cases if case.beam]
-        parameters = BeamParameters.from_modes(
-            span=np.array(modes[0].span),
-            torsion_shapes=np.array(modes[0].torsion_shape),
-            torsion_frequencies=np.array([beam.torsion_frequency for beam in modes]),
-            inertia=np.array([beam.inertia for beam in modes]),
-            bending_shapes=np.array(modes[0].bending_shape),
-            bending_frequencies=np.array([beam.bending_frequency for beam in modes]),
-            mass=np.array([beam.mass for beam in modes]),
-            stations=strips.stations,
-            weights=strips.weights,
-            induction=matrix,
-        )
-        histories = release_beams(
-            parameters,
-            UnsteadyLoads.from_polar(self._polar, self._lags),
-            math.radians(first.incidence_deg),
-            first.duration,
-            time_step=first.time_step,
-            output_interval=first.output_interval,
-            monitor=monitor_of(cases, _beam_lane),
-            progress=progress,
-        )
-        for lane, case in enumerate(cases):
-            yield _beam_result(case, histories, lane)
-
 
 def read_section_polar(section: Embedded, resolution: str) -> SectionPolar:
     """Return the section polar that a configuration names for a resolution.
@@ -261,64 +218,3 @@ def _no_value(reason: str) -> SteadyResult:
     return SteadyResult(
         math.nan, math.nan, math.nan, nothing, nothing, nothing, "none", failure=reason
     )
-
-
-def _section_lane(histories: SectionHistories, case: UnsteadyCase, lane: int) -> Motion:
-    assert case.section is not None
-    return Motion(
-        histories.time,
-        histories.twist[:, lane] / case.section.twist_recovery,
-        histories.deflection[:, lane] / case.section.deflection_recovery,
-    )
-
-
-def _beam_lane(histories: BeamHistories, case: UnsteadyCase, lane: int) -> Motion:
-    del case
-    return Motion(histories.time, histories.tip_twist[:, lane], histories.tip_deflection[:, lane])
-
-
-def _section_result(case: UnsteadyCase, histories: SectionHistories, lane: int) -> UnsteadyResult:
-    end = int(histories.samples[lane])
-    tip = _section_lane(histories, case, lane).until(end)
-    twist = histories.twist[:end, lane]
-    return UnsteadyResult(
-        time=tip.time,
-        twist=twist,
-        deflection=histories.deflection[:end, lane],
-        tip_twist=tip.twist,
-        tip_deflection=tip.deflection,
-        lift=histories.lift_coefficient[:end, lane],
-        moment=histories.moment_coefficient[:end, lane],
-        incidence=math.radians(case.incidence_deg) + twist,
-        verdict=judge(case, tip, _failure(histories.failures, lane)),
-    )
-
-
-def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> UnsteadyResult:
-    end = int(histories.samples[lane])
-    tip = _beam_lane(histories, case, lane).until(end)
-    return UnsteadyResult(
-        time=tip.time,
-        twist=tip.twist,
-        deflection=tip.deflection,
-        tip_twist=tip.twist,
-        tip_deflection=tip.deflection,
-        lift=histories.lift_coefficient[:end, lane],
-        moment=histories.moment_coefficient[:end, lane],
-        incidence=math.radians(case.incidence_deg) + tip.twist,
-        verdict=judge(case, tip, _failure(histories.failures, lane)),
-        torsion_amplitudes=histories.torsion_amplitudes[:end, lane].T,
-        bending_amplitudes=histories.bending_amplitudes[:end, lane].T,
-    )
-
-
-def _failure(failures: Iterable[Failure], lane: int) -> str:
-    """Return why a lane ended early, or nothing."""
-    for failure in failures:
-        if failure.lane == lane:
-            return (
-                f"at {failure.time:.4g} c/V an incidence of "
-                f"{math.degrees(failure.incidence_rad):.4g} deg left the section polar; extend "
-                "the polar or lower unsteady.verdict.growing_amplitude_deg"
-            )
-    return ""

@@ -23,6 +23,11 @@ Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
 Histories = TypeVar("Histories")
 
+#: A verdict is looked for again when the run has become this many times longer (-).
+LOOK_AGAIN = 1.3
+#: Time (c/V) over which a motion beyond the bound is looked for; longer than a slow period.
+LATE = 20.0
+
 
 @dataclass(frozen=True)
 class Motion:
@@ -110,17 +115,36 @@ def refused(case: UnsteadyCase) -> UnsteadyResult:
 def monitor_of(
     cases: Sequence[UnsteadyCase], lane_of: Callable[[Any, UnsteadyCase, int], Motion]
 ) -> Callable[[Any, Indices], Indices]:
-    """Return a monitor that ends each lane of a batch when its verdict is in."""
+    """Return a monitor that ends each lane of a batch when its verdict is in.
+
+    Looking for a verdict costs more than the motion in between, the more the longer the run is.
+    So it is looked for after as many natural periods as it rests on, and then at times that only
+    the length of the run decides, alike in a batch and alone; a motion that may be beyond the
+    bound is looked at every time, before it leaves the polar.
+    """
+    due = 0.0
+    earliest = [case.criteria.periods / pitch_frequency(case) for case in cases]
 
     def monitor(histories: Any, active: Indices) -> Indices:
-        done = [
-            lane
-            for lane in active
-            if _decided(cases[lane], lane_of(histories, cases[lane], int(lane)))
-        ]
+        nonlocal due
+        now = float(histories.time[-1])
+        is_due = now >= due
+        if is_due:
+            due = LOOK_AGAIN * now
+        done = []
+        for lane in active:
+            tip = lane_of(histories, cases[lane], int(lane))
+            looks = is_due and now >= earliest[lane]
+            if (looks or _may_be_beyond_bound(cases[lane], tip)) and _decided(cases[lane], tip):
+                done.append(lane)
         return np.array(done, dtype=np.intp)
 
     return monitor
+
+
+def _may_be_beyond_bound(case: UnsteadyCase, tip: Motion) -> bool:
+    late = tip.twist[tip.time >= tip.time[-1] - LATE]
+    return float(np.ptp(late)) > 2 * math.radians(case.criteria.growing_amplitude_deg)
 
 
 def _decided(case: UnsteadyCase, tip: Motion) -> bool:

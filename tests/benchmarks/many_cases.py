@@ -1,0 +1,58 @@
+"""Many k* of the section in one job, with the writing of their results."""
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from equisection.cases import Case, SolverBlock
+from equisection.config import load_config
+from equisection.solvers.job import run_cases
+from equisection.solvers.registry import solver_from_config
+from tests.benchmarks.measure import Row, limit
+from tests.sample_cases import UNSTEADY
+from tests.workflow.project import ROOT
+
+NUMBERS = (10, 100, 1000)
+
+
+def rows() -> Iterator[Row]:
+    """Run 10, 100 and 1,000 k* as the default configuration would, each in one job."""
+    cost, processor = {}, {}
+    for number in NUMBERS:
+        cost[number], processor[number] = _seconds(number)
+    each = {number: 1e3 * cost[number] / number for number in NUMBERS}
+    yield limit("1,000 k* of the section in one job", cost[1000], 20, "s")
+    yield Row("processor time of it", f"{processor[1000]:.3g} s")
+    yield Row(
+        "time per k* with 10, 100, 1,000 of them",
+        ", ".join(f"{each[number]:.3g}" for number in NUMBERS) + " ms",
+        "falls",
+        each[10] > each[100] > each[1000],
+    )
+
+
+def _seconds(number: int) -> tuple[float, float]:
+    """Return the time by the clock and that of the processor."""
+    with TemporaryDirectory() as folder:
+        place = Path(folder)
+        start, processor = time.perf_counter(), time.process_time()
+        run_cases(_cases(number), place / "out", place / "store", place / "progress.json")
+        return time.perf_counter() - start, time.process_time() - processor
+
+
+def _cases(number: int) -> dict[str, Case]:
+    polar = str(ROOT / "config" / "polars" / "plate_2d_10398.csv")
+    config = load_config({"embedded": {"polars": {"coarse": polar}}})
+    solver = solver_from_config(config, "coarse")
+    block = SolverBlock(name=solver.name, version=solver.version, settings=solver.settings())
+    assert UNSTEADY.section is not None
+    cases: dict[str, Case] = {}
+    for k_star in np.linspace(4.0, 21.0, number):
+        section = UNSTEADY.section.model_copy(update={"torsional_stiffness": float(k_star)})
+        cases[f"k{k_star:.6g}"] = UNSTEADY.model_copy(
+            update={"k_star": float(k_star), "section": section, "solver": block}
+        )
+    return cases

@@ -1,0 +1,188 @@
+"""The scripts' `main` functions as a library calls them, without Snakemake."""
+
+import inspect
+import json
+import logging
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import pandas as pd
+import pytest
+import yaml
+from tests.conftest import ROOT
+
+from equisection import plan
+from equisection.cases import case_hash, read_cases
+from equisection.config import load_config, resolve_config
+from equisection.config.sections import Beam, Flow, Structure
+from equisection.errors import EquisectionError, ModesError, ResultFileError
+from equisection.results.netcdf import read_dataset
+from equisection.script import logged
+
+SCRIPTS = sorted(path.stem for path in (ROOT / "scripts").glob("*.py"))
+LoadScript = Callable[[str], ModuleType]
+RAW: dict[str, Any] = {
+    "structure": {
+        "method": "beam",
+        "elements": {"chord": 4, "span": 15, "thickness": 1},
+        "bending_modes": 2,
+        "torsion_modes": 2,
+    },
+    "steady": {"incidence_deg": [0, 2.5, 5, 10], "resolution": "thin"},
+    "embedded": {"polars": {"thin": "flat-plate"}, "strips": 6},
+    "unsteady": {"duration": 30.0},
+}
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_main_of_a_script_is_typed_and_says_what_it_does(
+    name: str, load_script: LoadScript
+) -> None:
+    main = load_script(name).main
+    signature = inspect.signature(main)
+    assert all(
+        parameter.annotation is not inspect.Parameter.empty
+        for parameter in signature.parameters.values()
+    )
+    assert signature.return_annotation is None
+    assert inspect.getdoc(main)
+
+
+@pytest.mark.parametrize("name", SCRIPTS)
+def test_importing_a_script_does_nothing(
+    name: str, load_script: LoadScript, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    load_script(name)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.fixture(scope="module")
+def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Every step of Fig. 1, one script after the other, in a folder."""
+    folder = tmp_path_factory.mktemp("chain")
+    config = load_config(RAW)
+    raw = resolve_config(config)
+    beam, flow, structure = Beam(), Flow(), Structure(**RAW["structure"])
+    load_script("config_resolved").main(raw, folder / "config.resolved.yaml")
+    load_script("modes").main(beam, structure, folder / "modes.nc")
+    load_script("equivalent_section").main(
+        beam, flow, folder / "modes.nc", folder / "equivalent.nc"
+    )
+    run = load_script("run_cases")
+    for dimension in ("2d", "3d"):
+        cases = folder / f"cases_{dimension}.json"
+        load_script("steady_cases").main(raw, dimension, plan.steady_cases(config), cases)
+        index = folder / "steady" / dimension / "polar.json"
+        run.main(cases, index, folder / "store", folder / "progress.json")
+        load_script("polar").main(index, folder / f"polar_{dimension}.nc")
+    load_script("correction_factors").main(
+        folder / "polar_2d.nc", folder / "polar_3d.nc", "thin", folder / "correction.nc"
+    )
+    made_from = {name: folder / f"{name}.nc" for name in ("modes", "equivalent", "correction")}
+    for model in ("2d-corrected", "3d"):
+        cases = folder / f"cases_{model}.json"
+        load_script("unsteady_cases").main(raw, model, made_from, ["k9", "k21"], cases)
+        index = folder / "unsteady" / model / "sweep.json"
+        run.main(cases, index, folder / "store", folder / "progress.json")
+    indices = [folder / "unsteady" / model / "sweep.json" for model in ("2d-corrected", "3d")]
+    load_script("summary").main(indices, folder / "summary.csv")
+    load_script("onset").main(folder / "summary.csv", folder / "onset.csv")
+    load_script("refine_onset").main(indices[:1], 0.05, 3, folder / "round1.json")
+    return folder
+
+
+def test_chain_of_scripts_ends_in_a_line_for_each_run(chain: Path) -> None:
+    summary = pd.read_csv(chain / "summary.csv")
+    assert list(zip(summary["model"], summary["k_star"], strict=True)) == [
+        ("2d-corrected", 9.0),
+        ("2d-corrected", 21.0),
+        ("3d", 9.0),
+        ("3d", 21.0),
+    ]
+    assert pd.read_csv(chain / "onset.csv")["model"].tolist() == ["2d-corrected", "3d"]
+
+
+def test_results_of_the_chain_are_those_of_its_cases(chain: Path) -> None:
+    for name, case in read_cases(chain / "cases_3d.json").items():
+        if "_a" in name:
+            result = chain / "steady" / "3d" / f"{name}.nc"
+        else:
+            result = chain / "unsteady" / "3d" / f"{name}.nc"
+        assert read_dataset(result, case_hash(case)).attrs["solver"] == "embedded"
+
+
+def test_refinement_chooses_k_star_or_none(chain: Path) -> None:
+    chosen = plan.read_refinement(chain / "round1.json")
+    assert all(9.0 < plan.k_star_of(name) < 21.0 for name in chosen)
+
+
+def test_resolved_configuration_is_yaml_of_every_key(chain: Path) -> None:
+    assert yaml.safe_load((chain / "config.resolved.yaml").read_text()) == resolve_config(
+        load_config(RAW)
+    )
+
+
+def test_results_that_ran_one_by_one_are_indexed_as_a_batch_is(
+    chain: Path, load_script: LoadScript
+) -> None:
+    folder = chain / "unsteady" / "3d"
+    (chain / "single").mkdir()
+    cases = []
+    for name, case in read_cases(chain / "cases_3d.json").items():
+        path = chain / "single" / f"{name}.json"
+        load_script("unsteady_cases").write_cases(path, {name: case})
+        cases.append(path)
+    results = [folder / f"{path.stem}.nc" for path in cases]
+    load_script("index_results").main(cases, results, chain / "single" / "index.json")
+    batch, single = (
+        json.loads(path.read_text())
+        for path in (folder / "sweep.json", chain / "single/index.json")
+    )
+    assert single == batch
+
+
+def test_more_modes_than_there_are_is_an_error_that_leaves_no_file(
+    load_script: LoadScript, tmp_path: Path
+) -> None:
+    few = Structure(
+        **{**RAW["structure"], "elements": {"chord": 1, "span": 2, "thickness": 1}},
+    ).model_copy(update={"bending_modes": 12, "torsion_modes": 12})
+    with pytest.raises(ModesError, match="12"):
+        load_script("modes").main(Beam(), few, tmp_path / "modes.nc")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_missing_input_is_named(load_script: LoadScript, tmp_path: Path) -> None:
+    with pytest.raises(ResultFileError, match=r"modes\.nc: missing"):
+        load_script("equivalent_section").main(
+            Beam(), Flow(), tmp_path / "modes.nc", tmp_path / "equivalent.nc"
+        )
+
+
+def test_script_ends_with_the_message_of_an_error_that_a_user_can_mend(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    log = tmp_path / "logs" / "a.log"
+
+    def work() -> None:
+        with logged(str(log)):
+            logging.info("working")
+            raise EquisectionError("file.csv: line 3: wrong")
+
+    with pytest.raises(SystemExit) as ended:
+        work()
+    assert ended.value.code == 1
+    assert capsys.readouterr().err == "error: file.csv: line 3: wrong\n"
+    assert "INFO working" in log.read_text()
+    assert "ERROR file.csv: line 3: wrong" in log.read_text()
+    assert "Traceback" not in log.read_text()
+
+
+def test_fault_of_the_program_keeps_its_traceback(tmp_path: Path) -> None:
+    log = tmp_path / "a.log"
+    with pytest.raises(ZeroDivisionError), logged(str(log)):
+        1 / 0  # noqa: B018
+    assert "Traceback" in log.read_text()

@@ -1,0 +1,124 @@
+"""Results that a crash, a full disk or a person has spoilt."""
+
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+
+import pandas as pd
+import pytest
+import xarray as xr
+
+from equisection.errors import ResultFileError
+from tests.workflow.project import Project, has_nothing_to_do, jobs_run
+
+SUMMARY = "comparison/summary.csv"
+
+
+def values(path: Path) -> xr.Dataset:
+    """Return a result without what it cost, which differs from one computation to the next."""
+    with xr.open_dataset(path) as opened:
+        data = opened.load()
+    for name in ("wall_seconds", "cpu_seconds", "batch_cases"):
+        del data.attrs[name]
+    return data
+
+
+def cut_in_half(path: Path) -> None:
+    path.write_bytes(path.read_bytes()[: path.stat().st_size // 2])
+
+
+def empty(path: Path) -> None:
+    path.write_bytes(b"")
+
+
+def fill_with_garbage(path: Path) -> None:
+    path.write_bytes(b"no NetCDF at all\n" * 1000)
+
+
+@pytest.mark.parametrize("spoil", [cut_in_half, empty, fill_with_garbage])
+def test_a_spoilt_result_is_computed_again_to_the_same_values(
+    spoil: Callable[[Path], None], section: Project
+) -> None:
+    path = section.results / "unsteady" / "2d" / "k10.nc"
+    targets = (section.target(SUMMARY), section.target("unsteady/2d/sweep.json"))
+    before = values(path)
+    spoil(path)  # it is the store's file too
+
+    said = section.run(*targets)
+
+    assert (
+        "unsteady/2d/k10.nc: truncated or not NetCDF-4; kept as k10.nc.broken, made again" in said
+    )
+    assert jobs_run(said)["unsteady_batch"] == 1
+    xr.testing.assert_identical(values(path), before)
+    assert path.with_name("k10.nc.broken").exists()
+    assert has_nothing_to_do(section.run(*targets))
+
+
+def test_a_lost_result_is_published_again_from_the_store(section: Project) -> None:
+    path = section.results / "unsteady" / "2d" / "k10.nc"
+    before = path.read_bytes()
+    path.unlink()
+    targets = (section.target(SUMMARY), section.target("unsteady/2d/sweep.json"))
+    assert jobs_run(section.run(*targets))["unsteady_batch"] == 1
+    assert path.read_bytes() == before
+    assert has_nothing_to_do(section.run(*targets))
+
+
+def test_a_foreign_result_is_set_aside_and_made_anew(section: Project) -> None:
+    folder = section.results / "unsteady" / "2d"
+    targets = (section.target(SUMMARY), section.target("unsteady/2d/sweep.json"))
+    before = values(folder / "k10.nc")
+    table = pd.read_csv(section.results / SUMMARY)
+    shutil.copyfile(folder / "k6.nc", folder / "k10.nc")  # it is the store's file too
+
+    said = section.run(*targets)
+
+    assert "unsteady/2d/k10.nc: not the result of its case; kept as k10.nc.broken" in said
+    xr.testing.assert_identical(values(folder / "k10.nc"), before)
+    without_cost = ["cpu_seconds", "wall_seconds"]
+    pd.testing.assert_frame_equal(
+        pd.read_csv(section.results / SUMMARY).drop(columns=without_cost),
+        table.drop(columns=without_cost),
+    )
+    assert has_nothing_to_do(section.run(*targets))
+
+
+def test_a_steady_result_exchanged_during_the_run_is_refused_by_name(
+    section: Project, load_script: Callable[[str], ModuleType], tmp_path: Path
+) -> None:
+    section.run(section.target("steady/2d/polar.json"))
+    folder = section.results / "steady" / "2d"
+    shutil.copyfile(folder / "coarse_a5.nc", folder / "coarse_a10.nc")
+    with pytest.raises(ResultFileError, match=r"coarse_a10\.nc: foreign: .* run again"):
+        load_script("polar").main(folder / "polar.json", tmp_path / "polar.nc")
+    assert not (tmp_path / "polar.nc").exists()
+
+
+def test_every_result_that_is_lost_is_asked_for_again(finished: Project, tmp_path: Path) -> None:
+    project = finished.copy(tmp_path / "project")
+    for lost in ("structure/mesh_study.nc", "steady/3d/coarse_a5.nc", "unsteady/3d/k6.nc"):
+        (project.results / lost).unlink()
+    said = project.run("--dry-run")
+    for job in ("mesh study of the modes", "steady 3d cases", "3d, sweep"):
+        assert f": {job}\n" in said
+    assert ": modes of the beam\n" not in said
+
+
+def test_a_case_file_that_was_spoilt_is_named_without_a_traceback(section: Project) -> None:
+    cases = section.results / "cases" / "unsteady" / "2d" / "sweep.json"
+    cases.write_text(cases.read_text()[:200])
+    refused = section.attempt(section.target("unsteady/2d/sweep.json"))
+    assert refused.returncode == 1
+    assert "cases/unsteady/2d/sweep.json: cannot be read as a case file" in refused.stdout
+    assert "delete it and run again" in refused.stdout
+    assert "Traceback" not in refused.stdout
+
+
+def test_a_dry_run_leaves_what_a_run_is_writing_alone(section: Project) -> None:
+    writing = section.results / "unsteady" / "2d" / ".tmp-abc.nc"
+    writing.write_bytes(b"half of a re")
+    said = section.run("--dry-run", section.target(SUMMARY))
+    assert "Nothing to be done" in said
+    assert writing.exists()

@@ -1,0 +1,91 @@
+"""What runs again after a change, and what does not."""
+
+from pathlib import Path
+
+import xarray as xr
+
+from tests.workflow.project import Project, has_nothing_to_do, jobs_run, small
+
+SUMMARY = "comparison/summary.csv"
+SOLVER_RULES = {"steady_batch", "steady_case", "unsteady_batch", "unsteady_case"}
+
+
+def results_of_solver(project: Project) -> dict[str, bytes]:
+    return {
+        name: content
+        for name, content in project.files().items()
+        if name.startswith(("steady/2d/", "steady/3d/", "unsteady/")) and name.endswith(".nc")
+    }
+
+
+def test_editing_the_package_without_changing_a_case_runs_no_solver(
+    finished: Project, tmp_path: Path
+) -> None:
+    project = finished.copy(tmp_path / "project")
+    before = results_of_solver(project)
+    for module in ("solvers/embedded.py", "structure/modes.py", "aerodynamics/polar.py"):
+        with (project.folder / "workflow" / "equisection" / module).open("a") as source:
+            source.write("# Nothing that decides a result.\n")
+
+    done = jobs_run(project.run(project.target(SUMMARY)))
+
+    assert {"modes", "steady_cases", "unsteady_cases"} <= set(done)
+    assert not SOLVER_RULES & set(done)
+    assert results_of_solver(project) == before
+    assert has_nothing_to_do(project.run(project.target(SUMMARY)))
+
+
+def test_touching_a_polar_file_runs_no_solver(section: Project) -> None:
+    before = results_of_solver(section)
+    (section.folder / "config" / "polars" / "plate_2d_10398.csv").touch()
+    assert not SOLVER_RULES & set(jobs_run(section.run(section.target(SUMMARY))))
+    assert results_of_solver(section) == before
+
+
+def test_one_more_k_star_computes_that_one_alone(section: Project) -> None:
+    before = results_of_solver(section)
+    stored = {path.name for path in (section.folder / "results" / ".store").iterdir()}
+    section.config = small(sweep={"models": ["2d"], "k_star": [6.0, 8.0, 10.0, 21.0]})
+
+    done = jobs_run(section.run(section.target(SUMMARY)))
+
+    after = results_of_solver(section)
+    assert done["unsteady_batch"] == 1
+    assert set(after) - set(before) == {"unsteady/2d/k8.nc"}
+    # the results hold what they cost, so that a second computation would show
+    assert {name: after[name] for name in before} == before
+    assert len(list((section.folder / "results" / ".store").iterdir())) == len(stored) + 1
+    with xr.open_dataset(section.results / "unsteady" / "2d" / "k8.nc") as run:
+        assert run.attrs["batch_cases"] == 1
+
+
+def test_another_run_with_the_same_cases_shares_their_results(section: Project) -> None:
+    before = results_of_solver(section)
+    assert section.config is not None
+    section.config["run"] = "other-name_2.b"
+    section.run(section.target(SUMMARY))
+    assert results_of_solver(section) == before
+
+
+def test_another_time_step_computes_the_sweep_again(section: Project) -> None:
+    before = results_of_solver(section)
+    section.config = small(sweep={"models": ["2d"]}, unsteady={"time_step": 0.1})
+    done = jobs_run(section.run(section.target(SUMMARY)))
+    assert done["unsteady_batch"] == 1
+    after = results_of_solver(section)
+    assert set(after) == set(before)
+    assert all(after[name] != before[name] for name in before)
+
+
+def test_another_value_in_the_polar_computes_the_sweep_again(section: Project) -> None:
+    polar = section.folder / "config" / "polars" / "plate_2d_10398.csv"
+    text = polar.read_text()
+    assert "\n3,0.49371," in text
+    polar.write_text(text.replace("\n3,0.49371,", "\n3,0.45371,"))
+
+    done = jobs_run(section.run(section.target(SUMMARY)))
+
+    assert done["unsteady_batch"] == 1
+    with xr.open_dataset(section.results / "unsteady" / "2d" / "k21.nc") as run:
+        assert run.attrs["batch_cases"] == 3
+    assert has_nothing_to_do(section.run(section.target(SUMMARY)))

@@ -1,0 +1,124 @@
+"""Modes of a plate as data: what the rest of the package reads, whoever computed them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.errors import ModesError
+from equisection.structure.plate import Plate
+from equisection.structure.span import derivative, gram
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class ModeSet:
+    """Natural modes of a plate, in order of frequency.
+
+    Attributes
+    ----------
+    frequency : (n,) array
+        Natural frequencies (Hz).
+    kind : tuple of str, length n
+        ``bending``, ``torsion``, ``in-plane``, ``extension`` or ``chordwise``.
+    span : (m,) array
+        z/L in [0, 1].
+    shape : (n, m) array
+        Largest absolute value 1, positive at the tip (or at the largest value where the tip is
+        held): w for bending, theta (nose up) for torsion, u for in-plane.
+    method : str
+        ``solid``, ``beam`` or ``analytic``.
+    elements : str
+        Label of the mesh, as in ``24 x 89 x 2``.
+    """
+
+    frequency: Floats
+    kind: tuple[str, ...]
+    span: Floats
+    shape: Floats
+    method: str
+    elements: str
+
+    def bending(self, count: int) -> ModeSet:
+        """First bending modes."""
+        return self._of_kind("bending", count)
+
+    def torsion(self, count: int) -> ModeSet:
+        """First torsion modes."""
+        return self._of_kind("torsion", count)
+
+    def _of_kind(self, kind: str, count: int) -> ModeSet:
+        found = [i for i, this in enumerate(self.kind) if this == kind]
+        if len(found) < count:
+            raise ModesError(
+                f"{count} {kind} modes are needed and {len(found)} are among the "
+                f"{len(self.kind)} computed by method {self.method!r} ({self.elements}); "
+                "compute more modes (a larger count)"
+            )
+        chosen = found[:count]
+        return ModeSet(
+            self.frequency[chosen],
+            tuple(self.kind[i] for i in chosen),
+            self.span,
+            self.shape[chosen],
+            self.method,
+            self.elements,
+        )
+
+
+@dataclass(frozen=True)
+class MeshStudy:
+    """Frequencies of the same modes on finer and finer meshes.
+
+    Attributes
+    ----------
+    elements : tuple of (chord, span, thickness)
+        Levels, coarse to fine.
+    kind : tuple of str
+        Kinds on the finest level.
+    frequency : (levels, n) array
+        Natural frequencies (Hz).
+    """
+
+    elements: tuple[tuple[int, int, int], ...]
+    kind: tuple[str, ...]
+    frequency: Floats
+
+    @property
+    def change(self) -> Floats:
+        """Relative change of each frequency from the level before, (levels - 1, n)."""
+        return np.asarray(self.frequency[1:] / self.frequency[:-1] - 1.0)
+
+    @property
+    def error(self) -> Floats:
+        """Frequency over that of the finest level, less 1, (levels, n)."""
+        return np.asarray(self.frequency / self.frequency[-1] - 1.0)
+
+
+def torsion_strain(modes: ModeSet, plate: Plate, count: int) -> Floats:
+    """K_theta of Eq. 7 from the slopes of the torsion shapes, (count, count), dimensionless.
+
+    A spring that holds the root adds its energy, (k_t L/GJ) f_i(0) f_j(0).
+    """
+    shape = modes.torsion(count).shape
+    slope = derivative(modes.span, shape)
+    spring = (plate.root_torsional_stiffness or 0.0) * plate.length / plate.torsional_rigidity
+    root = shape[:, 0]
+    return np.asarray(gram(modes.span, slope, slope) + spring * np.outer(root, root))
+
+
+def frequency_constants(modes: ModeSet, plate: Plate) -> Floats:
+    """C_i of Eq. 23 for each mode (-): f_i c/V = C_i (L/h) sqrt(k*/I*).
+
+    k* is that of Eq. 17 with the slope of the computed torsion shape, which is what reproduces
+    Table 2. The constants hold for this L/h only: L/h has no place in Eq. 23, since
+    sqrt(k*/I*) is already omega_theta c/V.
+    """
+    first = modes.torsion(1).shape
+    strain = (torsion_strain(modes, plate, 1) / gram(modes.span, first, first)).item()
+    stiffness = plate.torsional_rigidity / plate.length**2 * strain
+    radian_rate = np.sqrt(stiffness / plate.inertia_per_length)
+    return np.asarray(modes.frequency / radian_rate * plate.thickness / plate.length)
