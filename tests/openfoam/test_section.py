@@ -60,7 +60,8 @@ def run_of(installation: Installation, case: UnsteadyCase, work: Path) -> Sectio
 def test_no_lift_and_no_moment_at_zero_incidence(
     installation: Installation, tmp_path: Path
 ) -> None:
-    loads = rigid(installation, tmp_path, 0.0, VERY_COARSE)
+    loads = rigid(installation, tmp_path, 0.0, 1.0)
+    assert loads.method.startswith("steady")
     assert abs(loads.lift) < 1e-3
     assert abs(loads.moment) < 5e-4
     assert loads.drag > 0.03
@@ -135,7 +136,7 @@ def test_section_obeys_its_equation_of_motion(whole: SectionRun) -> None:
         acceleration = (load - stiffness * motion) / inertia
         step = whole.case.time_step
         expected = np.cumsum(np.cumsum(acceleration)) * step**2
-        assert expected[-1] == pytest.approx(motion[-1], rel=0.03)
+        assert expected == pytest.approx(motion, abs=0.02 * np.abs(motion).max())
 
 
 def test_output_of_the_motion_has_the_expected_columns(whole: SectionRun) -> None:

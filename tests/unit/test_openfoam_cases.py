@@ -127,6 +127,7 @@ def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
         "fig03-modes",
         "fig06-section-polar",
         "fig16-response",
+        "fig17-hysteresis",
     ]
 
 
