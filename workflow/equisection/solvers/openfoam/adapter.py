@@ -1,4 +1,8 @@
-"""OpenFOAM behind the solver protocol: one case at a time, on one core."""
+"""OpenFOAM behind the solver protocol: one case at a time, on one core.
+
+What runs a case is imported where it is called: writing a case file takes this module too, and
+none of that.
+"""
 
 from __future__ import annotations
 
@@ -15,11 +19,8 @@ from equisection.config import Config
 from equisection.errors import SolverError
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.openfoam.free import SectionRun
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.mesh import PRESETS, cells_of
 from equisection.solvers.openfoam.process import BlowUpError
-from equisection.solvers.openfoam.rigid import RigidLoads, mesh_of, rigid_loads
 from equisection.solvers.protocol import Capability, Progress
 
 logger = logging.getLogger(__name__)
@@ -53,6 +54,8 @@ class Adapter:
 
     def describe(self) -> str:
         """Return solver and resolution in words."""
+        from equisection.solvers.openfoam.mesh import PRESETS, cells_of  # noqa: PLC0415
+
         cells = cells_of(PRESETS[self._mesh])
         return f"OpenFOAM {find().version()}, k-omega SST, {cells} cells ({self._mesh})"
 
@@ -60,6 +63,9 @@ class Adapter:
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
     ) -> list[SteadyResult]:
         """Run rigid sections, each in a folder of its own."""
+        from equisection.solvers.openfoam.mesh import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.rigid import mesh_of, rigid_loads  # noqa: PLC0415
+
         installation = find()
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         results = []
@@ -72,7 +78,10 @@ class Adapter:
             mesh = mesh_of(case, PRESETS[self._mesh])
             try:
                 loads = rigid_loads(installation, case, mesh, work / f"case{number}", tell)
-                results.append(_steady_result(loads))
+                drag, lift, moment = loads.drag, loads.lift, loads.moment
+                results.append(
+                    SteadyResult(drag, lift, moment, _NOTHING, _NOTHING, _NOTHING, loads.method)
+                )
             except BlowUpError as error:
                 results.append(_no_value(str(error)))
         return results
@@ -81,6 +90,10 @@ class Adapter:
         self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
     ) -> list[UnsteadyResult]:
         """Release sections one after the other, each until its verdict is in."""
+        from equisection.solvers.openfoam.free import SectionRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
+
         installation = find()
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         total = sum(case.duration for case in cases)
@@ -100,6 +113,9 @@ class Adapter:
         return results
 
 
+_NOTHING = np.empty(0)
+
+
 def _require_section(case: SteadyCase | UnsteadyCase) -> None:
     if case.dimension != "2d":
         raise SolverError(
@@ -107,15 +123,7 @@ def _require_section(case: SteadyCase | UnsteadyCase) -> None:
         )
 
 
-def _steady_result(loads: RigidLoads) -> SteadyResult:
-    nothing = np.empty(0)
-    return SteadyResult(
-        loads.drag, loads.lift, loads.moment, nothing, nothing, nothing, loads.method
-    )
-
-
 def _no_value(reason: str) -> SteadyResult:
-    nothing = np.empty(0)
     return SteadyResult(
-        math.nan, math.nan, math.nan, nothing, nothing, nothing, "none", failure=reason
+        math.nan, math.nan, math.nan, _NOTHING, _NOTHING, _NOTHING, "none", failure=reason
     )

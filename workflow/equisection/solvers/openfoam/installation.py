@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 from collections.abc import Mapping
@@ -87,7 +88,7 @@ def find(search: str | None = None, debian: Path = DEBIAN) -> Installation:
     search = os.environ.get("PATH", "") if search is None else search
     prefix = os.environ.get(PREFIX_VARIABLE, "")
     if prefix:
-        words = tuple(prefix.split())
+        words = tuple(shlex.split(prefix))
         if shutil.which(words[0], path=search) is None:
             raise SolverError(
                 f"OpenFOAM's prefix '{prefix}': no program '{words[0]}' on the path; {_HOW}"

@@ -24,7 +24,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from equisection.errors import SolverError
 
@@ -164,6 +163,8 @@ def _refined(numbers: tuple[int, ...], refinement: float) -> list[int]:
 
 def expansion(length: float, cells: int, first: float) -> float:
     """Return the size of the last cell over that of the first, for a geometric growth."""
+    from scipy.optimize import brentq  # noqa: PLC0415 (writing a case file needs none of it)
+
     if first * cells >= length:
         return 1.0
 
