@@ -37,6 +37,8 @@ def save_figure(figure: Figure, paths: Sequence[Path]) -> None:
     FigureFormatError
         A suffix is none of ``.png``, ``.svg`` and ``.pdf``.
     """
+    figure.draw_without_rendering()  # lays the panels out, which costs more than drawing them
+    figure.set_layout_engine("none")
     for path in paths:
         suffix = path.suffix.removeprefix(".")
         if suffix not in _METADATA:

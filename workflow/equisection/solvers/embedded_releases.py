@@ -95,23 +95,27 @@ def _common_settings(case: UnsteadyCase) -> _Settings:
     }
 
 
-def _section_lane(histories: SectionHistories, case: UnsteadyCase, lane: int) -> Motion:
+def _section_lane(
+    histories: SectionHistories, case: UnsteadyCase, lane: int, part: slice
+) -> Motion:
     assert case.section is not None
     return Motion(
-        histories.time,
-        histories.twist[:, lane] / case.section.twist_recovery,
-        histories.deflection[:, lane] / case.section.deflection_recovery,
+        histories.time[part],
+        histories.twist[part, lane] / case.section.twist_recovery,
+        histories.deflection[part, lane] / case.section.deflection_recovery,
     )
 
 
-def _beam_lane(histories: BeamHistories, case: UnsteadyCase, lane: int) -> Motion:
+def _beam_lane(histories: BeamHistories, case: UnsteadyCase, lane: int, part: slice) -> Motion:
     del case
-    return Motion(histories.time, histories.tip_twist[:, lane], histories.tip_deflection[:, lane])
+    return Motion(
+        histories.time[part], histories.tip_twist[part, lane], histories.tip_deflection[part, lane]
+    )
 
 
 def _section_result(case: UnsteadyCase, histories: SectionHistories, lane: int) -> UnsteadyResult:
     end = int(histories.samples[lane])
-    tip = _section_lane(histories, case, lane).until(end)
+    tip = _section_lane(histories, case, lane, slice(end))
     twist = histories.twist[:end, lane]
     return UnsteadyResult(
         time=tip.time,
@@ -128,7 +132,7 @@ def _section_result(case: UnsteadyCase, histories: SectionHistories, lane: int) 
 
 def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> UnsteadyResult:
     end = int(histories.samples[lane])
-    tip = _beam_lane(histories, case, lane).until(end)
+    tip = _beam_lane(histories, case, lane, slice(end))
     return UnsteadyResult(
         time=tip.time,
         twist=tip.twist,

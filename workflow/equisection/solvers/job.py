@@ -70,15 +70,15 @@ def run_cases(
         The solver could not run, or left a case without a result.
     """
     tasks = {name: Task(case, case_hash(case)) for name, case in cases.items()}
-    missing = {task.hash: task for task in tasks.values() if not _in_store(store, task.hash)}
+    known = {task.hash: _in_store(store, task.hash) for task in tasks.values()}
+    missing = {task.hash: task for task in tasks.values() if known[task.hash] is None}
     logger.info("%d cases, %d of them to be computed", len(tasks), len(missing))
     for group in _alike(list(missing.values())):
-        _compute(group, store, progress_file)
+        known |= _compute(group, store, progress_file)
     attributes = {}
     for name, task in tasks.items():
-        stored = _result(store, task.hash)
-        attributes[name] = read_attributes(stored, task.hash)
-        _publish(stored, folder / f"{name}.nc")
+        attributes[name] = known[task.hash] or {}
+        _publish(_result(store, task.hash), folder / f"{name}.nc")
     return attributes
 
 
@@ -86,16 +86,16 @@ def _result(store: Path, case_hash: str) -> Path:
     return store / case_hash / "result.nc"
 
 
-def _in_store(store: Path, wanted: str) -> bool:
+def _in_store(store: Path, wanted: str) -> dict[str, Any] | None:
+    """Return the attributes of a result that the store has."""
     path = _result(store, wanted)
     if not path.exists():
-        return False
+        return None
     try:
-        read_attributes(path, wanted)
+        return read_attributes(path, wanted)
     except ResultFileError as error:
         logger.warning("%s; it is computed again", error)
-        return False
-    return True
+        return None
 
 
 def _alike(tasks: list[Task]) -> list[list[Task]]:
@@ -106,7 +106,8 @@ def _alike(tasks: list[Task]) -> list[list[Task]]:
     return list(groups.values())
 
 
-def _compute(tasks: list[Task], store: Path, progress_file: Path) -> None:
+def _compute(tasks: list[Task], store: Path, progress_file: Path) -> dict[str, dict[str, Any]]:
+    """Run cases of one solver into the store; return the attributes of each result by hash."""
     solver = solver_from_case(tasks[0].case.solver)
     work = store / tasks[0].hash
     work.mkdir(parents=True, exist_ok=True)
@@ -124,6 +125,7 @@ def _compute(tasks: list[Task], store: Path, progress_file: Path) -> None:
         "cpu_seconds": (_cpu_seconds() - cpu) / len(tasks),
         "batch_cases": len(tasks),
     }
+    attributes = {}
     for task, result in zip(tasks, results, strict=True):
         dataset = _dataset(task.case, result).assign_attrs(
             case_hash=task.hash,
@@ -133,7 +135,8 @@ def _compute(tasks: list[Task], store: Path, progress_file: Path) -> None:
             resolution=task.case.resolution,
             **cost,
         )
-        write_dataset(_result(store, task.hash), dataset)
+        attributes[task.hash] = write_dataset(_result(store, task.hash), dataset)
+    return attributes
 
 
 def _run(

@@ -37,10 +37,6 @@ class Motion:
     twist: Floats
     deflection: Floats
 
-    def until(self, samples: int) -> Motion:
-        """Return the first samples."""
-        return Motion(self.time[:samples], self.twist[:samples], self.deflection[:samples])
-
 
 def criteria_of(case: UnsteadyCase) -> Criteria:
     """Return the criteria that a case asks for."""
@@ -113,7 +109,7 @@ def refused(case: UnsteadyCase) -> UnsteadyResult:
 
 
 def monitor_of(
-    cases: Sequence[UnsteadyCase], lane_of: Callable[[Any, UnsteadyCase, int], Motion]
+    cases: Sequence[UnsteadyCase], lane_of: Callable[[Any, UnsteadyCase, int, slice], Motion]
 ) -> Callable[[Any, Indices], Indices]:
     """Return a monitor that ends each lane of a batch when its verdict is in.
 
@@ -121,6 +117,13 @@ def monitor_of(
     So it is looked for after as many natural periods as it rests on, and then at times that only
     the length of the run decides, alike in a batch and alone; a motion that may be beyond the
     bound is looked at every time, before it leaves the polar.
+
+    Parameters
+    ----------
+    cases
+        Case of each lane.
+    lane_of
+        Gives the motion of the tip of a lane, or a part of it, from the histories of all.
     """
     due = 0.0
     earliest = [case.criteria.periods / pitch_frequency(case) for case in cases]
@@ -131,20 +134,22 @@ def monitor_of(
         is_due = now >= due
         if is_due:
             due = LOOK_AGAIN * now
+        late = slice(int(np.searchsorted(histories.time, now - LATE)), None)
         done = []
         for lane in active:
-            tip = lane_of(histories, cases[lane], int(lane))
-            looks = is_due and now >= earliest[lane]
-            if (looks or _may_be_beyond_bound(cases[lane], tip)) and _decided(cases[lane], tip):
+            case = cases[lane]
+            looks = (is_due and now >= earliest[lane]) or _may_be_beyond_bound(
+                case, lane_of(histories, case, int(lane), late)
+            )
+            if looks and _decided(case, lane_of(histories, case, int(lane), slice(None))):
                 done.append(lane)
         return np.array(done, dtype=np.intp)
 
     return monitor
 
 
-def _may_be_beyond_bound(case: UnsteadyCase, tip: Motion) -> bool:
-    late = tip.twist[tip.time >= tip.time[-1] - LATE]
-    return float(np.ptp(late)) > 2 * math.radians(case.criteria.growing_amplitude_deg)
+def _may_be_beyond_bound(case: UnsteadyCase, late: Motion) -> bool:
+    return float(np.ptp(late.twist)) > 2 * math.radians(case.criteria.growing_amplitude_deg)
 
 
 def _decided(case: UnsteadyCase, tip: Motion) -> bool:

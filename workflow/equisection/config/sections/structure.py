@@ -25,7 +25,7 @@ class Elements(Section):
         89, description="Elements along the span (-)."
     )
     thickness: Annotated[int, Field(ge=1, le=20), WHOLE] = Field(
-        2, description="Elements through the thickness (-)."
+        1, description="Elements through the thickness (-)."
     )
 
 
