@@ -9,7 +9,7 @@ BIN := $(ENV)/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profiles/default \
 	$(if $(CONFIG),--configfile $(CONFIG))
 
-.PHONY: run report identification status test lint bench clean
+.PHONY: run report identification status test lint bench openfoam clean
 
 run: $(ENV)/run
 	$(SNAKEMAKE)
@@ -44,6 +44,14 @@ lint: $(ENV)/lint
 
 bench: $(ENV)/test
 	$(BIN)/python -m tests.benchmarks
+
+# Debian and Ubuntu have it packaged; as root, or with sudo. Elsewhere see docs/openfoam.md.
+openfoam:
+	@command -v simpleFoam >/dev/null && { echo "OpenFOAM is there: $$(command -v simpleFoam)"; exit 0; }; \
+	command -v apt-get >/dev/null || \
+		{ echo "error: no apt-get here; docs/openfoam.md says how else to install OpenFOAM" >&2; exit 1; }; \
+	as_root=$$([ $$(id -u) -eq 0 ] || echo sudo); \
+	$$as_root apt-get update --quiet && $$as_root apt-get install --quiet --yes openfoam
 
 clean:
 	find results -mindepth 1 -maxdepth 1 ! -name reference -exec rm -rf {} +

@@ -7,7 +7,7 @@ import pandas as pd
 
 from equisection.comparison.paper import paper_table
 from equisection.comparison.paper_here import Run
-from equisection.comparison.tables import table_1, table_2
+from equisection.comparison.tables import table_2
 from equisection.config import load_config
 from equisection.files import written_whole
 from equisection.results.index import result_file
@@ -21,10 +21,11 @@ def main(
     inputs: dict[str, Path],
     outputs: dict[str, Path],
 ) -> None:
-    """Write ``paper``, ``table1`` and ``table2`` of ``outputs``.
+    """Write ``paper`` and ``table2`` of ``outputs``.
 
-    ``inputs`` holds ``modes``, ``equivalent``, ``mesh_study``, ``polar_3d``, ``correction``,
-    ``summary`` and ``onset``, and ``reference_3d`` where the beam is run.
+    ``inputs`` holds ``modes``, ``equivalent``, ``mesh_study``, ``summary`` and ``onset``, with
+    ``polar_3d`` and ``correction`` where the solver has 3D cases and ``reference_3d`` where the
+    beam is run.
     """
     config = load_config(raw_config)
     data = {name: read_dataset(path) for name, path in inputs.items() if path.suffix == ".nc"}
@@ -34,7 +35,6 @@ def main(
     thickness_over_span = config.beam.thickness / config.beam.length
     frames = {
         "paper": paper_table(run, is_paper_case),
-        "table1": table_1(run.polar_3d, is_paper_case),
         "table2": table_2(run.modes, mesh_study, thickness_over_span, is_paper_case),
     }
     for name, frame in frames.items():
@@ -43,9 +43,12 @@ def main(
 
 
 if __name__ == "__main__":
-    WANTED = ("modes", "equivalent", "mesh_study", "polar_3d", "correction", "summary", "onset")
+    WANTED = ("modes", "equivalent", "mesh_study", "summary", "onset")
     with logged(snakemake.log[0]):
         inputs = {name: Path(snakemake.input[name]) for name in WANTED}
+        for name in ("polar_3d", "correction"):
+            for path in snakemake.input[name]:
+                inputs[name] = Path(path)
         for index in snakemake.input.index_3d:
             inputs["reference_3d"] = result_file(Path(index), snakemake.params.reference)
         main(

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from equisection.config import Config
 from equisection.files import write_text
+from equisection.solvers.registry import SOLVERS
 
 #: Patterns of the wildcards of the rules.
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
@@ -127,24 +128,24 @@ def read_refinement(path: Path) -> list[str]:
 
 
 #: Figures of every run, by the paper's number.
-FIGURES = (
-    "fig01-workflow",
-    "fig03-modes",
-    "fig06-section-polar",
-    "fig10-spanwise-loads",
-    "fig13-lift-correction",
-    "fig14-moment-correction",
-    "fig16-response",
-)
+FIGURES = ("fig01-workflow", "fig03-modes", "fig06-section-polar", "fig16-response")
+#: Figures of the rigid beam, drawn only where the solver has 3D cases.
+FIGURES_OF_BEAM = ("fig10-spanwise-loads", "fig13-lift-correction", "fig14-moment-correction")
 #: Figures of one dimension, drawn only where a model of it is run.
 FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
 
 
 def figures(config: Config) -> list[str]:
     """Return the names of the run's figures."""
-    dimensions = {model(name, config.reduction).dimension for name in config.sweep.models}
-    shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in dimensions]
-    return sorted([*FIGURES, *shown])
+    of_beam = FIGURES_OF_BEAM if "3d" in dimensions(config) else ()
+    run = {model(name, config.reduction).dimension for name in config.sweep.models}
+    shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
+    return sorted([*FIGURES, *of_beam, *shown])
+
+
+def dimensions(config: Config) -> tuple[str, ...]:
+    """Return the dimensions that the configured solver has cases of."""
+    return SOLVERS[config.solver].dimensions
 
 
 def reference_case(config: Config) -> str:

@@ -12,11 +12,12 @@ from equisection.config.sections import FLAT_PLATE
 from equisection.errors import ConfigError
 from equisection.figures.models_shown import beam_model, section_model
 from equisection.results.mend import mend
-from equisection.solvers.registry import SOLVERS, Capability
+from equisection.solvers.registry import SOLVERS, Capability, check_provided
 
 try:
     CONFIG = load_config(config)
     check_files(CONFIG)
+    check_provided(CONFIG)
 except ConfigError as error:
     print(error, file=sys.stderr)
     sys.exit(1)
@@ -28,8 +29,13 @@ STORE = "results/.store"
 ENVIRONMENT = "../../envs/environment.yaml"
 PROJECT = Path(workflow.current_basedir).parent.parent
 PROVIDES = SOLVERS[CONFIG.solver].provides
+DIMENSIONS = plan.dimensions(CONFIG)
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
+
+# Jobs inherit what tells them where the solver is on this machine.
+for name, value in CONFIG.solver_section.environment().items():
+    os.environ.setdefault(name, value)
 
 # What was cut short by a crash, lost or exchanged must not pass for a finished result.
 if workflow.is_main_process:
@@ -80,7 +86,7 @@ def code(*parts):
 
 def solver_input_files():
     """Return the files that the configured solver reads, for instance section polars."""
-    return [path for path in CONFIG.embedded.polars.values() if path != FLAT_PLATE]
+    return CONFIG.solver_section.input_files()
 
 
 def section_polar():
@@ -178,12 +184,20 @@ def structure_files():
 def steady_files():
     """Return the results of the rigid section and beam, indexed and gathered."""
     return [
-        *(f"{RESULTS}/steady/{dimension}/polar.json" for dimension in ("2d", "3d")),
-        *(
-            f"{RESULTS}/steady/{name}.nc"
-            for name in ("polar_2d", "polar_3d", "correction")
-        ),
+        *(f"{RESULTS}/steady/{dimension}/polar.json" for dimension in DIMENSIONS),
+        *(f"{RESULTS}/steady/polar_{dimension}.nc" for dimension in DIMENSIONS),
+        *correction_of_beam(),
     ]
+
+
+def polar_of_beam():
+    """Return the polar of the rigid beam, if the solver has 3D cases."""
+    return [f"{RESULTS}/steady/polar_3d.nc"] if "3d" in DIMENSIONS else []
+
+
+def correction_of_beam():
+    """Return the correction for the finite beam, if the solver has 3D cases."""
+    return [f"{RESULTS}/steady/correction.nc"] if "3d" in DIMENSIONS else []
 
 
 def figure_files():
@@ -203,5 +217,6 @@ def comparison_files():
 
 
 def table_files():
-    """Return the paper's tables."""
-    return [f"{RESULTS}/tables/{name}.csv" for name in ("table1", "table2")]
+    """Return the paper's tables; Table 1 is that of the rigid beam."""
+    tables = ("table1", "table2") if "3d" in DIMENSIONS else ("table2",)
+    return [f"{RESULTS}/tables/{name}.csv" for name in tables]

@@ -83,9 +83,9 @@ rule paper_comparison:
         modes=f"{RESULTS}/structure/modes.nc",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
         mesh_study=f"{RESULTS}/structure/mesh_study.nc",
-        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        polar_3d=polar_of_beam(),
         index_3d=index_of_beam(),
-        correction=f"{RESULTS}/steady/correction.nc",
+        correction=correction_of_beam(),
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
     output:
@@ -94,12 +94,6 @@ rule paper_comparison:
             caption="../report/paper.rst",
             category="Tables",
             labels={"table": "numbers", "shows": "every number that the paper states"},
-        ),
-        table1=report(
-            f"{RESULTS}/tables/table1.csv",
-            caption="../report/table1.rst",
-            category="Tables",
-            labels={"table": "1", "shows": "force coefficients of the rigid plate"},
         ),
         table2=report(
             f"{RESULTS}/tables/table2.csv",
@@ -124,3 +118,31 @@ rule paper_comparison:
         "comparison with the paper"
     script:
         "../../scripts/paper_comparison.py"
+
+
+rule rigid_beam_table:
+    """Loads of the rigid beam beside those of the paper (Table 1)."""
+    input:
+        polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+    output:
+        report(
+            f"{RESULTS}/tables/table1.csv",
+            caption="../report/table1.rst",
+            category="Tables",
+            labels={"table": "1", "shows": "force coefficients of the rigid plate"},
+        ),
+    log:
+        f"{LOGS}/rigid_beam_table.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("comparison/tables.py", "comparison/paper_values.py"),
+        is_paper_case=CONFIG.is_paper_case,
+    message:
+        "Table 1, loads of the rigid beam"
+    script:
+        "../../scripts/rigid_beam_table.py"

@@ -27,6 +27,8 @@ class Run:
 
     Attributes
     ----------
+    polar_3d, correction
+        Of the rigid beam; None where the solver has no 3D cases.
     reference_3d
         Result of the beam at the stiffest k* of the sweep; None if the beam is not run.
     """
@@ -34,10 +36,10 @@ class Run:
     config: Config
     modes: xr.Dataset
     equivalent: xr.Dataset
-    polar_3d: xr.Dataset
-    correction: xr.Dataset
     summary: pd.DataFrame
     onset: pd.DataFrame
+    polar_3d: xr.Dataset | None = None
+    correction: xr.Dataset | None = None
     reference_3d: xr.Dataset | None = None
 
 
@@ -61,6 +63,9 @@ class Here:
     note: str = ""
     model: str = ""
     comparable: bool = True
+
+
+_NO_BEAM = Here(math.nan, "the solver of this run has no 3D cases")
 
 
 def values_here(run: Run) -> dict[str, list[Here]]:
@@ -134,9 +139,12 @@ def _frequency_constants(modes: xr.Dataset) -> dict[str, list[Here]]:
 
 def _rigid_plate(run: Run) -> dict[str, list[Here]]:
     resolution = run.config.steady.resolution
+    angles = next(iter(TABLE_1.values()))
+    if run.polar_3d is None:
+        return {f"{name} at {angle:g} deg": [_NO_BEAM] for angle in angles for name in COEFFICIENTS}
     solver = str(run.polar_3d.attrs[f"solver_{resolution}"])
     found = {}
-    for angle in next(iter(TABLE_1.values())):
+    for angle in angles:
         row = at_incidence(run.polar_3d, resolution, angle)
         for name, short in COEFFICIENTS.items():
             value = math.nan if row is None else float(row[short])
@@ -153,6 +161,8 @@ def _rigid_plate(run: Run) -> dict[str, list[Here]]:
 def _factors(run: Run) -> dict[str, list[Here]]:
     factors = {"c_l/C_L": "lift_factor", "c_m/C_M": "moment_factor"}
     angles = {"theta_0": run.config.flow.incidence_deg, "10 deg": 10.0}
+    if run.correction is None:
+        return {f"{quantity} at {label}": [_NO_BEAM] for quantity in factors for label in angles}
     incidence = run.correction["incidence_deg"].values
     found = {}
     for quantity, name in factors.items():

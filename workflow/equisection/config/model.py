@@ -13,6 +13,7 @@ from equisection.config.sections import (
     Beam,
     Embedded,
     Flow,
+    OpenFoam,
     Section,
     Steady,
     Structure,
@@ -31,7 +32,7 @@ class Config(Section):
     run: Name = Field(
         "paper-plate", description="Name of the run; everything goes to `results/<run>/`."
     )
-    solver: Literal["embedded"] = Field(
+    solver: Literal["embedded", "openfoam"] = Field(
         "embedded", description="Solver of the steady and unsteady cases."
     )
     reduction: Literal["consistent", "paper"] = Field(
@@ -46,6 +47,7 @@ class Config(Section):
     sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
     unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")
     embedded: Embedded = Field(Embedded(), description="The embedded solver.")
+    openfoam: OpenFoam = Field(OpenFoam(), description="OpenFOAM, in two dimensions.")
 
     @model_validator(mode="after")
     def _agree(self, info: ValidationInfo) -> Config:
@@ -55,6 +57,15 @@ class Config(Section):
             if found:
                 raise DisagreementError(found)
         return self
+
+    @property
+    def solver_section(self) -> Embedded | OpenFoam:
+        """The section of the configured solver."""
+        sections: dict[str, Embedded | OpenFoam] = {
+            "embedded": self.embedded,
+            "openfoam": self.openfoam,
+        }
+        return sections[self.solver]
 
     @property
     def is_paper_case(self) -> bool:
@@ -78,18 +89,24 @@ def _tip_needs_room(gap: float | None, boundary: str) -> Iterator[Problem]:
         )
 
 
-@check("steady.resolution", "steady.study", "embedded.polars", "solver")
+@check("steady.resolution", "steady.study", "embedded.polars", "openfoam.meshes", "solver")
 def _resolutions_exist(
-    resolution: str, study: tuple[str, ...], polars: dict[str, str], solver: str
+    resolution: str,
+    study: tuple[str, ...],
+    polars: dict[str, str],
+    meshes: dict[str, str],
+    solver: str,
 ) -> Iterator[Problem]:
-    if solver != "embedded":
-        return
+    key_of_names, there = {
+        "embedded": ("embedded.polars", polars),
+        "openfoam": ("openfoam.meshes", meshes),
+    }[solver]
     names = {"steady.resolution": resolution}
     names |= {f"steady.study.{place}": name for place, name in enumerate(study)}
     for key, name in names.items():
-        if name not in polars:
+        if name not in there:
             yield Problem(
-                key, name, f"allowed is a name in embedded.polars: {', '.join(sorted(polars))}"
+                key, name, f"allowed is a name in {key_of_names}: {', '.join(sorted(there))}"
             )
 
 

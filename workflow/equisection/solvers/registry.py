@@ -12,21 +12,48 @@ from typing import Any
 
 from equisection.cases import SolverBlock
 from equisection.config import Config
-from equisection.errors import CaseFileError
+from equisection.config.checks import Problem
+from equisection.errors import CaseFileError, ConfigError
 from equisection.solvers.protocol import Capability, Solver
 
 
 @dataclass(frozen=True)
 class Entry:
-    """Where an adapter is, and what it provides."""
+    """Where an adapter is, and what it provides; ``dimensions`` are those of its cases."""
 
     module: str
     provides: frozenset[Capability]
+    dimensions: tuple[str, ...] = ("2d", "3d")
 
 
 SOLVERS: dict[str, Entry] = {
     "embedded": Entry("equisection.solvers.embedded", frozenset({Capability.BATCH})),
+    "openfoam": Entry("equisection.solvers.openfoam.adapter", frozenset(), dimensions=("2d",)),
 }
+
+
+def check_provided(config: Config) -> None:
+    """Refuse models that the configured solver has no cases for.
+
+    Raises
+    ------
+    ConfigError
+        With one line for each such model.
+    """
+    if "3d" in SOLVERS[config.solver].dimensions:
+        return
+    problems = [
+        Problem(
+            f"sweep.models.{place}",
+            model,
+            f"allowed with solver '{config.solver}' are 2d, 2d-paper and 2d-consistent: it has no "
+            "3D cases, which the beam and the correction for it are made of",
+        )
+        for place, model in enumerate(config.sweep.models)
+        if model == "3d" or "corrected" in model
+    ]
+    if problems:
+        raise ConfigError("\n".join(problem.line for problem in problems))
 
 
 def solver_from_config(config: Config, resolution: str) -> Solver:

@@ -7,6 +7,7 @@ from equisection.config.sections.base import Section
 from equisection.config.sections.beam import FREE_TIP, Beam, Boundary
 from equisection.config.sections.embedded import FLAT_PLATE, Embedded, Separation
 from equisection.config.sections.flow import Channel, Flow
+from equisection.config.sections.openfoam import OpenFoam
 from equisection.config.sections.steady import Steady
 from equisection.config.sections.structure import Elements, Structure
 from equisection.config.sections.sweep import ModelName, Range, Sweep
@@ -22,6 +23,7 @@ __all__ = [
     "Embedded",
     "Flow",
     "ModelName",
+    "OpenFoam",
     "Range",
     "Section",
     "Separation",

@@ -56,6 +56,14 @@ class Embedded(Section):
         20, description="Strips along the span (-)."
     )
 
+    def input_files(self) -> list[str]:
+        """Return the files that the solver reads."""
+        return [path for path in self.polars.values() if path != FLAT_PLATE]
+
+    def environment(self) -> dict[str, str]:
+        """Return variables by which jobs find the solver on a machine."""
+        return {}
+
 
 @check("embedded.separation.delay", "embedded.separation.relaxation")
 def _delay_of_a_lag(delay: float, relaxation: float) -> Iterator[Problem]:

@@ -1,0 +1,156 @@
+"""The real solver on coarse meshes: symmetry, known loads, free vibration, resumption.
+
+What is compared with numbers was measured with OpenFOAM v1912.
+"""
+
+import math
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.sample_cases import STEADY, UNSTEADY
+
+from equisection.cases import SectionProperties, UnsteadyCase
+from equisection.solvers.openfoam.free import SectionRun, read_section
+from equisection.solvers.openfoam.histories import read_history
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.rigid import RigidLoads, mesh_of, rigid_loads
+
+#: Coarser than any preset, about 4,000 cells: for what does not depend on the mesh.
+VERY_COARSE = 0.6
+
+
+def nothing(done: float, total: float) -> None:
+    del done, total
+
+
+def rigid(
+    installation: Installation, work: Path, incidence_deg: float, refinement: float
+) -> RigidLoads:
+    case = STEADY.model_copy(update={"incidence_deg": incidence_deg})
+    return rigid_loads(installation, case, mesh_of(case, refinement), work, nothing)
+
+
+def free(duration: float, mass: float = 1.0) -> UnsteadyCase:
+    """Return a case at k* = 10 with the paper's ratios, all of the structure scaled."""
+    section = SectionProperties(
+        torsional_stiffness=10.0 * mass,
+        flexural_stiffness=1.83 * mass,
+        inertia=8.8 * mass,
+        mass=80.0 * mass,
+        twist_recovery=1.0,
+        deflection_recovery=1.0,
+    )
+    return UNSTEADY.model_copy(
+        update={
+            "section": section,
+            "duration": duration,
+            "time_step": 0.02,
+            "output_interval": 0.02,
+        }
+    )
+
+
+def run_of(installation: Installation, case: UnsteadyCase, work: Path) -> SectionRun:
+    return SectionRun(installation, case, mesh_of(case, VERY_COARSE), 2, work)
+
+
+def test_no_lift_and_no_moment_at_zero_incidence(
+    installation: Installation, tmp_path: Path
+) -> None:
+    loads = rigid(installation, tmp_path, 0.0, 1.0)
+    assert loads.method.startswith("steady")
+    assert abs(loads.lift) < 1e-3
+    assert abs(loads.moment) < 5e-4
+    assert loads.drag > 0.03
+
+
+def test_loads_at_the_papers_incidence(installation: Installation, tmp_path: Path) -> None:
+    """On 11,136 cells c_l 0.380, c_m 0.0756, c_d 0.0575; on 56,980 cells 0.365, 0.0782, 0.0568."""
+    loads = rigid(installation, tmp_path, 2.5, 1.0)
+    assert loads.method.startswith("steady")
+    assert loads.lift == pytest.approx(0.380, rel=0.01)
+    assert loads.moment == pytest.approx(0.0756, rel=0.01)
+    assert loads.drag == pytest.approx(0.0575, rel=0.01)
+
+
+def test_heavy_section_swings_at_its_natural_frequency(
+    installation: Installation, tmp_path: Path
+) -> None:
+    """A hundred times the mass: the air drives, but hardly changes what the springs do."""
+    period = 2 * math.pi * math.sqrt(8.8 / 10.0)
+    run = run_of(installation, free(round(1.25 * period, 1), mass=100.0), tmp_path)
+    run.run(nothing)
+    history = read_section(run.folder)
+    # from rest the twist is A (1 - cos(omega s)) under a constant moment
+    late = history.time > 1.0
+    rate = np.gradient(history.twist, history.time)[late]
+    turning = history.time[late][:-1][np.diff(np.sign(rate)) != 0]
+    assert turning[:2] == pytest.approx([period / 2, period], rel=0.01)
+    largest = history.twist[np.argmin(np.abs(history.time - period / 2))]
+    assert largest == pytest.approx(2 * history.moment[late].mean() / 1000.0, rel=0.05)
+    swing_back = history.twist[np.argmin(np.abs(history.time - period))]
+    assert abs(swing_back) < 0.05 * largest
+
+
+@pytest.fixture(scope="module")
+def whole(installation: Installation, tmp_path_factory: pytest.TempPathFactory) -> SectionRun:
+    """A run of 5 c/V without interruption."""
+    run = run_of(installation, free(5.0), tmp_path_factory.mktemp("whole"))
+    run.run(nothing)
+    return run
+
+
+def test_run_that_was_killed_goes_on_without_a_jump(
+    installation: Installation, whole: SectionRun, tmp_path: Path
+) -> None:
+    """From the same steady flow; a kill after 3.3 c/V goes back to the state at 2 c/V."""
+    interrupted = run_of(installation, whole.case, tmp_path)
+    shutil.copytree(whole.work, tmp_path, dirs_exist_ok=True)
+    for path in [*interrupted.folder.glob("[1-9]*"), interrupted.folder / "postProcessing"]:
+        shutil.rmtree(path)
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted.run(_interrupt_after(3.3))
+    assert not (interrupted.folder / "4").exists()
+    interrupted.run(nothing)
+
+    assert len(list((interrupted.folder / "postProcessing" / "loads").iterdir())) == 2
+    one, other = read_section(whole.folder), read_section(interrupted.folder)
+    np.testing.assert_allclose(one.time, other.time, atol=1e-9)
+    assert other.twist == pytest.approx(one.twist, abs=2e-3 * np.abs(one.twist).max())
+    assert other.lift[5:] == pytest.approx(one.lift[5:], abs=5e-3 * np.abs(one.lift).max())
+    assert other.moment[5:] == pytest.approx(one.moment[5:], abs=1e-2 * np.abs(one.moment).max())
+
+
+def test_section_obeys_its_equation_of_motion(whole: SectionRun) -> None:
+    """I* theta'' + k* theta = c_m and m* w'' + k_w* w = c_l, integrated twice from rest."""
+    assert whole.case.section is not None
+    section, history = whole.case.section, read_section(whole.folder)
+    for motion, inertia, stiffness, load in (
+        (history.twist, section.inertia, section.torsional_stiffness, history.moment),
+        (history.deflection, section.mass, section.flexural_stiffness, history.lift),
+    ):
+        acceleration = (load - stiffness * motion) / inertia
+        step = whole.case.time_step
+        expected = np.cumsum(np.cumsum(acceleration)) * step**2
+        assert expected == pytest.approx(motion, abs=0.02 * np.abs(motion).max())
+
+
+def test_output_of_the_motion_has_the_expected_columns(whole: SectionRun) -> None:
+    motion = read_history(
+        whole.folder / "postProcessing" / "motion", "sixDoFRigidBodyState.dat", ["omega"]
+    )
+    assert motion["omega"].shape == (250, 3)
+    assert np.abs(motion["omega"][:, :2]).max() == 0.0
+
+
+def _interrupt_after(time: float) -> Callable[[float, float], None]:
+    def tell(done: float, total: float) -> None:
+        del total
+        if done >= time:
+            raise KeyboardInterrupt
+
+    return tell

@@ -1,0 +1,187 @@
+"""What is written into an OpenFOAM case, and what a kill may leave of one."""
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY
+
+from equisection import plan
+from equisection.config import load_config
+from equisection.errors import ConfigError, SolverError
+from equisection.solvers.openfoam.adapter import Adapter
+from equisection.solvers.openfoam.case_folder import (
+    drop_broken_states,
+    drop_histories_after,
+)
+from equisection.solvers.openfoam.dictionaries import control, dictionary
+from equisection.solvers.openfoam.flow import reynolds_number, write_flow
+from equisection.solvers.openfoam.free import read_section
+from equisection.solvers.openfoam.rigid import mesh_of, require_sound_mesh
+from equisection.solvers.openfoam.section_motion import write_motion
+from equisection.solvers.registry import SOLVERS, check_provided, solver_from_config
+
+END = "// ************ //\n"
+
+
+def openfoam(**changes: Any) -> dict[str, Any]:
+    return {
+        "solver": "openfoam",
+        "sweep": {"models": ["2d"]},
+        "unsteady": {"time_step": 0.01},
+        **changes,
+    }
+
+
+def test_dictionary_is_written_in_openfoams_words() -> None:
+    text = dictionary("x", {"a": {"b": True, "c": (1, 2.5, 0)}, "list": ['"lib.so"']})
+    assert text.splitlines()[7:] == [
+        "",
+        "a",
+        "{",
+        "    b yes;",
+        "    c (1 2.5 0);",
+        "}",
+        'list ("lib.so");',
+    ]
+
+
+def test_reynolds_number_is_that_of_the_paper() -> None:
+    assert reynolds_number(GEOMETRY, MEDIUM) == pytest.approx(1.27e5, rel=2e-3)
+
+
+def test_flow_has_the_viscosity_of_its_reynolds_number(tmp_path: Path) -> None:
+    write_flow(tmp_path, 1e5)
+    assert "nu 1e-05;" in (tmp_path / "constant" / "transportProperties").read_text()
+    assert {path.name for path in (tmp_path / "0").iterdir()} == {"U", "p", "k", "omega", "nut"}
+
+
+def test_wall_velocity_follows_the_mesh_from_the_steady_run_on(tmp_path: Path) -> None:
+    write_flow(tmp_path, 1e5)
+    velocity = (tmp_path / "0" / "U").read_text()
+    assert "movingWallVelocity" in velocity
+    assert "noSlip" not in velocity
+
+
+def test_section_has_half_of_each_reduced_quantity(tmp_path: Path) -> None:
+    assert UNSTEADY.section is not None
+    write_motion(tmp_path, UNSTEADY.section, 4.0)
+    text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
+    for line in ("mass 40;", "momentOfInertia (1 1 3.35);", "stiffness 0.45;", "stiffness 3.22;"):
+        assert line in text
+
+
+def test_loads_are_written_at_each_step_in_time_and_iterations() -> None:
+    for application in ("simpleFoam", "pimpleFoam"):
+        loads = control(application, 100.0, 0.01, 2.0)["functions"]["loads"]
+        assert (loads["writeControl"], loads["writeInterval"]) == ("timeStep", 1)
+
+
+def test_moment_is_about_the_moving_centre(tmp_path: Path) -> None:
+    loads = tmp_path / "postProcessing" / "loads" / "0" / "coefficient.dat"
+    motion = tmp_path / "postProcessing" / "motion" / "0" / "sixDoFRigidBodyState.dat"
+    for path, text in (
+        (loads, "# Time Cd Cl CmPitch\n1 0.1 0.4 0.07\n2 0.1 0.4 0.07\n"),
+        (motion, "# Time centreOfRotation rotation\n1 (0 0.3 0) (0 0 -0.01)\n"),
+    ):
+        path.parent.mkdir(parents=True)
+        path.write_text(text)
+    history = read_section(tmp_path)
+    # drag above the centre at rest turns the nose up about it, by 0.3 x 0.1
+    np.testing.assert_allclose(history.moment, [0.04])
+    np.testing.assert_allclose(history.twist, [0.01])
+    np.testing.assert_allclose(history.deflection, [0.3])
+
+
+def test_settings_decide_results_and_know_no_machine() -> None:
+    there = openfoam(openfoam={"prefix": "openfoam2312", "outer_correctors": 4})
+    solver = solver_from_config(load_config(there), "coarse")
+    assert solver.settings() == {"mesh": "coarse", "outer_correctors": 4}
+    assert Adapter.from_settings(solver.settings()).settings() == solver.settings()
+
+
+def test_registry_says_what_the_adapter_provides() -> None:
+    assert SOLVERS["openfoam"].provides == Adapter.provides
+
+
+def test_prefix_reaches_the_jobs_as_a_variable() -> None:
+    config = load_config(openfoam(openfoam={"prefix": "openfoam2312"}))
+    assert config.solver_section.environment() == {"EQUISECTION_OPENFOAM": "openfoam2312"}
+
+
+def test_models_that_need_three_dimensions_are_refused() -> None:
+    config = load_config(openfoam(sweep={"models": ["2d", "2d-corrected", "3d"]}))
+    with pytest.raises(ConfigError) as raised:
+        check_provided(config)
+    lines = str(raised.value).splitlines()
+    assert [line.split(": ")[1] for line in lines] == ["sweep.models.1", "sweep.models.2"]
+    assert "2d, 2d-paper and 2d-consistent" in lines[0]
+
+
+def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
+    config = load_config(openfoam())
+    assert plan.figures(config) == [
+        "fig01-workflow",
+        "fig03-modes",
+        "fig06-section-polar",
+        "fig16-response",
+        "fig17-hysteresis",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("changes", "key"),
+    [
+        ({"unsteady": {"time_step": 0.05}}, "unsteady.time_step: 0.05"),
+        ({"flow": {"channel": None}}, "flow.channel: null"),
+        ({"steady": {"resolution": "finest"}}, "steady.resolution: 'finest'"),
+        ({"openfoam": {"meshes": {"a": "huge"}}}, "openfoam.meshes.a: 'huge'"),
+        ({"openfoam": {"outer_correctors": 0}}, "openfoam.outer_correctors: 0"),
+    ],
+)
+def test_what_the_solver_cannot_do_is_refused(changes: dict[str, Any], key: str) -> None:
+    with pytest.raises(ConfigError) as raised:
+        load_config(openfoam(**changes))
+    assert str(raised.value).startswith(f"config: {key}: ")
+
+
+def test_case_without_a_channel_or_of_the_beam_is_refused(tmp_path: Path) -> None:
+    free = STEADY.model_copy(update={"geometry": GEOMETRY.model_copy(update={"upstream": None})})
+    with pytest.raises(SolverError, match=r"flow\.channel: null"):
+        mesh_of(free, 1.0)
+    assert mesh_of(STEADY, 1.0).incidence == pytest.approx(math.radians(2.5))
+
+
+def test_mesh_with_faults_is_refused(tmp_path: Path) -> None:
+    log = tmp_path / "log.checkMesh"
+    log.write_text(" ***Max skewness = 9, 3 highly skew faces\nFailed 1 mesh checks.\n")
+    with pytest.raises(SolverError, match="Max skewness = 9"):
+        require_sound_mesh(log)
+
+
+def state(folder: Path, time: str, *, cut: str = "") -> None:
+    for name in ("U", "p", "k", "omega", "nut", "phi", "uniform/time"):
+        path = folder / time / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("values" if name == cut else f"values\n{END}")
+
+
+def test_states_cut_short_are_removed(tmp_path: Path) -> None:
+    state(tmp_path, "0")
+    state(tmp_path, "2")
+    state(tmp_path, "4")
+    (tmp_path / "4" / "uniform" / "time").unlink()
+    state(tmp_path, "10", cut="U")
+    assert drop_broken_states(tmp_path) == 2.0
+    assert not (tmp_path / "4").exists()
+    assert not (tmp_path / "10").exists()
+
+
+def test_histories_of_later_starts_are_removed(tmp_path: Path) -> None:
+    for start in ("0", "2", "4"):
+        (tmp_path / "postProcessing" / "loads" / start).mkdir(parents=True)
+    drop_histories_after(tmp_path, 2.0)
+    there = sorted(path.name for path in (tmp_path / "postProcessing" / "loads").iterdir())
+    assert there == ["0", "2"]

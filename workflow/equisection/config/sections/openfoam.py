@@ -1,0 +1,64 @@
+"""Section ``openfoam``: the solver that resolves the flow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from equisection.config.checks import Problem, check
+from equisection.config.sections.base import Section
+from equisection.config.values import WHOLE, Name
+
+MeshName = Literal["coarse", "medium", "fine"]
+
+#: Environment variable of the command before each program.
+PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
+#: The largest time step (c/V) that follows the flow over the plate.
+LARGEST_TIME_STEP = 0.02
+
+
+class OpenFoam(Section):
+    """OpenFOAM, in two dimensions: k-omega SST, walls resolved, one core a case."""
+
+    meshes: Annotated[dict[Name, MeshName], Field(min_length=1)] = Field(
+        {"coarse": "coarse", "medium": "medium", "fine": "fine"},
+        description="Mesh of each resolution: `coarse` (about 1e4 cells), `medium` (2e4) or "
+        "`fine` (6e4).",
+    )
+    outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
+        3, description="Iterations of flow, loads and motion in each time step (-)."
+    )
+    prefix: str = Field(
+        "",
+        description="Command before each program, for instance `openfoam2312` or that of a "
+        "container; empty to use what is on the machine. It is the machine's and no part of a "
+        f"case; the environment variable {PREFIX_VARIABLE} goes before it.",
+    )
+
+    def input_files(self) -> list[str]:
+        """Return the files that the solver reads."""
+        return []
+
+    def environment(self) -> dict[str, str]:
+        """Return variables by which jobs find the solver on a machine."""
+        return {PREFIX_VARIABLE: self.prefix} if self.prefix else {}
+
+
+@check("solver", "unsteady.time_step")
+def _follows_the_flow(solver: str, step: float) -> Iterator[Problem]:
+    if solver == "openfoam" and step > LARGEST_TIME_STEP:
+        yield Problem(
+            "unsteady.time_step",
+            step,
+            f"allowed is up to {LARGEST_TIME_STEP:g} c/V with solver 'openfoam'",
+        )
+
+
+@check("solver", "flow.channel")
+def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
+    if solver == "openfoam" and channel is None:
+        yield Problem(
+            "flow.channel", channel, "allowed is a channel with solver 'openfoam', which meshes it"
+        )

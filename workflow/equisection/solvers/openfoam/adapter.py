@@ -1,0 +1,129 @@
+"""OpenFOAM behind the solver protocol: one case at a time, on one core.
+
+What runs a case is imported where it is called: writing a case file takes this module too, and
+none of that.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.config import Config
+from equisection.errors import SolverError
+from equisection.results.steady import SteadyResult
+from equisection.results.unsteady import UnsteadyResult
+from equisection.solvers.openfoam.installation import find
+from equisection.solvers.openfoam.process import BlowUpError
+from equisection.solvers.protocol import Capability, Progress
+
+logger = logging.getLogger(__name__)
+
+
+class Adapter:
+    """OpenFOAM on meshes of one refinement; fulfils the solver protocol."""
+
+    name = "openfoam"
+    version = "1"
+    provides: frozenset[Capability] = frozenset()
+
+    def __init__(self, mesh: str, outer_correctors: int) -> None:
+        self._mesh = mesh
+        self._outer_correctors = outer_correctors
+
+    @classmethod
+    def from_config(cls, config: Config, resolution: str) -> Adapter:
+        """Return the solver on the mesh of a resolution."""
+        section = config.openfoam
+        return cls(section.meshes[resolution], section.outer_correctors)
+
+    @classmethod
+    def from_settings(cls, settings: dict[str, Any]) -> Adapter:
+        """Return the solver of a case."""
+        return cls(settings["mesh"], settings["outer_correctors"])
+
+    def settings(self) -> dict[str, Any]:
+        """Return mesh and coupling; no path and no version of OpenFOAM, which decide nothing."""
+        return {"mesh": self._mesh, "outer_correctors": self._outer_correctors}
+
+    def describe(self) -> str:
+        """Return solver and resolution in words."""
+        from equisection.solvers.openfoam.mesh import PRESETS, cells_of  # noqa: PLC0415
+
+        cells = cells_of(PRESETS[self._mesh])
+        return f"OpenFOAM {find().version()}, k-omega SST, {cells} cells ({self._mesh})"
+
+    def run_steady(
+        self, cases: Sequence[SteadyCase], work: Path, progress: Progress
+    ) -> list[SteadyResult]:
+        """Run rigid sections, each in a folder of its own."""
+        from equisection.solvers.openfoam.mesh import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.rigid import mesh_of, rigid_loads  # noqa: PLC0415
+
+        installation = find()
+        logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
+        results = []
+        for number, case in enumerate(cases):
+
+            def tell(done: float, total: float, before: int = number) -> None:
+                progress(before + done / total, len(cases))
+
+            _require_section(case)
+            mesh = mesh_of(case, PRESETS[self._mesh])
+            try:
+                loads = rigid_loads(installation, case, mesh, work / f"case{number}", tell)
+                drag, lift, moment = loads.drag, loads.lift, loads.moment
+                results.append(
+                    SteadyResult(drag, lift, moment, _NOTHING, _NOTHING, _NOTHING, loads.method)
+                )
+            except BlowUpError as error:
+                results.append(_no_value(str(error)))
+        return results
+
+    def run_unsteady(
+        self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
+    ) -> list[UnsteadyResult]:
+        """Release sections one after the other, each until its verdict is in."""
+        from equisection.solvers.openfoam.free import SectionRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
+
+        installation = find()
+        logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
+        total = sum(case.duration for case in cases)
+        results = []
+        done = 0.0
+        for number, case in enumerate(cases):
+
+            def tell(now: float, end: float, before: float = done) -> None:
+                progress(before + now, total)
+
+            _require_section(case)
+            mesh = mesh_of(case, PRESETS[self._mesh])
+            place = work / f"case{number}"
+            run = SectionRun(installation, case, mesh, self._outer_correctors, place)
+            results.append(run.run(tell))
+            done += case.duration
+        return results
+
+
+_NOTHING = np.empty(0)
+
+
+def _require_section(case: SteadyCase | UnsteadyCase) -> None:
+    if case.dimension != "2d":
+        raise SolverError(
+            f"solver 'openfoam' has no {case.dimension} cases; allowed are models of dimension 2d"
+        )
+
+
+def _no_value(reason: str) -> SteadyResult:
+    return SteadyResult(
+        math.nan, math.nan, math.nan, _NOTHING, _NOTHING, _NOTHING, "none", failure=reason
+    )

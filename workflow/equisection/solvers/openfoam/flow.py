@@ -1,0 +1,162 @@
+"""The flow without dimensions: fields at the start, turbulence model, numerical schemes.
+
+Incompressible Reynolds-averaged equations with the k-omega SST model, walls resolved. Boundary
+and initial values are those of a uniform stream of speed 1 with a turbulence of
+:data:`TURBULENCE_INTENSITY` and :data:`VISCOSITY_RATIO`.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from equisection.cases import Geometry, Medium
+from equisection.files import write_text
+from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
+
+#: Turbulence of the stream: rms velocity over speed, and eddy viscosity over viscosity.
+TURBULENCE_INTENSITY, VISCOSITY_RATIO = 0.01, 10.0
+
+
+def reynolds_number(geometry: Geometry, medium: Medium) -> float:
+    """Return Re = rho V c/mu."""
+    return medium.density * medium.speed * geometry.chord / medium.dynamic_viscosity
+
+
+def write_flow(folder: Path, reynolds: float) -> None:
+    """Write ``constant`` and the fields at time 0."""
+    viscosity = 1.0 / reynolds
+    energy = 1.5 * TURBULENCE_INTENSITY**2
+    eddy_viscosity = VISCOSITY_RATIO * viscosity
+    for name, entries in (
+        ("transportProperties", {"transportModel": "Newtonian", "nu": viscosity}),
+        (
+            "turbulenceProperties",
+            {
+                "simulationType": "RAS",
+                "RAS": {"RASModel": "kOmegaSST", "turbulence": True, "printCoeffs": False},
+            },
+        ),
+    ):
+        write_text(folder / "constant" / name, dictionary(name, entries))
+    for name, kind, dimensions, value, on_plate in (
+        ("U", "volVectorField", "[0 1 -1 0 0 0 0]", "uniform (1 0 0)", _NO_SLIP),
+        ("p", "volScalarField", "[0 2 -2 0 0 0 0]", "uniform 0", {"type": "zeroGradient"}),
+        ("k", "volScalarField", "[0 2 -2 0 0 0 0]", f"uniform {energy:.10g}", _NO_TURBULENCE),
+        (
+            "omega",
+            "volScalarField",
+            "[0 0 -1 0 0 0 0]",
+            f"uniform {energy / eddy_viscosity:.10g}",
+            {"type": "omegaWallFunction", "value": "$internalField"},
+        ),
+        (
+            "nut",
+            "volScalarField",
+            "[0 2 -1 0 0 0 0]",
+            f"uniform {eddy_viscosity:.10g}",
+            {"type": "nutLowReWallFunction", "value": "uniform 0"},
+        ),
+    ):
+        entries = {
+            "dimensions": dimensions,
+            "internalField": value,
+            "boundaryField": _boundary(name, value, on_plate),
+        }
+        write_text(folder / "0" / name, dictionary(name, entries, kind))
+
+
+#: A wall that moves with the mesh; where the mesh stands still its velocity stays 0, so that one
+#: and the same field serves a steady run and the unsteady one that starts from it.
+_NO_SLIP = {"type": "movingWallVelocity", "value": "uniform (0 0 0)"}
+_NO_TURBULENCE = {"type": "fixedValue", "value": "uniform 1e-14"}
+
+
+def _boundary(name: str, value: str, on_plate: dict[str, str]) -> dict[str, Any]:
+    inlet: dict[str, str] = {"type": "fixedValue", "value": value}
+    outlet: dict[str, str] = {"type": "inletOutlet", "inletValue": value, "value": value}
+    if name == "p":
+        inlet, outlet = {"type": "zeroGradient"}, {"type": "fixedValue", "value": value}
+    if name == "nut":
+        inlet = outlet = {"type": "calculated", "value": value}
+    return {
+        "inlet": inlet,
+        "outlet": outlet,
+        "floor": {"type": "symmetryPlane"},
+        "ceiling": {"type": "symmetryPlane"},
+        PLATE: on_plate,
+        "sides": {"type": "empty"},
+    }
+
+
+def schemes(*, steady: bool) -> dict[str, Any]:
+    """Return ``fvSchemes``: second order in space and, where it matters, in time."""
+    bounded = "bounded " if steady else ""
+    return {
+        "ddtSchemes": {"default": "steadyState" if steady else "backward"},
+        "gradSchemes": {
+            "default": "Gauss linear",
+            "grad(k)": "cellLimited Gauss linear 1",
+            "grad(omega)": "cellLimited Gauss linear 1",
+        },
+        "divSchemes": {
+            "default": "none",
+            "div(phi,U)": f"{bounded}Gauss linearUpwind grad(U)",
+            "div(phi,k)": f"{bounded}Gauss limitedLinear 1",
+            "div(phi,omega)": f"{bounded}Gauss limitedLinear 1",
+            "div((nuEff*dev2(T(grad(U)))))": "Gauss linear",
+        },
+        "laplacianSchemes": {"default": "Gauss linear corrected"},
+        "interpolationSchemes": {"default": "linear"},
+        "snGradSchemes": {"default": "corrected"},
+        "wallDist": {"method": "meshWave"},
+    }
+
+
+def solution(*, steady: bool, outer_correctors: int = 1) -> dict[str, Any]:
+    """Return ``fvSolution``.
+
+    Parameters
+    ----------
+    steady
+        Whether the flow is steady: SIMPLEC, under-relaxed; else PIMPLE, not relaxed.
+    outer_correctors
+        Iterations of flow, loads and motion a time step.
+    """
+    pressure = {
+        "solver": "GAMG",
+        "smoother": "DICGaussSeidel",
+        "tolerance": 1e-7,
+        "relTol": 0.05,
+    }
+    transported = {
+        "solver": "smoothSolver",
+        "smoother": "symGaussSeidel",
+        "tolerance": 1e-9,
+        "relTol": 0.1 if steady else 0.01,
+    }
+    solvers: dict[str, Any] = {"p": pressure, '"(U|k|omega)"': transported}
+    if steady:
+        return {
+            "solvers": solvers,
+            "SIMPLE": {"consistent": True, "nNonOrthogonalCorrectors": 0},
+            "relaxationFactors": {"equations": {"U": 0.8, "k": 0.7, "omega": 0.7}},
+        }
+    solvers["pcorr"] = {**pressure, "tolerance": 1e-4, "relTol": 0}
+    solvers["pcorrFinal"] = solvers["pcorr"]
+    solvers["pFinal"] = {**pressure, "relTol": 0.01}
+    solvers['"(U|k|omega)Final"'] = transported
+    return {
+        "solvers": solvers,
+        "PIMPLE": {
+            "momentumPredictor": True,
+            "consistent": True,
+            "nOuterCorrectors": outer_correctors,
+            "nCorrectors": 2,
+            "nNonOrthogonalCorrectors": 0,
+            "moveMeshOuterCorrectors": True,
+            "correctPhi": False,
+            "turbOnFinalIterOnly": True,
+        },
+        "relaxationFactors": {"equations": {'".*"': 1}},
+    }

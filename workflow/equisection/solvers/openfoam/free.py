@@ -1,0 +1,260 @@
+"""The free section: released from the rigid steady flow, until its verdict is in.
+
+The run is resumed from its last whole state, if its folder has one.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.cases import SectionProperties, UnsteadyCase
+from equisection.files import write_text
+from equisection.results.unsteady import UnsteadyResult
+from equisection.signals import assess
+from equisection.solvers.openfoam import flow
+from equisection.solvers.openfoam.case_folder import (
+    copy_flow,
+    drop_broken_states,
+    drop_histories_after,
+    emptied,
+    is_ready,
+    mark_ready,
+)
+from equisection.solvers.openfoam.dictionaries import control, write_system
+from equisection.solvers.openfoam.histories import read_history
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.loads import Loads, read_loads, reasonable, require_reasonable
+from equisection.solvers.openfoam.mesh import Mesh
+from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
+from equisection.solvers.openfoam.rigid import WINDOW, Tell, run_steady
+from equisection.solvers.openfoam.section_motion import MOTION, motion_output, write_motion
+from equisection.solvers.verdicts import Motion, criteria_of, judge, refused
+
+logger = logging.getLogger(__name__)
+
+#: Interval of the states that a run is resumed from, and of the looks at the verdict (c/V).
+STATE_INTERVAL, VERDICT_INTERVAL = 2.0, 5.0
+#: Loads of the rigid section at the release, beside the run that starts from them.
+_AT_RELEASE = "release.json"
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SectionHistory:
+    """Motion and loads of the section over convective time, shape (n,).
+
+    Attributes
+    ----------
+    time
+        s (c/V).
+    twist, deflection
+        Nose up (rad); up (chords).
+    lift, moment
+        c_l, and c_m about the moving mid-chord.
+    """
+
+    time: Floats
+    twist: Floats
+    deflection: Floats
+    lift: Floats
+    moment: Floats
+
+    def sampled(self, step: float, interval: float) -> SectionHistory:
+        """Return the samples at multiples of an interval, which is one of the step."""
+        every = round(interval / step)
+        kept = np.rint(self.time / step).astype(int) % every == 0
+        return SectionHistory(
+            self.time[kept],
+            self.twist[kept],
+            self.deflection[kept],
+            self.lift[kept],
+            self.moment[kept],
+        )
+
+
+@dataclass(frozen=True)
+class SectionRun:
+    """The run of one case.
+
+    Attributes
+    ----------
+    installation
+        OpenFOAM.
+    case
+        The case.
+    mesh
+        Its mesh.
+    outer_correctors
+        Iterations of flow, loads and motion a time step.
+    work
+        Where its folders are.
+    """
+
+    installation: Installation
+    case: UnsteadyCase
+    mesh: Mesh
+    outer_correctors: int
+    work: Path
+
+    @property
+    def folder(self) -> Path:
+        """Folder of the free run, beside that of the steady flow which it starts from."""
+        return self.work / "free"
+
+    def run(self, tell: Tell) -> UnsteadyResult:
+        """Release the section and follow it until its verdict is in.
+
+        Raises
+        ------
+        SolverError
+            A program failed. A flow that blew up is a result: ``failed``, or ``growing`` if the
+            motion had grown beyond the bound before.
+        """
+        case, failure = self.case, ""
+        try:
+            if not is_ready(self.folder):
+                self._set_up(tell)
+            start = drop_broken_states(self.folder)
+            drop_histories_after(self.folder, start)
+            if start:
+                logger.info("goes on from %g c/V", start)
+            if start < case.duration:
+                run_program(self.installation, "pimpleFoam", self.folder, self._watch(start, tell))
+        except BlowUpError as error:
+            failure = str(error)
+            if not is_ready(self.folder):
+                return refused(case.model_copy(update={"refusal": failure}))
+        return _result(case, self.folder, failure)
+
+    def _watch(self, start: float, tell: Tell) -> Watch:
+        case, due = self.case, Every(VERDICT_INTERVAL, start)
+
+        def decided(time: float) -> bool:
+            tell(time, case.duration)
+            if not due.is_due(time):
+                return False
+            require_reasonable(read_loads(self.folder), self.folder)
+            return _is_decided(case, read_section(self.folder))
+
+        return decided
+
+    def _set_up(self, tell: Tell) -> None:
+        """Make the folder of the free run from the rigid steady flow, converged or not."""
+        case = self.case
+        assert case.section is not None
+
+        def nothing_yet(done: float, total: float) -> None:
+            del done, total
+            tell(0.0, case.duration)
+
+        steady = run_steady(self.installation, case, self.mesh, self.work, nothing_yet)
+        source, loads, converged = steady
+        if not converged:
+            logger.info("the steady flow does not converge; the release is from its last state")
+        folder = emptied(self.folder)
+        copy_flow(source, folder)
+        write_motion(folder, case.section, self.mesh.channel.height)
+        entries = control("pimpleFoam", case.duration, case.time_step, STATE_INTERVAL)
+        entries["functions"] |= motion_output()
+        write_system(
+            folder,
+            entries,
+            flow.schemes(steady=False),
+            flow.solution(steady=False, outer_correctors=self.outer_correctors),
+        )
+        _, lift, moment = loads.last(WINDOW // 3).means()
+        write_text(folder / _AT_RELEASE, json.dumps({"lift": lift, "moment": moment}))
+        mark_ready(folder)
+
+
+def read_section(folder: Path) -> SectionHistory:
+    """Return the history of a free run so far.
+
+    Raises
+    ------
+    SolverError
+        A file is missing or of an unknown layout.
+    """
+    loads = read_loads(folder)
+    loads = loads.first(reasonable(loads))
+    motion = read_history(
+        folder / "postProcessing" / MOTION,
+        "sixDoFRigidBodyState.dat",
+        ["centreOfRotation", "rotation"],
+    )
+    # either file may have a row that the other does not have yet
+    _, one, other = np.intersect1d(
+        _steps(loads.time), _steps(motion["Time"]), return_indices=True, assume_unique=True
+    )
+    deflection = motion["centreOfRotation"][other, 1]
+    return SectionHistory(
+        time=loads.time[one],
+        twist=-motion["rotation"][other, 2],
+        deflection=deflection,
+        lift=loads.lift[one],
+        moment=_about_moving_centre(loads, one, deflection),
+    )
+
+
+def _steps(time: Floats) -> NDArray[np.int64]:
+    """Return times as whole numbers, by which two files agree."""
+    return np.rint(time * 1e7).astype(np.int64)
+
+
+def _about_moving_centre(loads: Loads, rows: NDArray[np.intp], deflection: Floats) -> Floats:
+    """Return c_m about mid-chord at w/c from that about the centre at rest.
+
+    c_m(w) = c_m(0) - (w/c) c_d: drag above the centre at rest turns the nose up about that.
+    """
+    return loads.moment[rows] - deflection * loads.drag[rows]
+
+
+def _is_decided(case: UnsteadyCase, history: SectionHistory) -> bool:
+    tip = _tip(case.section, history.sampled(case.time_step, case.output_interval))
+    return assess(tip.time, tip.twist, tip.deflection, criteria_of(case)).decided
+
+
+def _tip(section: SectionProperties | None, history: SectionHistory) -> Motion:
+    assert section is not None
+    return Motion(
+        history.time,
+        history.twist / section.twist_recovery,
+        history.deflection / section.deflection_recovery,
+    )
+
+
+def _from_release(folder: Path, history: SectionHistory, case: UnsteadyCase) -> SectionHistory:
+    """Return the samples to be stored, the release in front."""
+    loads = json.loads((folder / _AT_RELEASE).read_text(encoding="utf-8"))
+    sampled = history.sampled(case.time_step, case.output_interval)
+    return SectionHistory(
+        np.concatenate([[0.0], sampled.time]),
+        np.concatenate([[0.0], sampled.twist]),
+        np.concatenate([[0.0], sampled.deflection]),
+        np.concatenate([[loads["lift"]], sampled.lift]),
+        np.concatenate([[loads["moment"]], sampled.moment]),
+    )
+
+
+def _result(case: UnsteadyCase, folder: Path, failure: str) -> UnsteadyResult:
+    history = _from_release(folder, read_section(folder), case)
+    tip = _tip(case.section, history)
+    return UnsteadyResult(
+        time=history.time,
+        twist=history.twist,
+        deflection=history.deflection,
+        tip_twist=tip.twist,
+        tip_deflection=tip.deflection,
+        lift=history.lift,
+        moment=history.moment,
+        incidence=math.radians(case.incidence_deg) + history.twist,
+        verdict=judge(case, tip, failure),
+    )

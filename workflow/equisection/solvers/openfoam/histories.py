@@ -1,0 +1,131 @@
+"""Histories that OpenFOAM writes beside its fields, read by the names in their headers.
+
+A run that was resumed leaves a file for each start, named by the time of the start; what a
+later one repeats replaces what stands in an earlier one.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.errors import SolverError
+
+Floats = NDArray[np.float64]
+
+_TOKEN = re.compile(r"\([^()]*\)|[^\s()]+")
+#: Relative distance within which two times are the same.
+_SAME = 1e-9
+
+
+def read_history(folder: Path, name: str, columns: Sequence[str]) -> dict[str, Floats]:
+    """Return columns of a history over all starts of a run, with ``Time``.
+
+    Parameters
+    ----------
+    folder
+        Folder of the function object, ``postProcessing/<name>``.
+    name
+        Name of its file, for instance ``coefficient.dat``.
+    columns
+        Names in the header; a vector has shape (n, 3), a number (n,).
+
+    Raises
+    ------
+    SolverError
+        There is no file, a header does not name the columns, or a row does not fit its header.
+    """
+    parts = [read_table(path, columns) for path in _files(folder, name)]
+    if not parts:
+        raise SolverError(f"{folder}: no {name}; the run wrote no history")
+    joined = parts[0]
+    for part in parts[1:]:
+        if not part["Time"].size:
+            continue
+        first = part["Time"][0]
+        keep = joined["Time"] < first - _SAME * max(abs(first), 1.0)
+        joined = {key: np.concatenate([joined[key][keep], part[key]]) for key in joined}
+    return joined
+
+
+def _files(folder: Path, name: str) -> list[Path]:
+    """Return the files of all starts in the order in which they were written."""
+    stem, _, suffix = name.rpartition(".")
+    found = []
+    for start in folder.glob("*"):
+        try:
+            time = float(start.name)
+        except ValueError:
+            continue
+        # a second start from the same time has its time in the name of the file
+        files = [start / name, *start.glob(f"{stem}_*.{suffix}")]
+        found += [
+            (time, path.name != name, path.stat().st_mtime, path)
+            for path in files
+            if path.is_file()
+        ]
+    return [path for *_, path in sorted(found)]
+
+
+def read_table(path: Path, columns: Sequence[str]) -> dict[str, Floats]:
+    """Return columns of one file; a last row that is not whole yet is left out.
+
+    Raises
+    ------
+    SolverError
+        The header does not name the columns, or a row does not fit it.
+    """
+    text = path.read_text(encoding="utf-8", errors="replace")
+    lines = text.splitlines()
+    header = _header(path, lines, ["Time", *columns])
+    rows = [line for line in lines if line.strip() and not line.startswith("#")]
+    if rows and not text.endswith("\n"):
+        rows.pop()
+    values: dict[str, list[list[float]]] = {name: [] for name in ("Time", *columns)}
+    places = {name: header.index(name) for name in values}
+    for number, row in enumerate(rows):
+        tokens = _TOKEN.findall(row)
+        if len(tokens) != len(header):
+            if number == len(rows) - 1:
+                break
+            raise SolverError(
+                f"{path}: row {number + 1} has {len(tokens)} columns, its header {len(header)}; "
+                "delete the case's folder in the store and run again"
+            )
+        try:
+            numbers = {
+                name: [float(word) for word in tokens[place].strip("()").split()]
+                for name, place in places.items()
+            }
+        except ValueError:
+            raise SolverError(f"{path}: row {number + 1} holds no numbers: {row[:80]!r}") from None
+        for name, vector in numbers.items():
+            values[name].append(vector)
+    return {name: _array(vectors) for name, vectors in values.items()}
+
+
+def _array(vectors: list[list[float]]) -> Floats:
+    array = np.array(vectors, dtype=float).reshape(len(vectors), -1)
+    return array[:, 0] if array.shape[1] == 1 else array
+
+
+def _header(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> list[str]:
+    """Return the names in the line of the header that begins with Time."""
+    for line in lines:
+        names = line.lstrip("# ").split()
+        if line.startswith("#") and names[:1] == ["Time"]:
+            missing = [name for name in wanted if name not in names]
+            if missing:
+                raise SolverError(
+                    f"{path}: columns {', '.join(names)}; wanted is {', '.join(missing)} among "
+                    "them. This layout is of a version of OpenFOAM that is not known here"
+                )
+            return names
+    raise SolverError(
+        f"{path}: no header that names its columns; this layout is of a version of OpenFOAM that "
+        "is not known here"
+    )

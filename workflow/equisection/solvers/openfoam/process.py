@@ -1,0 +1,161 @@
+"""One program of OpenFOAM at a time: its log followed, its faults told, never left behind."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import IO
+
+from equisection.errors import SolverError
+from equisection.solvers.openfoam.dictionaries import STOP_FILE
+from equisection.solvers.openfoam.installation import Installation
+
+#: Seconds between two looks at a log.
+INTERVAL = 0.2
+#: Seconds without a new line in the log after which a program counts as hung.
+SILENCE = 900.0
+#: Lines of a fault that reach the user.
+_LINES = 12
+_TIME = re.compile(rb"^Time = ([-+0-9.eE]+)", re.MULTILINE)
+
+#: Called with the latest time in the log; true ends the run at the end of a step.
+Watch = Callable[[float], bool]
+
+
+class Every:
+    """Tells whether an interval has passed since it last did."""
+
+    def __init__(self, interval: float, start: float = 0.0) -> None:
+        self._interval = interval
+        self._last = start
+
+    def is_due(self, now: float) -> bool:
+        """Tell whether it is time."""
+        if now < self._last + self._interval:
+            return False
+        self._last = now
+        return True
+
+
+class BlowUpError(SolverError):
+    """The flow or the mesh left what can be computed: a result of the case, not of the machine."""
+
+
+def run_program(
+    installation: Installation,
+    program: str,
+    folder: Path,
+    watch: Watch | None = None,
+    silence: float = SILENCE,
+) -> None:
+    """Run a program in a case to its end, or until ``watch`` says so.
+
+    Its output goes to ``log.<program>`` in the case, behind what stands there.
+
+    Raises
+    ------
+    BlowUpError
+        It ended with a floating-point exception.
+    SolverError
+        It could not start, ended with a fault, or its log has been silent for too long.
+    """
+    log = folder / f"log.{program}"
+    stop = folder / STOP_FILE
+    stop.unlink(missing_ok=True)
+    start = log.stat().st_size if log.exists() else 0
+    with log.open("ab") as output, _started(installation, program, folder, output) as process:
+        _follow(process, log, start, watch, silence)
+        status = process.wait()
+    stop.unlink(missing_ok=True)
+    if status != 0:
+        raise _fault(program, status, log, start)
+
+
+@contextmanager
+def _started(
+    installation: Installation, program: str, folder: Path, output: IO[bytes]
+) -> Iterator[subprocess.Popen[bytes]]:
+    """Start a program, and leave none of it behind whatever ends the block."""
+    command = installation.command(program)
+    try:
+        process = subprocess.Popen(
+            command,
+            cwd=folder,
+            env=installation.variables(),
+            stdin=subprocess.DEVNULL,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
+            preexec_fn=_die_with_parent,  # noqa: PLW1509 (a job has one thread)
+        )
+    except OSError as error:
+        raise SolverError(f"{' '.join(command)} does not start: {error}") from None
+    try:
+        yield process
+    finally:
+        if process.poll() is None:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
+            process.wait()
+
+
+def _die_with_parent() -> None:
+    """Ask the system (Linux) to end this process with the one that started it."""
+    if sys.platform == "linux":
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+
+
+def _follow(
+    process: subprocess.Popen[bytes],
+    log: Path,
+    start: int,
+    watch: Watch | None,
+    silence: float,
+) -> None:
+    """Read the log as it grows until the program ends; hand each new time to ``watch``."""
+    heard = time.monotonic()
+    tail = b""
+    with log.open("rb") as lines:
+        lines.seek(start)
+        while process.poll() is None:
+            time.sleep(INTERVAL)
+            new = lines.read()
+            if not new:
+                if time.monotonic() - heard > silence:
+                    raise SolverError(
+                        f"{log.name.removeprefix('log.')} has said nothing for {silence:g} s and "
+                        f"was ended; see {log}"
+                    )
+                continue
+            heard = time.monotonic()
+            tail += new
+            times = _TIME.findall(tail)
+            tail = tail[-200:]
+            if times and watch is not None and watch(float(times[-1])):
+                (log.parent / STOP_FILE).touch()
+                watch = None
+
+
+def _fault(program: str, status: int, log: Path, start: int) -> SolverError:
+    """Return what went wrong, in the words of the log."""
+    with log.open("rb") as opened:
+        opened.seek(start)
+        said = opened.read().decode(errors="replace")
+    fatal = said.rfind("FOAM FATAL")
+    if fatal >= 0:
+        words = " / ".join(line.strip() for line in said[fatal:].splitlines() if line.strip())
+        return SolverError(f"{program}: {words[:600]}; see {log}")
+    if "sigFpe" in said or status in (-signal.SIGFPE, 128 + signal.SIGFPE):
+        return BlowUpError(f"{program}: floating-point exception; see {log}")
+    how = f"signal {-status}" if status < 0 else f"status {status}"
+    last = " / ".join(said.strip().splitlines()[-3:])
+    return SolverError(f"{program} ended with {how}: {last[: _LINES * 50]}; see {log}")

@@ -1,0 +1,189 @@
+"""The rigid section: steady loads, or the mean of an unsteady run where there are none.
+
+The steady solver has converged when all loads stay within :data:`CONVERGED` of their means over
+the last :data:`WINDOW` iterations. Where it does not, the flow goes on unsteadily from there until
+the means of both halves of the record agree.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.errors import SolverError
+from equisection.files import write_text
+from equisection.solvers.openfoam import flow
+from equisection.solvers.openfoam.case_folder import copy_flow, emptied
+from equisection.solvers.openfoam.dictionaries import (
+    control,
+    dictionary,
+    write_mesh_dictionary,
+    write_system,
+)
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
+from equisection.solvers.openfoam.mesh import Channel, Mesh
+from equisection.solvers.openfoam.process import Every, run_program
+
+logger = logging.getLogger(__name__)
+
+#: Relative half range of the loads over the last iterations of a converged steady run.
+CONVERGED, WINDOW, FEWEST, MOST = 5e-4, 150, 300, 3000
+#: Time step, time left out, shortest and longest record of a rigid unsteady run (c/V), and the
+#: relative difference of the means of its halves at which they count as known.
+STEP, DISCARDED, SHORTEST, LONGEST, KNOWN = 0.01, 10.0, 40.0, 100.0, 0.01
+
+#: Called with what is done and what there is to do at most.
+Tell = Callable[[float, float], None]
+
+
+@dataclass(frozen=True)
+class RigidLoads:
+    """Loads of the rigid section, and how they were obtained."""
+
+    drag: float
+    lift: float
+    moment: float
+    method: str
+    cells: int
+
+
+def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float) -> Mesh:
+    """Return the mesh of a case.
+
+    Raises
+    ------
+    SolverError
+        The case has no channel, which the mesh fills.
+    """
+    geometry = case.geometry
+    if None in (geometry.channel_height, geometry.upstream, geometry.downstream):
+        raise SolverError("flow.channel: null: the mesh of OpenFOAM fills a channel; give one")
+    assert geometry.channel_height is not None
+    assert geometry.upstream is not None
+    assert geometry.downstream is not None
+    channel = Channel(
+        geometry.thickness, geometry.channel_height, geometry.upstream, geometry.downstream
+    )
+    return Mesh(channel, math.radians(case.incidence_deg), refinement)
+
+
+def run_steady(
+    installation: Installation, case: SteadyCase | UnsteadyCase, mesh: Mesh, work: Path, tell: Tell
+) -> tuple[Path, Loads, bool]:
+    """Make the mesh and run the steady solver until it has converged, or for long enough.
+
+    Returns
+    -------
+    tuple
+        Folder of the run, its loads over the iterations, and whether it has converged.
+
+    Raises
+    ------
+    SolverError
+        A program failed, or the mesh is not sound.
+    """
+    folder = emptied(work / "steady")
+    write_mesh_dictionary(folder, mesh)
+    flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium))
+    write_system(
+        folder,
+        control("simpleFoam", MOST, 1, MOST),
+        flow.schemes(steady=True),
+        flow.solution(steady=True),
+    )
+    run_program(installation, "blockMesh", folder)
+    run_program(installation, "checkMesh", folder)
+    require_sound_mesh(folder / "log.checkMesh")
+    seen = Every(50)
+
+    def converged(iteration: float) -> bool:
+        tell(iteration, MOST)
+        if not seen.is_due(iteration):
+            return False
+        loads = read_loads(folder)
+        require_reasonable(loads, folder)
+        return has_converged(loads)
+
+    run_program(installation, "simpleFoam", folder, converged)
+    loads = read_loads(folder)
+    require_reasonable(loads, folder)
+    return folder, loads, has_converged(loads)
+
+
+def has_converged(loads: Loads) -> bool:
+    """Tell whether a steady run has converged."""
+    return loads.time.size >= FEWEST and loads.last(WINDOW).spread() <= CONVERGED
+
+
+def require_sound_mesh(log: Path) -> None:
+    """Refuse a mesh that ``checkMesh`` finds fault with.
+
+    Raises
+    ------
+    SolverError
+        With what it said.
+    """
+    said = log.read_text(encoding="utf-8", errors="replace")
+    if "Mesh OK." not in said:
+        faults = [line.strip(" *") for line in said.splitlines() if "***" in line]
+        raise SolverError(f"the mesh is not sound: {'; '.join(faults) or 'no verdict'}; see {log}")
+
+
+def rigid_loads(
+    installation: Installation, case: SteadyCase, mesh: Mesh, work: Path, tell: Tell
+) -> RigidLoads:
+    """Return the loads of a rigid section.
+
+    Raises
+    ------
+    SolverError
+        A program failed.
+    """
+    folder, steady, converged = run_steady(installation, case, mesh, work, tell)
+    if converged:
+        drag, lift, moment = steady.last(WINDOW // 3).means()
+        iterations = f"{steady.time.size} iterations"
+        return RigidLoads(drag, lift, moment, f"steady, {iterations}", mesh.cells)
+    logger.info("%g deg: the steady solver does not converge", case.incidence_deg)
+    record = _rigid_unsteady(installation, folder, work, tell)
+    drag, lift, moment = record.means()
+    method = (
+        f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
+        f"{100 * record.drift():.2g} % apart"
+    )
+    return RigidLoads(drag, lift, moment, method, mesh.cells)
+
+
+def _rigid_unsteady(installation: Installation, source: Path, work: Path, tell: Tell) -> Loads:
+    """Go on unsteadily from a steady run, and return the record to be averaged."""
+    folder = emptied(work / "unsteady")
+    copy_flow(source, folder)
+    write_text(
+        folder / "constant" / "dynamicMeshDict",
+        dictionary("dynamicMeshDict", {"dynamicFvMesh": "staticFvMesh"}),
+    )
+    write_system(
+        folder,
+        control("pimpleFoam", DISCARDED + LONGEST, STEP, DISCARDED + LONGEST),
+        flow.schemes(steady=False),
+        flow.solution(steady=False),
+    )
+    seen = Every(5.0)
+
+    def known(time: float) -> bool:
+        tell(MOST * time / (DISCARDED + LONGEST), MOST)
+        if time < DISCARDED + SHORTEST or not seen.is_due(time):
+            return False
+        loads = read_loads(folder)
+        require_reasonable(loads, folder)
+        return loads.since(DISCARDED).drift() <= KNOWN
+
+    run_program(installation, "pimpleFoam", folder, known)
+    loads = read_loads(folder)
+    require_reasonable(loads, folder)
+    return loads.since(DISCARDED)
