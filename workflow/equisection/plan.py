@@ -9,7 +9,6 @@ from __future__ import annotations
 import itertools
 import json
 import math
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -109,11 +108,6 @@ def batches(config: Config) -> list[str]:
 def batches_before(batch: str) -> list[str]:
     """Return the batches that a round of refinement decides on."""
     return [SWEEP_BATCH, *(f"round{n}" for n in range(1, int(batch.removeprefix("round"))))]
-
-
-def is_case_name(name: str) -> bool:
-    """Tell whether a name is that of an unsteady case."""
-    return re.fullmatch(CASE_PATTERN, name) is not None
 
 
 def write_refinement(path: Path, k_star: Sequence[float]) -> None:
