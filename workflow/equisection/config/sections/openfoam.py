@@ -16,7 +16,7 @@ MeshName = Literal["coarse", "medium", "fine"]
 #: Environment variable of the command before each program.
 PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
 #: The largest time step (c/V) that follows the flow over the plate.
-LARGEST_TIME_STEP = 0.02
+LARGEST_TIME_STEP = 0.04
 
 
 class OpenFoam(Section):

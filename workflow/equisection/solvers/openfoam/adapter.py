@@ -30,7 +30,7 @@ class Adapter:
     """OpenFOAM on meshes of one refinement; fulfils the solver protocol."""
 
     name = "openfoam"
-    version = "1"
+    version = "2"
     provides: frozenset[Capability] = frozenset()
 
     def __init__(self, mesh: str, outer_correctors: int) -> None:
