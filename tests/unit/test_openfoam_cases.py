@@ -117,7 +117,21 @@ def test_models_that_need_three_dimensions_are_refused() -> None:
         check_provided(config)
     lines = str(raised.value).splitlines()
     assert [line.split(": ")[1] for line in lines] == ["sweep.models.1", "sweep.models.2"]
-    assert "2d, 2d-paper and 2d-consistent" in lines[0]
+    assert "without correction" in lines[0]
+    assert "steady.beam_polar" in lines[0]
+
+
+def test_given_beam_polar_allows_the_correction_and_its_figures_alone() -> None:
+    steady = {"beam_polar": "config/polars/paper_plate_3d.csv"}
+    config = load_config(openfoam(steady=steady, sweep={"models": ["2d", "2d-corrected"]}))
+    check_provided(config)
+    figures = plan.figures(config)
+    assert {"fig13-lift-correction", "fig14-moment-correction"} <= set(figures)
+    assert "fig10-spanwise-loads" not in figures
+    assert plan.steady_dimensions(config) == ("2d",)
+    with_beam = load_config(openfoam(steady=steady, sweep={"models": ["2d-corrected", "3d"]}))
+    with pytest.raises(ConfigError, match=r"sweep\.models\.1: '3d'.*has no 3D cases"):
+        check_provided(with_beam)
 
 
 def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:

@@ -1,9 +1,13 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 import xarray as xr
 
+from equisection.aerodynamics.polar_file import read_polar
 from equisection.errors import ResultFileError
-from equisection.results.polar import gather_polar, polar_at
+from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.results.polar import gather_polar, given_polar, polar_at
 from equisection.results.steady import SteadyResult
 
 ANGLES = (0.0, 2.0, 4.0, 6.0, 8.0)
@@ -67,3 +71,18 @@ def test_polar_is_read_without_its_failed_angles() -> None:
 def test_too_few_angles_are_refused_with_their_failures() -> None:
     with pytest.raises(ResultFileError, match=r"has 3 incidences .* at least 4 .* too far"):
         polar_at(gathered(False, (6.0, 8.0)), "fine")
+
+
+def test_given_polar_is_read_back_as_it_was(tmp_path: Path) -> None:
+    csv = tmp_path / "tunnel.csv"
+    csv.write_text(
+        "incidence_deg,CL,CM,CD\n-2.5,-.26,-.06,.054\n0,0,0,.044\n5,.48,.07,.086\n10,.57,.066,.15\n"
+    )
+    write_dataset(tmp_path / "polar.nc", given_polar(read_polar(csv, symmetric=False), "fine"))
+    dataset = read_dataset(tmp_path / "polar.nc")
+    assert dataset["incidence_deg"].values.tolist() == [-2.5, 0.0, 5.0, 10.0]
+    polar = polar_at(dataset, "fine")
+    np.testing.assert_array_equal(polar.lift, [-0.26, 0.0, 0.48, 0.57])
+    np.testing.assert_array_equal(polar.moment, [-0.06, 0.0, 0.07, 0.066])
+    np.testing.assert_array_equal(polar.drag, [0.054, 0.044, 0.086, 0.15])
+    assert polar.label == "given: tunnel"

@@ -50,7 +50,7 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
     models, k_star = len(config.sweep.models), len(config.sweep.values())
     angles = len(config.steady.incidence_deg) * (1 + len(config.steady.study))
     rounds = plan.refinement_rounds(config)
-    dimensions = len(plan.dimensions(config))
+    dimensions = len(plan.steady_dimensions(config))
     jobs = Counter((*ONCE, *(ONCE_WITH_BEAM if dimensions == 2 else ())))
     jobs.update(
         polar=dimensions,

@@ -2,6 +2,7 @@
 
 import pandas as pd
 import pytest
+import xarray as xr
 
 from tests.workflow.project import Project, small
 
@@ -21,3 +22,27 @@ def test_one_k_star_of_one_model_with_a_name_of_its_own(model: str, project: Pro
     assert "fig16-response" in figures
     assert ("fig15-modal-contributions" in figures) == (model == "3d")
     assert ("fig17-hysteresis" in figures) == (model == "2d")
+
+
+def test_given_polar_of_the_beam_takes_the_place_of_its_steady_runs(project: Project) -> None:
+    polar = "config/polars/paper_plate_3d.csv"
+    project.config = small(
+        steady={"beam_polar": polar}, sweep={"k_star": [10.0, 21.0], "models": ["2d-corrected"]}
+    )
+    project.run()
+    results = project.results
+    assert not (results / "steady" / "3d").exists()
+    assert not (results / "cases" / "steady" / "3d").exists()
+    figures = {path.stem for path in (results / "figures").glob("*.png")}
+    assert {"fig13-lift-correction", "fig14-moment-correction"} <= figures
+    assert "fig10-spanwise-loads" not in figures
+    section = xr.load_dataset(results / "steady" / "polar_2d.nc").sel(incidence_deg=5.0)
+    correction = xr.load_dataset(results / "steady" / "correction.nc")
+    factor = correction["lift_factor"].interp(incidence_deg=5.0)
+    # C_L of the file at 5 deg
+    assert float(factor) == pytest.approx(section["cl"].item() / 0.4826, rel=2e-3)
+    assert "nothing to be done" in project.run().lower()
+    (project.folder / polar).unlink()
+    missing = project.attempt()
+    assert missing.returncode != 0
+    assert "steady.beam_polar: 'config/polars/paper_plate_3d.csv'" in missing.stdout

@@ -123,23 +123,34 @@ def read_refinement(path: Path) -> list[str]:
 
 #: Figures of every run, by the paper's number.
 FIGURES = ("fig01-workflow", "fig03-modes", "fig06-section-polar", "fig16-response")
-#: Figures of the rigid beam, drawn only where the solver has 3D cases.
-FIGURES_OF_BEAM = ("fig10-spanwise-loads", "fig13-lift-correction", "fig14-moment-correction")
+#: Figures of the rigid beam, drawn only where the solver runs it.
+FIGURES_OF_BEAM = ("fig10-spanwise-loads",)
+#: Figures of the correction, drawn only where there is a polar of the rigid beam.
+FIGURES_OF_CORRECTION = ("fig13-lift-correction", "fig14-moment-correction")
 #: Figures of one dimension, drawn only where a model of it is run.
 FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
 
 
 def figures(config: Config) -> list[str]:
     """Return the names of the run's figures."""
-    of_beam = FIGURES_OF_BEAM if "3d" in dimensions(config) else ()
+    of_beam = FIGURES_OF_CORRECTION if has_beam_polar(config) else ()
+    if "3d" in steady_dimensions(config):
+        of_beam = (*FIGURES_OF_BEAM, *of_beam)
     run = {model(name, config.reduction).dimension for name in config.sweep.models}
     shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
     return sorted([*FIGURES, *of_beam, *shown])
 
 
-def dimensions(config: Config) -> tuple[str, ...]:
-    """Return the dimensions that the configured solver has cases of."""
+def steady_dimensions(config: Config) -> tuple[str, ...]:
+    """Return the dimensions of the steady cases; a beam whose polar is given has none."""
+    if config.steady.beam_polar:
+        return ("2d",)
     return SOLVERS[config.solver].dimensions
+
+
+def has_beam_polar(config: Config) -> bool:
+    """Tell whether the rigid beam's polar is given or computed, and with it the correction."""
+    return bool(config.steady.beam_polar) or "3d" in steady_dimensions(config)
 
 
 def reference_case(config: Config) -> str:

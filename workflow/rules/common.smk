@@ -29,7 +29,7 @@ STORE = "results/.store"
 ENVIRONMENT = "../../envs/environment.yaml"
 PROJECT = Path(workflow.current_basedir).parent.parent
 PROVIDES = SOLVERS[CONFIG.solver].provides
-DIMENSIONS = plan.dimensions(CONFIG)
+DIMENSIONS = plan.steady_dimensions(CONFIG)
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
 
@@ -191,13 +191,13 @@ def steady_files():
 
 
 def polar_of_beam():
-    """Return the polar of the rigid beam, if the solver has 3D cases."""
+    """Return the polar of the rigid beam, if the solver runs it."""
     return [f"{RESULTS}/steady/polar_3d.nc"] if "3d" in DIMENSIONS else []
 
 
 def correction_of_beam():
-    """Return the correction for the finite beam, if the solver has 3D cases."""
-    return [f"{RESULTS}/steady/correction.nc"] if "3d" in DIMENSIONS else []
+    """Return the correction for the finite beam, if there is a polar of the rigid one."""
+    return [f"{RESULTS}/steady/correction.nc"] if plan.has_beam_polar(CONFIG) else []
 
 
 def figure_files():

@@ -130,6 +130,33 @@ else:
             "../../scripts/index_results.py"
 
 
+if CONFIG.steady.beam_polar:
+
+    ruleorder: given_beam_polar > polar
+
+    rule given_beam_polar:
+        """Take the polar of the rigid beam from the file that the configuration names."""
+        input:
+            CONFIG.steady.beam_polar,
+        output:
+            f"{RESULTS}/steady/polar_3d.nc",
+        log:
+            f"{LOGS}/given_beam_polar.log",
+        conda:
+            ENVIRONMENT
+        threads: 1
+        resources:
+            mem_mb=500,
+            runtime=5,
+        params:
+            code=code("results/polar.py", "aerodynamics/polar_file.py"),
+            resolution=CONFIG.steady.resolution,
+        message:
+            "3d polar, given"
+        script:
+            "../../scripts/given_beam_polar.py"
+
+
 rule polar:
     """Gather the steady results of a dimension into its polar."""
     input:

@@ -28,7 +28,8 @@ class Run:
     Attributes
     ----------
     polar_3d, correction
-        Of the rigid beam; None where the solver has no 3D cases.
+        Of the rigid beam; None where the solver does not run it, the latter only where no polar
+        of it is given either.
     reference_3d
         Result of the beam at the stiffest k* of the sweep; None if the beam is not run.
     """
@@ -65,7 +66,7 @@ class Here:
     comparable: bool = True
 
 
-_NO_BEAM = Here(math.nan, "the solver of this run has no 3D cases")
+_NO_BEAM = Here(math.nan, "this run has no rigid beam of its own")
 
 
 def values_here(run: Run) -> dict[str, list[Here]]:

@@ -19,13 +19,16 @@ def check_files(config: Config, directory: Path | None = None) -> None:
     ConfigError
         With one line for each missing file.
     """
-    if config.solver != "embedded":
-        return
     directory = directory or Path.cwd()
+    named = {}
+    if config.solver == "embedded":
+        named = {f"embedded.polars.{name}": path for name, path in config.embedded.polars.items()}
+    if config.steady.beam_polar:
+        named["steady.beam_polar"] = config.steady.beam_polar
     problems = [
-        Problem(f"embedded.polars.{name}", polar, _advice(polar, directory))
-        for name, polar in config.embedded.polars.items()
-        if polar != FLAT_PLATE and not _is_file(directory / polar)
+        Problem(key, path, _advice(path, directory, built_in=key != "steady.beam_polar"))
+        for key, path in named.items()
+        if path != FLAT_PLATE and not _is_file(directory / path)
     ]
     if problems:
         raise ConfigError("\n".join(problem.line for problem in problems))
@@ -38,11 +41,12 @@ def _is_file(path: Path) -> bool:
         return False
 
 
-def _advice(polar: str, directory: Path) -> str:
+def _advice(polar: str, directory: Path, *, built_in: bool) -> str:
     place = directory / polar
     what = "a folder" if "\0" not in polar and place.is_dir() else "no such file"
-    answer = f"{what}, seen from {directory}; allowed is a CSV file or {FLAT_PLATE}"
-    candidates = {FLAT_PLATE: FLAT_PLATE}
+    allowed = f"a CSV file or {FLAT_PLATE}" if built_in else "a CSV file"
+    answer = f"{what}, seen from {directory}; allowed is {allowed}"
+    candidates = {FLAT_PLATE: FLAT_PLATE} if built_in else {}
     if "\0" not in polar and place.parent.is_dir():
         candidates |= {
             str(Path(polar).with_name(other.name)): other.name

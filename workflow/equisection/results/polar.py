@@ -46,17 +46,7 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
         joined = xr.concat(row, "incidence_deg", data_vars="all", combine_attrs="drop")
         parts.append(joined.expand_dims(resolution=[resolution]))
     polar = xr.concat(parts, "resolution", data_vars="all", combine_attrs="drop")
-    names = {**_COEFFICIENTS, **_SECTIONAL}
-    for name in polar.data_vars:
-        polar[name].attrs = {
-            "units": "1",
-            "long_name": names[str(name)],
-            "missing_allowed": "1",
-        }
-    polar["incidence_deg"].attrs = {"units": "deg", "long_name": "incidence"}
-    polar["resolution"].attrs = {"units": "1", "long_name": "resolution"}
-    if "span" in polar.coords:
-        polar["span"].attrs = {"units": "1", "long_name": "position along the span z/L"}
+    _describe(polar)
     failures = [
         f"{resolution} {angle:g} deg: {data.attrs['failure']}"
         for (resolution, angle), data in results.items()
@@ -74,6 +64,36 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
         failures="; ".join(failures),
         **{f"solver_{name}": text for name, text in solvers.items()},
     )
+
+
+def _describe(polar: xr.Dataset) -> None:
+    """Put units and names on a polar."""
+    names = {**_COEFFICIENTS, **_SECTIONAL}
+    for name in polar.data_vars:
+        polar[name].attrs = {
+            "units": "1",
+            "long_name": names[str(name)],
+            "missing_allowed": "1",
+        }
+    polar["incidence_deg"].attrs = {"units": "deg", "long_name": "incidence"}
+    polar["resolution"].attrs = {"units": "1", "long_name": "resolution"}
+    if "span" in polar.coords:
+        polar["span"].attrs = {"units": "1", "long_name": "position along the span z/L"}
+
+
+def given_polar(polar: SectionPolar, resolution: str) -> xr.Dataset:
+    """Return a polar that no solver of this run computed, as that of a resolution."""
+    columns = {"cd": polar.drag, "cl": polar.lift, "cm": polar.moment}
+    dataset = xr.Dataset(
+        {name: (("resolution", "incidence_deg"), values[None]) for name, values in columns.items()},
+        coords={
+            "resolution": [resolution],
+            "incidence_deg": np.round(np.degrees(polar.incidence), 9),
+        },
+        attrs={"failures": "", f"solver_{resolution}": f"given: {polar.label}"},
+    )
+    _describe(dataset)
+    return dataset
 
 
 def _as_all(result: xr.Dataset, others: Iterable[xr.Dataset]) -> xr.Dataset:

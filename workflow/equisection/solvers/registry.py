@@ -42,15 +42,21 @@ def check_provided(config: Config) -> None:
     """
     if "3d" in SOLVERS[config.solver].dimensions:
         return
+    given = bool(config.steady.beam_polar)
+    advice = (
+        "it has no 3D cases"
+        if given
+        else "it has no 3D cases; the corrected models need steady.beam_polar, the rigid beam's"
+    )
     problems = [
         Problem(
             f"sweep.models.{place}",
             model,
-            f"allowed with solver '{config.solver}' are 2d, 2d-paper and 2d-consistent: it has no "
-            "3D cases, which the beam and the correction for it are made of",
+            f"allowed with solver '{config.solver}' are models of dimension 2d"
+            f"{'' if given else ' without correction'}: {advice}",
         )
         for place, model in enumerate(config.sweep.models)
-        if model == "3d" or "corrected" in model
+        if model == "3d" or ("corrected" in model and not given)
     ]
     if problems:
         raise ConfigError("\n".join(problem.line for problem in problems))

@@ -26,6 +26,11 @@ class Steady(Section):
     study: tuple[Name, ...] = Field(
         (), description="Further resolutions for the grid study (Fig. 6)."
     )
+    beam_polar: str = Field(
+        "",
+        description="Polar of the rigid beam (CSV file: incidence_deg, C_L, C_M, C_D), measured "
+        "or computed elsewhere; the solver then runs no rigid beam. Empty to have it run.",
+    )
 
 
 @check("steady.incidence_deg")

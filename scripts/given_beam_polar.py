@@ -1,0 +1,18 @@
+"""Take the polar of the rigid beam from a file instead of from steady results."""
+
+from pathlib import Path
+
+from equisection.aerodynamics.polar_file import read_polar
+from equisection.results.netcdf import write_dataset
+from equisection.results.polar import given_polar
+from equisection.script import logged
+
+
+def main(polar: Path, resolution: str, output: Path) -> None:
+    """Write the file's polar as that of the run's resolution."""
+    write_dataset(output, given_polar(read_polar(polar, symmetric=False), resolution))
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(Path(snakemake.input[0]), snakemake.params.resolution, Path(snakemake.output[0]))
