@@ -33,6 +33,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if options.command == "folder":
             print(_folder(options.configfile))
+        elif options.command == "keep":
+            _keep(options.run_folder, options.folder)
         else:
             _status(options.run_folder, options.plain)
     except EquisectionError as error:
@@ -82,7 +84,30 @@ def _parser() -> argparse.ArgumentParser:
         "configure, as 'snakemake --configfile' reads them.",
     )
     folder.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
+    keep = commands.add_parser(
+        "keep",
+        help="keep a run's results for other runs",
+        description="Copy the results of a run's cases to a folder that other runs take results "
+        "from (the key 'reuse', by default results/reference). Cases that failed are left out.",
+    )
+    keep.add_argument("run_folder", type=Path, metavar="RUN_FOLDER", help="folder of a run")
+    keep.add_argument(
+        "folder",
+        nargs="?",
+        type=Path,
+        metavar="FOLDER",
+        help="where to keep them (default: results/reference/<name of the run>)",
+    )
     return parser
+
+
+def _keep(run: Path, folder: Path | None) -> None:
+    # Imported here, so that --help and --version come at once.
+    from equisection.results.kept import keep_results  # noqa: PLC0415
+
+    folder = folder or Path("results/reference") / run.resolve().name
+    copies = keep_results(run, folder)
+    print(f"{len(copies)} results of cases are kept in {folder}")
 
 
 def _folder(files: Sequence[Path]) -> Path:

@@ -70,6 +70,7 @@ rule steady_case:
         runtime=240,
     params:
         store=STORE,
+        reuse=CONFIG.reuse,
     message:
         "steady {wildcards.dimension} case {wildcards.angle}"
     script:
@@ -94,6 +95,7 @@ if Capability.BATCH in PROVIDES:
             runtime=10,
         params:
             store=STORE,
+            reuse=CONFIG.reuse,
         message:
             "steady {wildcards.dimension} cases"
         script:

@@ -70,6 +70,7 @@ rule unsteady_case:
         runtime=1440,
     params:
         store=STORE,
+        reuse=CONFIG.reuse,
     message:
         "{wildcards.model} at {wildcards.case}"
     script:
@@ -94,6 +95,7 @@ if Capability.BATCH in PROVIDES:
             runtime=60,
         params:
             store=STORE,
+            reuse=CONFIG.reuse,
         message:
             "{wildcards.model}, {wildcards.batch}"
         script:

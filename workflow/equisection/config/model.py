@@ -40,6 +40,11 @@ class Config(Section):
         description="Equivalent section of the models `2d` and `2d-corrected`: `consistent` "
         "keeps the natural frequencies, `paper` is Eq. 17 as printed.",
     )
+    reuse: str = Field(
+        "results/reference",
+        description="Folder with results of earlier runs: a case that one of them is the result "
+        "of, by its hash, is not computed again. Empty to compute every case.",
+    )
     beam: Beam = Field(Beam(), description="The beam.")
     flow: Flow = Field(Flow(), description="The flow.")
     structure: Structure = Field(Structure(), description="Mode computation.")

@@ -23,6 +23,7 @@ from equisection.cases import Case, SteadyCase, UnsteadyCase, case_hash
 from equisection.errors import ResultFileError, SolverError
 from equisection.files import written_whole
 from equisection.progress import JobProgress
+from equisection.results.kept import kept_results
 from equisection.results.netcdf import read_attributes, write_dataset
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
@@ -42,7 +43,11 @@ class Task:
 
 
 def run_cases(
-    cases: Mapping[str, Case], folder: Path, store: Path, progress_file: Path
+    cases: Mapping[str, Case],
+    folder: Path,
+    store: Path,
+    progress_file: Path,
+    reuse: Path | None = None,
 ) -> dict[str, dict[str, Any]]:
     """Run the cases that the store does not have, and publish the results of all.
 
@@ -56,6 +61,8 @@ def run_cases(
         Folder of the results by hash.
     progress_file
         Where the job says how far it is.
+    reuse
+        Folder with results of earlier runs, which are taken into the store.
 
     Returns
     -------
@@ -71,6 +78,8 @@ def run_cases(
     """
     tasks = {name: Task(case, case_hash(case)) for name, case in cases.items()}
     known = {task.hash: _in_store(store, task.hash) for task in tasks.values()}
+    if reuse is not None and None in known.values():
+        known |= _reused(reuse, [wanted for wanted, found in known.items() if not found], store)
     missing = {task.hash: task for task in tasks.values() if known[task.hash] is None}
     logger.info("%d cases, %d of them to be computed", len(tasks), len(missing))
     for group in _alike(list(missing.values())):
@@ -96,6 +105,21 @@ def _in_store(store: Path, wanted: str) -> dict[str, Any] | None:
     except ResultFileError as error:
         logger.warning("%s; it is computed again", error)
         return None
+
+
+def _reused(folder: Path, wanted: list[str], store: Path) -> dict[str, dict[str, Any]]:
+    """Copy kept results into the store; return their attributes by hash."""
+    kept, found = kept_results(folder), {}
+    for name in wanted:
+        if name not in kept:
+            continue
+        logger.info("taken from %s, where it is kept", kept[name])
+        stored = _result(store, name)
+        stored.parent.mkdir(parents=True, exist_ok=True)
+        with written_whole(stored) as aside:
+            shutil.copyfile(kept[name], aside)
+        found[name] = read_attributes(stored, name)
+    return found
 
 
 def _alike(tasks: list[Task]) -> list[list[Task]]:
