@@ -108,6 +108,16 @@ def test_factors_are_even_and_positive(alpha: float) -> None:
     assert PLATE.moment_factor(alpha) > 0
 
 
+def test_what_a_solver_leaves_of_zero_changes_no_factor() -> None:
+    left = SectionPolar(
+        SECTION.incidence, SECTION.drag, SECTION.lift - 7e-5, SECTION.moment + 2e-6, "not quite"
+    )
+    alpha = np.radians([0.0, 0.3, 1.0, 2.5, 5.0])
+    clean, noisy = CorrectionFactors(SECTION, BEAM), CorrectionFactors(left, BEAM)
+    np.testing.assert_allclose(noisy.lift_factor(alpha), clean.lift_factor(alpha), rtol=1e-12)
+    np.testing.assert_allclose(noisy.moment_factor(alpha), clean.moment_factor(alpha), rtol=1e-12)
+
+
 def test_beam_coefficient_that_vanishes_alone_is_named() -> None:
     degrees = np.radians([0, 1, 2, 3, 4])
     flat, rising = np.array([0, 0.1, 0.2, 0.2, 0.2]), np.array([0, 0.1, 0.0, -0.1, -0.1])

@@ -35,6 +35,9 @@ from equisection.errors import DivergenceError, ReductionError
 
 Floats = NDArray[np.float64]
 
+#: A coefficient this small at zero incidence, relative to the largest of its polar, is zero.
+_ZERO = 1e-3
+
 
 @dataclass(frozen=True)
 class CorrectionFactors:
@@ -122,7 +125,7 @@ def _quotient(
     section: PchipInterpolator, beam: PchipInterpolator, alpha: ArrayLike, name: str
 ) -> Floats:
     incidence = np.asarray(alpha, dtype=np.float64)
-    if section(0.0) == 0 and beam(0.0) == 0:
+    if _vanishes_at_zero(section) and _vanishes_at_zero(beam):
         above, below = _mean_slope(section, incidence), _mean_slope(beam, incidence)
     else:
         above, below = section(incidence), beam(incidence)
@@ -139,17 +142,25 @@ def _quotient(
     return quotient
 
 
-def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
-    """c(alpha)/alpha (1/rad) of a curve through zero, with its limit at alpha = 0.
+def _vanishes_at_zero(curve: PchipInterpolator) -> bool:
+    """Tell whether a curve passes through zero, but for what a solver leaves of zero."""
+    greatest = np.max(np.abs(curve(curve.x)))
+    return bool(abs(curve(0.0)) <= _ZERO * greatest)
 
-    It is the mean of the slope between zero and alpha. Up to the first knot the slope is
+
+def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
+    """(c(alpha) - c(0))/alpha (1/rad) of a curve through zero, with its limit at alpha = 0.
+
+    c(0) is what a solver leaves of zero. It is the mean of the slope between zero and alpha. Up to the first knot the slope is
     quadratic and Gauss' rule of two points is exact, without the division of zero by zero.
     """
     first_knot = np.min(np.abs(curve.x[curve.x != 0]))
     near = np.abs(incidence) <= first_knot
     lower, upper = 0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0)
     mean = 0.5 * (curve(lower * incidence, 1) + curve(upper * incidence, 1))
-    secant: Floats = np.where(near, mean, curve(incidence) / np.where(near, 1.0, incidence))
+    secant: Floats = np.where(
+        near, mean, (curve(incidence) - curve(0.0)) / np.where(near, 1.0, incidence)
+    )
     return secant
 
 
