@@ -151,8 +151,9 @@ def _vanishes_at_zero(curve: PchipInterpolator) -> bool:
 def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
     """(c(alpha) - c(0))/alpha (1/rad) of a curve through zero, with its limit at alpha = 0.
 
-    c(0) is what a solver leaves of zero. It is the mean of the slope between zero and alpha. Up to the first knot the slope is
-    quadratic and Gauss' rule of two points is exact, without the division of zero by zero.
+    c(0) is what a solver leaves of zero. It is the mean of the slope between zero and alpha. Up
+    to the first knot the slope is quadratic and Gauss' rule of two points is exact, without the
+    division of zero by zero.
     """
     first_knot = np.min(np.abs(curve.x[curve.x != 0]))
     near = np.abs(incidence) <= first_knot
