@@ -310,6 +310,20 @@ class TestTables:
         assert table.loc["C_3", "analytic beam"] == pytest.approx(0.004 / 0.37 / (2 * math.pi))
         assert list(table["kind"]) == ["bending", "bending", "torsion", "bending", "torsion"]
 
+    def test_table_2_says_what_three_finer_and_finer_meshes_converge_to(self) -> None:
+        """Errors of 16 % h^2: the element sizes are 1, 1/2 and 1/3 in chord and span."""
+        factors = np.array([1.16, 1.04, 1.0 + 0.16 / 9])
+        study = mesh_study().isel(elements=[0, 0, 0])
+        study["frequency"] = (("elements", "mode"), factors[:, None] * FREQUENCY)
+        study["mesh"] = ("elements", ["4 x 15 x 1", "8 x 30 x 1", "12 x 45 x 1"])
+        table = table_2(modes(), study, 0.01, True).set_index("constant")
+        assert table["observed_order"].to_numpy() == pytest.approx(2.0)
+        assert table["extrapolated"].to_numpy() == pytest.approx(
+            table["solid 24 x 89 x 2"].to_numpy()
+        )
+        assert (table["convergence"] == "monotonic").all()
+        assert table["gci"].to_numpy() == pytest.approx(1.25 * 0.16 / 9 / factors[-1])
+
     def test_table_2_of_another_case_without_second_torsion(self) -> None:
         few = modes().isel(mode=[0, 1, 2, 3])
         table = table_2(few, mesh_study(), 0.01, False).set_index("constant")

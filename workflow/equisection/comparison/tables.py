@@ -15,6 +15,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from equisection.comparison.grid_convergence import cell_size, grid_convergence
 from equisection.comparison.paper_values import COEFFICIENTS, TABLE_1, TABLE_2, TABLE_2_KINDS
 
 
@@ -60,8 +61,9 @@ def table_2(
 ) -> pd.DataFrame:
     """Return ``tables/table2.csv``: C_1 to C_5 by mesh.
 
-    The paper's meshes first, then those of the mesh study, the mesh of this run, and the
-    analytic beam. Modes are paired by kind, since in-plane ones stand between them.
+    The paper's meshes first, then those of the mesh study, what the three finest of these
+    converge to, the mesh of this run, and the analytic beam. Modes are paired by kind, since
+    in-plane ones stand between them.
 
     Parameters
     ----------
@@ -76,6 +78,8 @@ def table_2(
     of_study = modes_of_table_2([str(kind) for kind in mesh_study["kind"].values])
     finest = f"{modes.attrs['method']} {modes.attrs['elements']}"
     first_torsion = _at(mesh_study["analytic_frequency"], of_study[TABLE_2_KINDS.index("torsion")])
+    meshes = [str(mesh) for mesh in mesh_study["mesh"].values]
+    sizes = _element_sizes(meshes)
     rows = []
     for number, kind in enumerate(TABLE_2_KINDS):
         row: dict[str, object] = {"constant": f"C_{number + 1}", "kind": kind}
@@ -83,15 +87,40 @@ def table_2(
             row[f"paper {mesh}"] = published[number] if is_paper_case else math.nan
         constant = _at(modes["frequency_constant"], of_modes[number])
         frequency = _at(modes["frequency"], of_modes[number])
-        for level, mesh in enumerate(mesh_study["mesh"].values):
-            coarser = _at(mesh_study["frequency"].isel(elements=level), of_study[number])
-            row[f"mesh {mesh}"] = constant * coarser / frequency
+        study = {
+            f"mesh {mesh}": constant
+            * _at(mesh_study["frequency"].isel(elements=level), of_study[number])
+            / frequency
+            for level, mesh in enumerate(meshes)
+        }
+        row |= study | _convergence(list(study.values()), sizes)
         row[finest] = constant
         analytic = _at(mesh_study["analytic_frequency"], of_study[number])
         row["analytic beam"] = thickness_over_span * analytic / (2.0 * math.pi * first_torsion)
         row["frequency_hz"] = frequency
         rows.append(row)
     return pd.DataFrame(rows)
+
+
+def _element_sizes(meshes: Sequence[str]) -> list[float]:
+    """Return h of meshes as ``12 x 44 x 1``, by the directions in which they differ."""
+    counts = np.array([[int(number) for number in mesh.split(" x ")] for mesh in meshes])
+    refined = max(1, int((counts != counts[-1]).any(axis=0).sum()))
+    return [cell_size(int(number), refined) for number in counts.prod(axis=1)]
+
+
+def _convergence(values: Sequence[float], sizes: Sequence[float]) -> dict[str, object]:
+    """Return the convergence of a value as columns; none without three finer and finer meshes."""
+    if len(values) < 3 or not sizes[-3] > sizes[-2] > sizes[-1]:
+        return {}
+    coarse, medium, fine = values[-3:]
+    found = grid_convergence((coarse, medium, fine), (sizes[-3], sizes[-2], sizes[-1]))
+    return {
+        "convergence": str(found.convergence),
+        "observed_order": found.order,
+        "extrapolated": found.extrapolated,
+        "gci": found.index,
+    }
 
 
 def modes_of_table_2(kinds: Sequence[str]) -> list[int | None]:
