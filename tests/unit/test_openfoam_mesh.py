@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from equisection.errors import SolverError
-from equisection.solvers.openfoam.mesh import PRESETS, Channel, Mesh, cells_of, expansion
+from equisection.solvers.openfoam.mesh import Channel, Mesh, expansion
+from equisection.solvers.openfoam.presets import PRESETS
 
 CHANNEL = Channel(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
 
@@ -46,10 +47,10 @@ def test_mesh_fills_the_channel() -> None:
 
 @pytest.mark.parametrize(
     ("preset", "low", "high"),
-    [("coarse", 9e3, 1.3e4), ("medium", 1.8e4, 2.5e4), ("fine", 4.5e4, 6e4)],
+    [("coarse", 9e3, 1.3e4), ("medium", 1.8e4, 2.5e4), ("fine", 4.5e4, 6e4), ("paper", 7e4, 9e4)],
 )
 def test_presets_have_the_cells_that_they_promise(preset: str, low: float, high: float) -> None:
-    assert low <= cells_of(PRESETS[preset]) <= high
+    assert low <= PRESETS[preset].cells <= high
 
 
 def test_blocks_hold_the_cells_that_are_counted() -> None:
@@ -64,6 +65,14 @@ def test_meshes_of_a_grid_study_are_similar() -> None:
     gradings = [re.findall(r"edgeGrading.*", text) for text in (coarse, fine)]
     assert gradings[0] == gradings[1]
     assert mesh(refinement=2.0).cells == 4 * mesh().cells
+
+
+def test_meshes_of_a_grid_study_have_the_papers_ratios_of_refinement() -> None:
+    """Of counts rounded to even numbers, within 1 %."""
+    sizes = [PRESETS[name].cells ** -0.5 for name in ("coarse", "medium", "fine")]
+    assert all(PRESETS[name].is_similar for name in ("coarse", "medium", "fine"))
+    assert sizes[0] / sizes[1] == pytest.approx(math.sqrt(2.0), rel=0.01)
+    assert sizes[1] / sizes[2] == pytest.approx(math.sqrt(2.5), rel=0.01)
 
 
 @pytest.mark.parametrize(("length", "cells", "first"), [(1.0, 10, 0.01), (0.7, 32, 3e-4)])

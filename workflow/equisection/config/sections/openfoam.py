@@ -11,7 +11,7 @@ from equisection.config.checks import Problem, check
 from equisection.config.sections.base import Section
 from equisection.config.values import WHOLE, Name
 
-MeshName = Literal["coarse", "medium", "fine"]
+MeshName = Literal["coarse", "medium", "fine", "paper"]
 
 #: Environment variable of the command before each program.
 PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
@@ -24,8 +24,8 @@ class OpenFoam(Section):
 
     meshes: Annotated[dict[Name, MeshName], Field(min_length=1)] = Field(
         {"coarse": "coarse", "medium": "medium", "fine": "fine"},
-        description="Mesh of each resolution: `coarse` (about 1e4 cells), `medium` (2e4) or "
-        "`fine` (6e4).",
+        description="Mesh of each resolution: `coarse` (about 1e4 cells), `medium` (2e4), `fine` "
+        "(6e4), which are similar, or `paper` (8e4), which has the paper's cell sizes.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
         3, description="Iterations of flow, loads and motion in each time step (-)."

@@ -54,19 +54,19 @@ class Adapter:
 
     def describe(self) -> str:
         """Return solver and resolution in words."""
-        from equisection.solvers.openfoam.mesh import PRESETS, cells_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
-        cells = cells_of(PRESETS[self._mesh])
+        cells = PRESETS[self._mesh].cells
         return f"OpenFOAM {find().version()}, k-omega SST, {cells} cells ({self._mesh})"
 
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
     ) -> list[SteadyResult]:
         """Run rigid sections, each in a folder of its own."""
-        from equisection.solvers.openfoam.mesh import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
         from equisection.solvers.openfoam.rigid import mesh_of, rigid_loads  # noqa: PLC0415
 
-        installation = find()
+        installation, preset = find(), PRESETS[self._mesh]
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         results = []
         for number, case in enumerate(cases):
@@ -75,7 +75,7 @@ class Adapter:
                 progress(before + done / total, len(cases))
 
             _require_section(case)
-            mesh = mesh_of(case, PRESETS[self._mesh])
+            mesh = mesh_of(case, preset.refinement, preset.spacing)
             try:
                 loads = rigid_loads(installation, case, mesh, work / f"case{number}", tell)
                 drag, lift, moment = loads.drag, loads.lift, loads.moment
@@ -91,10 +91,10 @@ class Adapter:
     ) -> list[UnsteadyResult]:
         """Release sections one after the other, each until its verdict is in."""
         from equisection.solvers.openfoam.free import SectionRun  # noqa: PLC0415
-        from equisection.solvers.openfoam.mesh import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
         from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
 
-        installation = find()
+        installation, preset = find(), PRESETS[self._mesh]
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         total = sum(case.duration for case in cases)
         results = []
@@ -105,7 +105,7 @@ class Adapter:
                 progress(before + now, total)
 
             _require_section(case)
-            mesh = mesh_of(case, PRESETS[self._mesh])
+            mesh = mesh_of(case, preset.refinement, preset.spacing)
             place = work / f"case{number}"
             run = SectionRun(installation, case, mesh, self._outer_correctors, place)
             results.append(run.run(tell))

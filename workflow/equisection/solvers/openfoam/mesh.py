@@ -11,24 +11,21 @@ Lines of blocks, in chords from mid-chord; the four inner lines each way are tur
     0  +----+--+----+---+--------+    floor
        0    1  2    3   4        5  x
 
-A resolution refines all cells alike: counts grow, the grading of a block stays, so that meshes of
-a grid study are similar.
+A refinement divides all cells alike: counts grow, the grading of a block stays, so that meshes of
+a grid study are similar. How cells are spread over the blocks is a :class:`Spacing`.
 """
 
 from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from equisection.errors import SolverError
-
-#: Refinement of each direction against the coarse mesh (about 1e4, 2e4 and 5e4 cells).
-PRESETS: Mapping[str, float] = {"coarse": 1.0, "medium": math.sqrt(2.0), "fine": math.sqrt(5.0)}
 
 #: Reach of the near field ahead of the plate, behind it, and to either side (chords).
 AHEAD, BEHIND, ASIDE = 0.7, 1.5, 0.7
@@ -42,7 +39,37 @@ _COLUMNS, _ROWS = (8, 20, 56, 30, 22), (6, 32, 10, 32, 6)
 #: and behind these, and across the plate's thickness as a part of it.
 _AT_WALL, _AT_EDGE, _OFF_EDGE, _ACROSS = 3e-4, 2.5e-3, 1.2e-3, 0.04
 
-Point = tuple[float, float]
+#: Points where the lines cross (6, 6, 2), block, and line of the other direction: the grading.
+Grading = Callable[[NDArray[np.float64], int, int], str]
+
+
+@dataclass(frozen=True)
+class Spacing:
+    """How many cells each block has at refinement 1, and how their sizes go.
+
+    Attributes
+    ----------
+    columns, rows
+        Cells between the lines along x and along y, even numbers.
+    along
+        Grading of column i on line j of y, from the points.
+    across
+        Grading on line i of x of row j, from the points.
+    """
+
+    columns: tuple[int, ...]
+    rows: tuple[int, ...]
+    along: Grading
+    across: Grading
+
+    def refined(self, refinement: float) -> tuple[list[int], list[int]]:
+        """Return columns and rows, even so that both ends of a side get as many."""
+        return _refined(self.columns, refinement), _refined(self.rows, refinement)
+
+    def cells(self, refinement: float = 1.0) -> int:
+        """Return the number of cells of a mesh, which has none inside the plate."""
+        columns, rows = self.refined(refinement)
+        return sum(columns) * sum(rows) - columns[2] * rows[2]
 
 
 @dataclass(frozen=True)
@@ -66,17 +93,20 @@ class Mesh:
     incidence
         Incidence (rad), nose up.
     refinement
-        Refinement of each direction against the coarse mesh.
+        Refinement of each direction.
+    spacing
+        What is refined; by default that of the meshes of a grid study.
     """
 
     channel: Channel
     incidence: float
     refinement: float
+    spacing: Spacing = field(default_factory=lambda: SIMILAR)
 
     @property
     def cells(self) -> int:
         """Number of cells."""
-        return cells_of(self.refinement)
+        return self.spacing.cells(self.refinement)
 
     def points(self) -> NDArray[np.float64]:
         """Return where the lines cross (chords), shape (6, 6, 2), by x and then y.
@@ -138,26 +168,19 @@ class Mesh:
     def _block(self, points: NDArray[np.float64], i: int, j: int) -> str:
         corners = [_vertex(*at) for at in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
         corners += [corner + 36 for corner in corners]
-        along = [_along(points, i, line) for line in (j, j + 1)]
-        across = [_across(points, line, j) for line in (i, i + 1)]
+        along = [self.spacing.along(points, i, line) for line in (j, j + 1)]
+        across = [self.spacing.across(points, line, j) for line in (i, i + 1)]
         # the order of blockMesh's edges: x at the four corners (y, z), y at (x, z), then z
         gradings = [along[0], along[1], along[1], along[0]]
         gradings += [across[0], across[1], across[1], across[0]]
-        columns, rows = _refined(_COLUMNS, self.refinement), _refined(_ROWS, self.refinement)
+        columns, rows = self.spacing.refined(self.refinement)
         return (
             f"    hex ({' '.join(map(str, corners))}) ({columns[i]} {rows[j]} 1) "
             f"edgeGrading ({' '.join([*gradings, '1', '1', '1', '1'])})"
         )
 
 
-def cells_of(refinement: float) -> int:
-    """Return the number of cells of a mesh."""
-    columns, rows = _refined(_COLUMNS, refinement), _refined(_ROWS, refinement)
-    return sum(columns) * sum(rows) - columns[2] * rows[2]
-
-
 def _refined(numbers: tuple[int, ...], refinement: float) -> list[int]:
-    """Return numbers of cells, even so that both ends of a side get as many."""
     return [2 * round(number * refinement / 2) for number in numbers]
 
 
@@ -183,7 +206,7 @@ def _along(points: NDArray[np.float64], i: int, line: int) -> str:
     if i == 1:
         return f"{1 / expansion(AHEAD, _COLUMNS[1], _OFF_EDGE):.8g}"
     if i == 2:
-        return _both_ends(expansion(0.5, _COLUMNS[2] // 2, _AT_EDGE))
+        return both_ends(expansion(0.5, _COLUMNS[2] // 2, _AT_EDGE))
     if i == 3:
         return f"{expansion(BEHIND, _COLUMNS[3], _OFF_EDGE):.8g}"
     near = BEHIND / _COLUMNS[3] * 3.0
@@ -198,15 +221,20 @@ def _across(points: NDArray[np.float64], line: int, j: int) -> str:
         return f"{1 / ratio if j == 0 else ratio:.8g}"
     if j == 2:
         if line in (2, 3):
-            return _both_ends(expansion(0.5, _ROWS[2] // 2, _ACROSS))
+            return both_ends(expansion(0.5, _ROWS[2] // 2, _ACROSS))
         return "1"
     first = {0: 1.2e-2, 1: 3e-3, 2: _AT_WALL, 3: _AT_WALL, 4: 4e-3, 5: 1.2e-2}[line]
     ratio = expansion(length, _ROWS[j], first)
     return f"{1 / ratio if j == 1 else ratio:.8g}"
 
 
-def _both_ends(ratio: float) -> str:
+def both_ends(ratio: float) -> str:
+    """Return the grading that grows by a ratio to the middle of an edge and shrinks again."""
     return f"((0.5 0.5 {ratio:.8g}) (0.5 0.5 {1 / ratio:.8g}))"
+
+
+#: The spacing of the meshes of a grid study: sizes that grow geometrically over each block.
+SIMILAR: Spacing = Spacing(_COLUMNS, _ROWS, _along, _across)
 
 
 def _blocks() -> Iterator[tuple[int, int]]:

@@ -26,7 +26,7 @@ from equisection.solvers.openfoam.dictionaries import (
 )
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
-from equisection.solvers.openfoam.mesh import Channel, Mesh
+from equisection.solvers.openfoam.mesh import SIMILAR, Channel, Mesh, Spacing
 from equisection.solvers.openfoam.process import Every, run_program
 
 logger = logging.getLogger(__name__)
@@ -52,7 +52,7 @@ class RigidLoads:
     cells: int
 
 
-def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float) -> Mesh:
+def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = SIMILAR) -> Mesh:
     """Return the mesh of a case.
 
     Raises
@@ -69,13 +69,21 @@ def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float) -> Mesh:
     channel = Channel(
         geometry.thickness, geometry.channel_height, geometry.upstream, geometry.downstream
     )
-    return Mesh(channel, math.radians(case.incidence_deg), refinement)
+    return Mesh(channel, math.radians(case.incidence_deg), refinement, spacing)
 
 
 def run_steady(
-    installation: Installation, case: SteadyCase | UnsteadyCase, mesh: Mesh, work: Path, tell: Tell
+    installation: Installation,
+    case: SteadyCase | UnsteadyCase,
+    mesh: Mesh,
+    work: Path,
+    tell: Tell,
+    *,
+    readable: bool = False,
 ) -> tuple[Path, Loads, bool]:
     """Make the mesh and run the steady solver until it has converged, or for long enough.
+
+    ``readable`` has mesh and fields written as text, for those who read them here.
 
     Returns
     -------
@@ -90,15 +98,16 @@ def run_steady(
     folder = emptied(work / "steady")
     write_mesh_dictionary(folder, mesh)
     flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium))
+    entries = control("simpleFoam", MOST, 1, MOST)
+    if readable:
+        entries["writeFormat"] = "ascii"
     write_system(
         folder,
-        control("simpleFoam", MOST, 1, MOST),
+        entries,
         flow.schemes(steady=True),
         flow.solution(steady=True),
     )
-    run_program(installation, "blockMesh", folder)
-    run_program(installation, "checkMesh", folder)
-    require_sound_mesh(folder / "log.checkMesh")
+    make_mesh(installation, folder)
     seen = Every(50)
 
     def converged(iteration: float) -> bool:
@@ -113,6 +122,19 @@ def run_steady(
     loads = read_loads(folder)
     require_reasonable(loads, folder)
     return folder, loads, has_converged(loads)
+
+
+def make_mesh(installation: Installation, folder: Path) -> None:
+    """Make the mesh of a folder with its dictionaries, and have it checked.
+
+    Raises
+    ------
+    SolverError
+        A program failed, or the mesh is not sound.
+    """
+    run_program(installation, "blockMesh", folder)
+    run_program(installation, "checkMesh", folder)
+    require_sound_mesh(folder / "log.checkMesh")
 
 
 def has_converged(loads: Loads) -> bool:
