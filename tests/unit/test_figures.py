@@ -13,10 +13,13 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import equisection
+from equisection.comparison.grid_study import grid_study
 from equisection.figures import (
     fig01_workflow,
     fig03_modes,
+    fig05_section_mesh,
     fig06_section_polar,
+    fig08_courant_number,
     fig10_spanwise_loads,
     fig13_lift_correction,
     fig14_moment_correction,
@@ -29,6 +32,7 @@ from equisection.figures.rule_graph import RuleGraph, RuleText
 from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import write_dataset
+from equisection.results.section_mesh import SectionMesh
 from equisection.results.unsteady import UnsteadyResult
 from equisection.structure.plate import Plate
 
@@ -80,6 +84,22 @@ def correction(value=1.2) -> xr.Dataset:
     return xr.Dataset(
         {"lift_factor": factor, "moment_factor": factor}, {"incidence_deg": incidence}
     )
+
+
+def section_mesh() -> xr.Dataset:
+    """Return squares of 1/2 c around mid-chord, the flow faster in those to the right."""
+    across = np.arange(-2, 3) / 2
+    points = np.stack(np.meshgrid(across, across), axis=-1).reshape(-1, 2)
+    first = np.array([5 * row + column for row in range(4) for column in range(4)])
+    corners = first[:, None] + np.array([0, 1, 6, 5])
+    quality = {
+        "max_aspect_ratio": 1.0,
+        "max_non_orthogonality_deg": 0.0,
+        "mean_non_orthogonality_deg": 0.0,
+        "max_skewness": 0.0,
+    }
+    mesh = SectionMesh(points, corners, 1.0 + first % 5, 0.02, 2.5, "made up", quality)
+    return mesh.to_dataset().assign_attrs(solver_description=SOLVER, resolution="coarse")
 
 
 def modes(count=4) -> xr.Dataset:
@@ -153,6 +173,8 @@ def figures_of_data():
     return {
         "fig01": lambda: fig01_workflow.draw(graph, texts, SOLVER),
         "fig06": lambda: fig06_section_polar.draw(section_polar(("coarse", "fine", "finest"))),
+        "fig05": lambda: fig05_section_mesh.draw(section_mesh()),
+        "fig08": lambda: fig08_courant_number.draw(section_mesh()),
         "fig10": lambda: fig10_spanwise_loads.draw(beam_polar(), "coarse"),
         "fig13": lambda: fig13_lift_correction.draw(whole),
         "fig14": lambda: fig14_moment_correction.draw(whole),
@@ -195,6 +217,35 @@ def test_polars_may_miss_points():
     figure = fig06_section_polar.draw(section_polar(missing=(2,)))
     assert "1 of 6 cases have no result" in words(figure).replace("\n", " ")
     lay_out(figure)
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [((1.16, 1.04, 1.01), "monotonic"), ((1.1, 1.0, 1.02), "oscillatory")],
+)
+def test_polars_of_a_grid_study_show_its_index(values, said):
+    polar = section_polar(("coarse", "medium", "fine"))
+    for name in ("cl", "cm"):
+        polar[name] = polar[name] * xr.DataArray(list(values), dims="resolution")
+    study = grid_study(polar, {"coarse": 100, "medium": 400, "fine": 1600})
+    figure = fig06_section_polar.draw(polar, study)
+    assert said in words(figure)
+    assert "2.0" in words(figure) or said == "oscillatory"
+    lay_out(figure)
+
+
+def test_polars_of_a_grid_study_without_an_order_say_so():
+    polar = section_polar(("coarse", "medium", "fine"))
+    study = grid_study(polar, {"coarse": 100, "medium": 400, "fine": 1600})
+    figure = fig06_section_polar.draw(polar, study)
+    assert "has an observed order" in words(figure).replace("\n", " ")
+    lay_out(figure)
+
+
+def test_courant_number_says_how_much_of_the_area_is_below_the_limit():
+    figure = fig08_courant_number.draw(section_mesh())
+    assert "25.0 % of the area below 1.5" in words(figure)
+    assert "mean 2.5" in words(figure)
 
 
 def test_polars_may_be_empty():

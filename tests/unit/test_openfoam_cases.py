@@ -139,7 +139,9 @@ def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
     assert plan.figures(config) == [
         "fig01-workflow",
         "fig03-modes",
+        "fig05-section-mesh",
         "fig06-section-polar",
+        "fig08-courant-number",
         "fig16-response",
         "fig17-hysteresis",
     ]

@@ -38,7 +38,7 @@ def test_nothing_says_how_to_install(tmp_path: Path) -> None:
 
 def test_part_of_it_names_what_is_missing(tmp_path: Path) -> None:
     search = with_programs(tmp_path / "bin", "blockMesh", "checkMesh", "simpleFoam")
-    with pytest.raises(SolverError, match="not whole, pimpleFoam missing"):
+    with pytest.raises(SolverError, match="not whole, pimpleFoam, postProcess missing"):
         find(search, NOWHERE)
 
 

@@ -41,6 +41,10 @@ ONCE_WITH_BEAM = (
 )
 
 
+#: Rules that run once where the solver has a mesh of the section.
+ONCE_WITH_MESH = ("section_mesh", "fig05_section_mesh", "fig08_courant_number")
+
+
 def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
     """Return the jobs of a run on a fresh clone, counted from its configuration alone.
 
@@ -52,8 +56,11 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
     rounds = plan.refinement_rounds(config)
     dimensions = len(plan.steady_dimensions(config))
     jobs = Counter((*ONCE, *(ONCE_WITH_BEAM if dimensions == 2 else ())))
+    if plan.has_mesh(config):
+        jobs.update(ONCE_WITH_MESH)
     jobs.update(
         polar=dimensions,
+        grid_study=plan.has_grid_study(config),
         refine_onset=models * rounds,
         fig15_modal_contributions="3d" in config.sweep.models,
         fig17_hysteresis=any(model.startswith("2d") for model in config.sweep.models),

@@ -15,6 +15,7 @@ from pathlib import Path
 
 from equisection.config import Config
 from equisection.files import write_text
+from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
 
 #: Patterns of the wildcards of the rules.
@@ -127,6 +128,8 @@ FIGURES = ("fig01-workflow", "fig03-modes", "fig06-section-polar", "fig16-respon
 FIGURES_OF_BEAM = ("fig10-spanwise-loads",)
 #: Figures of the correction, drawn only where there is a polar of the rigid beam.
 FIGURES_OF_CORRECTION = ("fig13-lift-correction", "fig14-moment-correction")
+#: Figures of the mesh of the section, drawn only where the solver has one.
+FIGURES_OF_MESH = ("fig05-section-mesh", "fig08-courant-number")
 #: Figures of one dimension, drawn only where a model of it is run.
 FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
 
@@ -136,9 +139,10 @@ def figures(config: Config) -> list[str]:
     of_beam = FIGURES_OF_CORRECTION if has_beam_polar(config) else ()
     if "3d" in steady_dimensions(config):
         of_beam = (*FIGURES_OF_BEAM, *of_beam)
+    of_mesh = FIGURES_OF_MESH if has_mesh(config) else ()
     run = {model(name, config.reduction).dimension for name in config.sweep.models}
     shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
-    return sorted([*FIGURES, *of_beam, *shown])
+    return sorted([*FIGURES, *of_beam, *of_mesh, *shown])
 
 
 def steady_dimensions(config: Config) -> tuple[str, ...]:
@@ -151,6 +155,16 @@ def steady_dimensions(config: Config) -> tuple[str, ...]:
 def has_beam_polar(config: Config) -> bool:
     """Tell whether the rigid beam's polar is given or computed, and with it the correction."""
     return bool(config.steady.beam_polar) or "3d" in steady_dimensions(config)
+
+
+def has_mesh(config: Config) -> bool:
+    """Tell whether the configured solver has a mesh."""
+    return Capability.MESH in SOLVERS[config.solver].provides
+
+
+def has_grid_study(config: Config) -> bool:
+    """Tell whether the section is run on the three meshes that an order of convergence needs."""
+    return has_mesh(config) and len(resolutions(config)) >= 3
 
 
 def reference_case(config: Config) -> str:

@@ -32,6 +32,7 @@ PROVIDES = SOLVERS[CONFIG.solver].provides
 DIMENSIONS = plan.steady_dimensions(CONFIG)
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
+MESH_CASE = plan.angle_name(CONFIG.steady.resolution, CONFIG.flow.incidence_deg)
 
 # Jobs inherit what tells them where the solver is on this machine.
 for name, value in CONFIG.solver_section.environment().items():
@@ -209,6 +210,11 @@ def figure_files():
     ]
 
 
+def grid_study_of_section():
+    """Return the grid study of the section, if it is run on three meshes."""
+    return [f"{RESULTS}/tables/grid_study.csv"] if plan.has_grid_study(CONFIG) else []
+
+
 def comparison_files():
     """Return the tables that compare the models with each other and with the paper."""
     return [
@@ -219,4 +225,7 @@ def comparison_files():
 def table_files():
     """Return the paper's tables; Table 1 is that of the rigid beam."""
     tables = ("table1", "table2") if "3d" in DIMENSIONS else ("table2",)
-    return [f"{RESULTS}/tables/{name}.csv" for name in tables]
+    return [
+        *(f"{RESULTS}/tables/{name}.csv" for name in tables),
+        *grid_study_of_section(),
+    ]

@@ -92,10 +92,41 @@ rule fig03_modes:
         "../../scripts/fig03_modes.py"
 
 
+rule fig05_section_mesh:
+    """The mesh of the section: channel, near field, leading edge (Fig. 5)."""
+    input:
+        section_mesh=f"{RESULTS}/steady/section_mesh.nc",
+        style=STYLE,
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig05-section-mesh.png",
+            caption="../report/fig05.rst",
+            category="Figures",
+            labels={"figure": "5", "shows": "mesh of the section"},
+        ),
+        svg=f"{RESULTS}/figures/fig05-section-mesh.svg",
+        pdf=f"{RESULTS}/figures/fig05-section-mesh.pdf",
+    log:
+        f"{LOGS}/fig05_section_mesh.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code(*DRAWING, "figures/fig05_section_mesh.py", "results/section_mesh.py"),
+    message:
+        "Fig. 5, mesh of the section"
+    script:
+        "../../scripts/fig05_section_mesh.py"
+
+
 rule fig06_section_polar:
     """Section polars at each resolution (Fig. 6)."""
     input:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+        grid_study=grid_study_of_section(),
         style=STYLE,
     output:
         png=report(
@@ -120,6 +151,38 @@ rule fig06_section_polar:
         "Fig. 6, section polars"
     script:
         "../../scripts/fig06_section_polar.py"
+
+
+rule fig08_courant_number:
+    """Courant number on the mesh of the section (Fig. 8)."""
+    input:
+        section_mesh=f"{RESULTS}/steady/section_mesh.nc",
+        style=STYLE,
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig08-courant-number.png",
+            caption="../report/fig08.rst",
+            category="Figures",
+            labels={"figure": "8", "shows": "Courant number"},
+        ),
+        svg=f"{RESULTS}/figures/fig08-courant-number.svg",
+        pdf=f"{RESULTS}/figures/fig08-courant-number.pdf",
+    log:
+        f"{LOGS}/fig08_courant_number.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code(
+            *DRAWING, "figures/fig08_courant_number.py", "results/section_mesh.py"
+        ),
+    message:
+        "Fig. 8, Courant number"
+    script:
+        "../../scripts/fig08_courant_number.py"
 
 
 rule fig10_spanwise_loads:

@@ -179,3 +179,57 @@ rule polar:
         "{wildcards.dimension} polar"
     script:
         "../../scripts/polar.py"
+
+
+rule section_mesh:
+    """Make the section's mesh, and its Courant number in the steady flow at the run's incidence."""
+    input:
+        case=f"{RESULTS}/cases/steady/2d/{MESH_CASE}.json",
+    output:
+        f"{RESULTS}/steady/section_mesh.nc",
+    log:
+        f"{LOGS}/section_mesh.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=2000,
+        runtime=60,
+    params:
+        store=STORE,
+        time_step=CONFIG.unsteady.time_step,
+    message:
+        "mesh of the section"
+    script:
+        "../../scripts/section_mesh.py"
+
+
+rule grid_study:
+    """Observed order and grid convergence index of the section's polar."""
+    input:
+        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+    output:
+        report(
+            f"{RESULTS}/tables/grid_study.csv",
+            caption="../report/grid_study.rst",
+            category="Tables",
+            labels={
+                "table": "grid study",
+                "shows": "convergence of the section polar",
+            },
+        ),
+    log:
+        f"{LOGS}/grid_study.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("comparison/grid_convergence.py", "comparison/grid_study.py"),
+        config=RESOLVED,
+    message:
+        "grid study of the section polar"
+    script:
+        "../../scripts/grid_study.py"

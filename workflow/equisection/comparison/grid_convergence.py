@@ -95,7 +95,7 @@ def grid_convergence(
     if math.isnan(order):
         kind = Convergence.OSCILLATORY if sign < 0 else Convergence.UNDEFINED
         return GridConvergence(kind, math.nan, math.nan, math.nan, second)
-    extrapolated = fine - e_21 / (r_21**order - 1)
+    extrapolated = float(fine - e_21 / (r_21**order - 1))
     return GridConvergence(kind, order, extrapolated, _index(e_21, fine, r_21, order), second)
 
 

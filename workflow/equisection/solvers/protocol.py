@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
 
@@ -18,6 +19,7 @@ class Capability(StrEnum):
     BATCH = "batch"  # many cases in one job cost less than one by one
     SURFACE = "surface"  # pressure and friction along the section
     FIELDS = "fields"  # the flow field
+    MESH = "mesh"  # a mesh of the section, which can be shown and refined
 
 
 #: Called with time simulated and longest time (c/V), summed over the cases of the job.
@@ -67,5 +69,24 @@ class Solver(Protocol):
         ------
         SolverError
             The solver itself could not run.
+        """
+        ...
+
+
+class MeshingSolver(Solver, Protocol):
+    """A solver with the capability ``mesh``."""
+
+    @property
+    def similar_cells(self) -> int | None:
+        """Number of cells; none of a mesh that is not similar to those of other resolutions."""
+        ...
+
+    def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
+        """Return the mesh of a rigid section, with its Courant number at a time step (c/V).
+
+        Raises
+        ------
+        SolverError
+            The mesh is not sound, or the solver could not run.
         """
         ...

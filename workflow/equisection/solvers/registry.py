@@ -28,7 +28,9 @@ class Entry:
 
 SOLVERS: dict[str, Entry] = {
     "embedded": Entry("equisection.solvers.embedded", frozenset({Capability.BATCH})),
-    "openfoam": Entry("equisection.solvers.openfoam.adapter", frozenset(), dimensions=("2d",)),
+    "openfoam": Entry(
+        "equisection.solvers.openfoam.adapter", frozenset({Capability.MESH}), dimensions=("2d",)
+    ),
 }
 
 

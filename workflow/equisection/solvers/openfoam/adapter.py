@@ -17,6 +17,7 @@ import numpy as np
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.errors import SolverError
+from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.openfoam.installation import find
@@ -31,7 +32,7 @@ class Adapter:
 
     name = "openfoam"
     version = "2"
-    provides: frozenset[Capability] = frozenset()
+    provides = frozenset({Capability.MESH})
 
     def __init__(self, mesh: str, outer_correctors: int) -> None:
         self._mesh = mesh
@@ -58,6 +59,24 @@ class Adapter:
 
         cells = PRESETS[self._mesh].cells
         return f"OpenFOAM {find().version()}, k-omega SST, {cells} cells ({self._mesh})"
+
+    @property
+    def similar_cells(self) -> int | None:
+        """Number of cells; none of a mesh that is not similar to the others."""
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+
+        preset = PRESETS[self._mesh]
+        return preset.cells if preset.is_similar else None
+
+    def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
+        """Return the mesh of a rigid section, with its Courant number at a time step (c/V)."""
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.section_mesh import section_mesh  # noqa: PLC0415
+
+        preset = PRESETS[self._mesh]
+        mesh = mesh_of(case, preset.refinement, preset.spacing)
+        return section_mesh(find(), case, mesh, time_step, work)
 
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress

@@ -22,7 +22,7 @@ from equisection.config.sections.openfoam import PREFIX_VARIABLE
 from equisection.errors import SolverError
 
 #: Programs that a case needs.
-PROGRAMS = ("blockMesh", "checkMesh", "simpleFoam", "pimpleFoam")
+PROGRAMS = ("blockMesh", "checkMesh", "simpleFoam", "pimpleFoam", "postProcess")
 #: Where Debian's package has OpenFOAM's ``etc``; its own ``etc/bashrc`` cannot be sourced.
 DEBIAN = Path("/usr/share/openfoam")
 _HOW = (

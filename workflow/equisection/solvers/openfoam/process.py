@@ -10,7 +10,7 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
@@ -55,7 +55,9 @@ def run_program(
     program: str,
     folder: Path,
     watch: Watch | None = None,
+    *,
     silence: float = SILENCE,
+    arguments: Sequence[str] = (),
 ) -> None:
     """Run a program in a case to its end, or until ``watch`` says so.
 
@@ -72,7 +74,8 @@ def run_program(
     stop = folder / STOP_FILE
     stop.unlink(missing_ok=True)
     start = log.stat().st_size if log.exists() else 0
-    with log.open("ab") as output, _started(installation, program, folder, output) as process:
+    command = [*installation.command(program), *arguments]
+    with log.open("ab") as output, _started(installation, command, folder, output) as process:
         _follow(process, log, start, watch, silence)
         status = process.wait()
     stop.unlink(missing_ok=True)
@@ -82,10 +85,9 @@ def run_program(
 
 @contextmanager
 def _started(
-    installation: Installation, program: str, folder: Path, output: IO[bytes]
+    installation: Installation, command: Sequence[str], folder: Path, output: IO[bytes]
 ) -> Iterator[subprocess.Popen[bytes]]:
     """Start a program, and leave none of it behind whatever ends the block."""
-    command = installation.command(program)
     try:
         process = subprocess.Popen(
             command,

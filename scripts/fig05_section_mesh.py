@@ -1,0 +1,25 @@
+"""Fig. 5: the mesh of the section."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from equisection.figures.fig05_section_mesh import draw
+from equisection.figures.save import save_figure
+from equisection.figures.style import drawing_style
+from equisection.results.netcdf import read_dataset
+from equisection.script import logged
+
+
+def main(section_mesh: Path, style: Path, outputs: Sequence[Path]) -> None:
+    """Draw the mesh."""
+    with drawing_style(style):
+        save_figure(draw(read_dataset(section_mesh)), outputs)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            Path(snakemake.input.section_mesh),
+            Path(snakemake.input.style),
+            [Path(path) for path in snakemake.output],
+        )

@@ -1,0 +1,36 @@
+"""Make the mesh of the section, and its Courant number in the steady flow."""
+
+from pathlib import Path
+from typing import cast
+
+from equisection.cases import SteadyCase, case_hash, read_cases
+from equisection.results.netcdf import write_dataset
+from equisection.script import logged
+from equisection.solvers.protocol import MeshingSolver
+from equisection.solvers.registry import solver_from_case
+
+
+def main(cases: Path, time_step: float, store: Path, output: Path) -> None:
+    """Have the solver mesh the one case of ``cases``; ``time_step`` is in c/V."""
+    ((_, case),) = read_cases(cases).items()
+    solver = cast(MeshingSolver, solver_from_case(case.solver))
+    identity = case_hash(case)
+    mesh = solver.section_mesh(cast(SteadyCase, case), time_step, store / identity / "mesh")
+    dataset = mesh.to_dataset().assign_attrs(
+        case_hash=identity,
+        solver=solver.name,
+        solver_version=solver.version,
+        solver_description=solver.describe(),
+        resolution=case.resolution,
+    )
+    write_dataset(output, dataset)
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            Path(snakemake.input.case),
+            snakemake.params.time_step,
+            Path(snakemake.params.store),
+            Path(snakemake.output[0]),
+        )

@@ -1,0 +1,109 @@
+"""The mesh that OpenFOAM made, as it stands in its files, and the Courant number in its cells."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.cases import SteadyCase
+from equisection.errors import SolverError
+from equisection.results.section_mesh import SectionMesh
+from equisection.solvers.openfoam.case_folder import states
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.mesh import Mesh
+from equisection.solvers.openfoam.process import run_program
+from equisection.solvers.openfoam.rigid import run_steady
+
+#: What ``checkMesh`` says of the mesh, by our names.
+_QUALITY = {
+    "max_aspect_ratio": r"Max aspect ratio = ([\d.e+-]+)",
+    "max_non_orthogonality_deg": r"non-orthogonality Max: ([\d.e+-]+)",
+    "mean_non_orthogonality_deg": r"non-orthogonality Max: .* average: ([\d.e+-]+)",
+    "max_skewness": r"Max skewness = ([\d.e+-]+)",
+}
+
+Floats = NDArray[np.float64]
+
+
+def section_mesh(
+    installation: Installation, case: SteadyCase, mesh: Mesh, time_step: float, work: Path
+) -> SectionMesh:
+    """Return the mesh of a case, and the Courant number of its steady flow at a time step (c/V).
+
+    ``CourantNo`` of OpenFOAM is 0.5 sum |phi| dt/V over the faces of a cell; the steady run's dt
+    is 1.
+
+    Raises
+    ------
+    SolverError
+        A program failed, or the mesh is not sound.
+    """
+    folder, loads, converged = run_steady(installation, case, mesh, work, _nothing, readable=True)
+    run_program(
+        installation, "postProcess", folder, arguments=("-func", "CourantNo", "-latestTime")
+    )
+    points, corners = read_cells(folder)
+    courant = _numbers(states(folder)[-1] / "Co")[: len(corners)]
+    how = "converged" if converged else "not converged"
+    return SectionMesh(
+        points=points,
+        corners=corners,
+        courant=time_step * courant,
+        time_step=time_step,
+        incidence_deg=case.incidence_deg,
+        flow=f"rigid, steady, {how} after {loads.time.size} iterations",
+        quality=quality(folder / "log.checkMesh"),
+    )
+
+
+def _nothing(done: float, total: float) -> None:
+    del done, total
+
+
+def quality(log: Path) -> dict[str, float]:
+    """Return the numbers that ``checkMesh`` gives.
+
+    Raises
+    ------
+    SolverError
+        One of them is not in its log.
+    """
+    said = log.read_text(encoding="utf-8", errors="replace")
+    found = {name: re.search(pattern, said) for name, pattern in _QUALITY.items()}
+    missing = [name for name, match in found.items() if match is None]
+    if missing:
+        raise SolverError(f"{log}: no {', '.join(missing)} in it; is this checkMesh's log?")
+    return {name: float(match[1]) for name, match in found.items() if match}
+
+
+def read_cells(folder: Path) -> tuple[Floats, NDArray[np.int64]]:
+    """Return points (n, 2) and corners of the cells (m, 4) of a plane mesh written as text.
+
+    A cell of one layer has one face in the plane of negative z, which shows the cell.
+    """
+    place = folder / "constant" / "polyMesh"
+    points = _numbers(place / "points").reshape(-1, 3)
+    owner = _numbers(place / "owner").astype(np.int64)
+    flat = re.findall(r"^4\(([\d ]+)\)", _body(place / "faces"), re.MULTILINE)
+    faces = np.array([line.split() for line in flat], dtype=np.int64)
+    low = points[:, 2] < 0
+    shown = np.flatnonzero(low[faces].all(axis=1))
+    corners = faces[shown][np.argsort(owner[shown])]
+    numbers = np.cumsum(low) - 1
+    return points[low, :2], numbers[corners]
+
+
+def _body(path: Path) -> str:
+    """Return the list that a file begins with, behind its head."""
+    return path.read_text(encoding="ascii").split("// * *", 1)[1]
+
+
+def _numbers(path: Path) -> Floats:
+    """Return the numbers of a file's first list."""
+    match = re.search(r"^(\d+)\s*\n\((.*?)^\)", _body(path), re.MULTILINE | re.DOTALL)
+    if match is None:
+        raise SolverError(f"{path}: no list of numbers written as text")
+    return np.fromstring(re.sub(r"[()]", " ", match[2]), sep=" ")
