@@ -32,14 +32,10 @@ ONCE = (
 )
 
 #: Rules that run once where the solver has 3D cases.
-ONCE_WITH_BEAM = (
-    "correction_factors",
-    "fig10_spanwise_loads",
-    "fig13_lift_correction",
-    "fig14_moment_correction",
-    "rigid_beam_table",
-)
+ONCE_WITH_BEAM = ("fig10_spanwise_loads", "rigid_beam_table")
 
+#: Rules that run once where there is a polar of the beam, computed or given.
+ONCE_WITH_BEAM_POLAR = ("correction_factors", "fig13_lift_correction", "fig14_moment_correction")
 
 #: Rules that run once where the solver has a mesh of the section.
 ONCE_WITH_MESH = ("section_mesh", "fig05_section_mesh", "fig08_courant_number")
@@ -56,10 +52,13 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
     rounds = plan.refinement_rounds(config)
     dimensions = len(plan.steady_dimensions(config))
     jobs = Counter((*ONCE, *(ONCE_WITH_BEAM if dimensions == 2 else ())))
+    if plan.has_beam_polar(config):
+        jobs.update(ONCE_WITH_BEAM_POLAR)
     if plan.has_mesh(config):
         jobs.update(ONCE_WITH_MESH)
     jobs.update(
         polar=dimensions,
+        given_beam_polar=bool(config.steady.beam_polar),
         grid_study=plan.has_grid_study(config),
         refine_onset=models * rounds,
         fig15_modal_contributions="3d" in config.sweep.models,
