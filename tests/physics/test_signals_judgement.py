@@ -58,6 +58,17 @@ def test_means_of_a_release_are_right_before_it_has_come_to_rest(rate):
     assert verdict.growth_rate == pytest.approx(rate, rel=0.01)
 
 
+@pytest.mark.parametrize("rate", [-0.006, -0.01])
+def test_fall_that_does_not_slow_ends_a_run_long_before_it_is_over(rate):
+    """Two windows after the transient are 70 c/V; a fifth of it is left after 160 or more."""
+    twist, deflection = release(rate, heave_rate=0.05)
+    verdict = early(S, twist, deflection, step=5.0)
+    assert verdict.regime == "settled"
+    assert "does not slow" in verdict.reason
+    assert verdict.end_time < 100.0
+    assert verdict.growth_rate == pytest.approx(rate, rel=0.02)
+
+
 def test_heave_that_rings_under_a_twist_at_rest():
     heave = np.exp(-0.01 * S) * np.cos(2.0 * np.pi * S / 40.0)
     verdict = early(S, REST + 0.01, 0.3 - 0.1 * heave, natural_frequency=1.0 / PERIOD)

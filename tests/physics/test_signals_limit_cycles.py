@@ -53,6 +53,18 @@ def test_supercritical_saturates(start, rate):
     assert np.degrees(verdict.twist_amplitude) == pytest.approx(2.0, rel=0.005)
 
 
+@pytest.mark.parametrize("power", [1.0, 2.0, 3.0])
+@pytest.mark.parametrize("rate", [0.004, 0.01, 0.03])
+@pytest.mark.parametrize("start", [1.3, 2.0, 4.0])
+def test_falling_to_a_limit_cycle_is_not_settling(power, rate, start):
+    """dA/ds = rate A (1 - (A/A_0)^n) with A_0 = 1 deg, exact, looked at every 5 c/V."""
+    amplitude = (1.0 + (start**-power - 1.0) * np.exp(-power * rate * S)) ** (-1.0 / power)
+    twist = np.radians(amplitude * np.sin(OMEGA * S))
+    for end in np.arange(20.0, 301.0, 5.0):
+        upto = end >= S
+        assert assess(S[upto], twist[upto], REST[upto]).regime != "settled"
+
+
 def test_saturation_beyond_the_bound_is_growth():
     twist = np.radians(stuart_landau(0.1, 0.05, 8.0) * np.sin(OMEGA * S))
     assert assess(S, twist, REST).regime == "growing"

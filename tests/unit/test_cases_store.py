@@ -14,7 +14,9 @@ from equisection.cases import (
     Case,
     SteadyCase,
     UnsteadyCase,
+    are_alike,
     case_hash,
+    history_hash,
     read_cases,
     write_cases,
 )
@@ -228,3 +230,25 @@ def test_refused_case_needs_no_structure() -> None:
         {**UNSTEADY.model_dump(), "section": None, "refusal": "it diverges"}
     )
     assert math.isclose(case.k_star, 6.44)
+
+
+def test_history_is_that_of_a_case_whatever_ends_it() -> None:
+    criteria = UNSTEADY.criteria.model_copy(update={"periods": 9})
+    longer = UNSTEADY.model_copy(update={"criteria": criteria, "duration": 900.0})
+    assert case_hash(longer) != case_hash(UNSTEADY)
+    assert history_hash(longer) == history_hash(UNSTEADY)
+    for name, value in (("k_star", 5.0), ("time_step", 0.025), ("output_interval", 0.05)):
+        other = UNSTEADY.model_copy(update={name: value})
+        assert history_hash(other) != history_hash(UNSTEADY)
+
+
+def test_cases_are_alike_but_for_rounding() -> None:
+    one = json.loads(canonical(UNSTEADY))
+    for difference, alike in ((1e-8, True), (1e-5, False)):
+        other = json.loads(canonical(UNSTEADY))
+        other["section"]["mass"] *= 1 + difference
+        assert are_alike(one, other) is alike
+    assert not are_alike(one, json.loads(canonical(STEADY)))
+    assert are_alike([1.0, 1e-9], [1.0, 2e-9])  # beside the largest of a list
+    assert not are_alike([1.0, 1e-9], [1.0])
+    assert not are_alike({"mesh": "coarse"}, {"mesh": "fine"})

@@ -13,6 +13,7 @@ from equisection.results.kept import keep_results, kept_results
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.solvers import job
 from equisection.solvers.job import run_cases
+from equisection.solvers.result_store import ResultStore, Task
 
 
 def write(path: Path, case: Case, **attributes: str) -> None:
@@ -41,7 +42,9 @@ def run(tmp_path: Path) -> Path:
 
 def test_results_of_cases_are_kept_but_for_failed_ones(run: Path, tmp_path: Path) -> None:
     keep_results(run, tmp_path / "kept")
-    assert kept_results(tmp_path / "kept") == {
+    assert {
+        kept.attributes["case_hash"]: kept.path for kept in kept_results(tmp_path / "kept")
+    } == {
         case_hash(STEADY): tmp_path / "kept/steady/2d/coarse_a2.5.nc",
         case_hash(at(5.0)): tmp_path / "kept/unsteady/2d/k5.nc",
     }
@@ -54,11 +57,13 @@ def test_kept_result_is_taken_and_others_are_computed(
     keep_results(run, kept)
     computed = []
 
-    def compute(tasks: list[job.Task], store: Path, progress: Path) -> dict[str, dict[str, object]]:
+    def compute(
+        tasks: list[Task], store: ResultStore, progress: Path
+    ) -> dict[str, dict[str, object]]:
         del progress
         for task in tasks:
             computed.append(task.case)
-            write(store / task.hash / "result.nc", task.case)
+            write(store.result(task), task.case)
         return {task.hash: {} for task in tasks}
 
     monkeypatch.setattr(job, "_compute", compute)

@@ -11,9 +11,18 @@ from equisection.cases.model import (
     SteadyCase,
     UnsteadyCase,
 )
-from equisection.cases.store import case_hash, read_cases, write_cases
+from equisection.cases.store import (
+    ENDS,
+    are_alike,
+    canonical,
+    case_hash,
+    history_hash,
+    read_cases,
+    write_cases,
+)
 
 __all__ = [
+    "ENDS",
     "BeamModes",
     "Case",
     "Criteria",
@@ -23,7 +32,10 @@ __all__ = [
     "SolverBlock",
     "SteadyCase",
     "UnsteadyCase",
+    "are_alike",
+    "canonical",
     "case_hash",
+    "history_hash",
     "read_cases",
     "write_cases",
 ]

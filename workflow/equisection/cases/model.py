@@ -90,8 +90,13 @@ class BeamModes(Block):
 
 
 class Criteria(Block):
-    """When the run ends and what it is called."""
+    """When the run ends and what it is called; they decide nothing of its history.
 
+    ``rules`` is the version of the judgement in equisection.signals. It changes whenever the same
+    history would get another verdict, or get it at another time.
+    """
+
+    rules: Literal[2] = 2
     settled_amplitude_deg: float
     growing_amplitude_deg: float
     steadiness: float

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import math
 from collections.abc import Mapping
 from functools import reduce
 from pathlib import Path
@@ -16,13 +17,17 @@ from typing import Annotated, Any
 
 from pydantic import Field, TypeAdapter, ValidationError
 
-from equisection.cases.model import SCHEMA_VERSION, Case
+from equisection.cases.model import SCHEMA_VERSION, Case, UnsteadyCase
 from equisection.errors import CaseFileError
 from equisection.files import write_text
 
 #: Significant digits of a number in a case. Eigenvectors differ in the last digits from one
 #: machine to the next; more digits would ask for new runs without a new case.
 SIGNIFICANT_DIGITS = 8
+#: Relative difference of two numbers up to which they ask for the same.
+ALIKE = 1e-6
+#: What decides the end of an unsteady case, and nothing before it.
+ENDS = {"criteria", "duration"}
 
 _CASE: TypeAdapter[Case] = TypeAdapter(Annotated[Case, Field(discriminator="kind")])
 
@@ -35,6 +40,42 @@ def canonical(case: Case) -> str:
 def case_hash(case: Case) -> str:
     """Return the SHA-256 of the canonical case (64 hexadecimal digits)."""
     return hashlib.sha256(canonical(case).encode()).hexdigest()
+
+
+def history_hash(case: UnsteadyCase) -> str:
+    """Return the SHA-256 of what decides the history of a case: all but when it is to end.
+
+    Cases that differ in their criteria and in the longest duration alone have the same history,
+    one of them more of it than the other.
+    """
+    values = _rounded(case.model_dump(mode="json", exclude=ENDS))
+    return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()
+
+
+def are_alike(one: Any, other: Any, tolerance: float = ALIKE) -> bool:
+    """Tell whether two cases, as what JSON holds, ask for the same but for rounding.
+
+    Numbers may differ by a part of their size, those of a list by that part of its largest: on
+    the way from one machine to the next the last digits of eigenvectors change, and with them now
+    and then a digit that a hash sees.
+    """
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(
+            are_alike(one[key], other[key], tolerance) for key in one
+        )
+    if isinstance(one, list) and isinstance(other, list):
+        if one and all(isinstance(value, float) for value in [*one, *other]):
+            size = max(map(abs, one))
+            return len(one) == len(other) and all(
+                math.isclose(a, b, rel_tol=tolerance, abs_tol=tolerance * size)
+                for a, b in zip(one, other, strict=True)
+            )
+        return len(one) == len(other) and all(
+            are_alike(a, b, tolerance) for a, b in zip(one, other, strict=True)
+        )
+    if isinstance(one, float) and isinstance(other, float):
+        return math.isclose(one, other, rel_tol=tolerance)
+    return bool(one == other)
 
 
 def write_cases(path: Path, cases: Mapping[str, Case]) -> None:

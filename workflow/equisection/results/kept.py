@@ -1,13 +1,20 @@
 """Results that are kept with the project, so that whoever has it need not compute them again.
 
-They are the results of cases as a run leaves them, one file each, found by the case's hash.
+They are the results of cases as a run leaves them, one file each, found by the hash of the case or,
+where the file has the case itself, by that.
 """
 
 from __future__ import annotations
 
+import json
 import shutil
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
+from typing import Any
 
+from equisection.cases import ENDS, Case, UnsteadyCase, are_alike, canonical
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
 from equisection.results.netcdf import read_attributes
@@ -16,14 +23,45 @@ from equisection.results.netcdf import read_attributes
 _KINDS = ("steady", "unsteady")
 
 
-def kept_results(folder: Path) -> dict[str, Path]:
-    """Return the whole results below a folder by the hash of their case."""
-    found = {}
+@dataclass(frozen=True)
+class Kept:
+    """A result that is kept, with its attributes."""
+
+    path: Path
+    attributes: dict[str, Any]
+
+    @property
+    def end_time(self) -> float:
+        """Length of the history (c/V); 0 of a steady case."""
+        return float(self.attributes.get("end_time", 0.0))
+
+    @cached_property
+    def case(self) -> dict[str, Any]:
+        """The case, empty where the file does not have it."""
+        found: dict[str, Any] = json.loads(self.attributes.get("case", "{}"))
+        return found
+
+    def is_of(self, case: Case) -> bool:
+        """Tell whether the case that it is of differs from this one by rounding alone."""
+        return are_alike(self.case, json.loads(canonical(case)))
+
+    def has_history_of(self, case: UnsteadyCase) -> bool:
+        """Tell whether it differs from a case by rounding and by what ends it alone."""
+        return are_alike(_without_end(self.case), _without_end(json.loads(canonical(case))))
+
+
+def _without_end(case: dict[str, Any]) -> dict[str, Any]:
+    return {key: value for key, value in case.items() if key not in ENDS}
+
+
+def kept_results(folder: Path) -> list[Kept]:
+    """Return the whole results of cases below a folder, the longest first."""
+    found = []
     for path in sorted(folder.rglob("*.nc")):
-        case_hash = _case_hash(path)
-        if case_hash:
-            found[case_hash] = path
-    return found
+        attributes = _attributes(path)
+        if attributes.get("case_hash"):
+            found.append(Kept(path, attributes))
+    return sorted(found, key=lambda kept: -kept.end_time)
 
 
 def keep_results(run: Path, folder: Path) -> list[Path]:
@@ -42,7 +80,8 @@ def keep_results(run: Path, folder: Path) -> list[Path]:
     copies = []
     for kind in _KINDS:
         for path in sorted((run / kind).rglob("*.nc")):
-            if _case_hash(path) and not _has_failed(path):
+            attributes = _attributes(path)
+            if attributes.get("case_hash") and not _has_failed(attributes):
                 copy = folder / path.relative_to(run)
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 with written_whole(copy) as aside:
@@ -53,14 +92,13 @@ def keep_results(run: Path, folder: Path) -> list[Path]:
     return copies
 
 
-def _case_hash(path: Path) -> str:
-    """Return the hash of a result's case; empty for what is none or is broken."""
+def _attributes(path: Path) -> dict[str, Any]:
+    """Return a file's attributes; none of what is broken."""
     try:
-        return str(read_attributes(path).get("case_hash", ""))
+        return read_attributes(path)
     except ResultFileError:
-        return ""
+        return {}
 
 
-def _has_failed(path: Path) -> bool:
-    attributes = read_attributes(path)
+def _has_failed(attributes: Mapping[str, Any]) -> bool:
     return attributes.get("regime") == "failed" or bool(attributes.get("failure"))

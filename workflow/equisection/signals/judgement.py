@@ -8,7 +8,8 @@ growing
     while the run goes on: what grows may yet saturate below the bound.
 settled
     The amplitude is below what counts as an oscillation and does not grow, or it has fallen
-    far and goes on falling at an undiminished rate, so that the rest is known.
+    far and goes on falling at an undiminished rate, so that the rest is known, or it has fallen
+    over two windows with no sign of a limit cycle beneath.
 limit cycle
     The amplitude has been steady over the last periods and does not creep on steadily.
 at the end of the run
@@ -16,6 +17,8 @@ at the end of the run
 
 A run also goes on until the means are known: the heave of a released section is 3 to 8 times
 slower than its pitch, and its last swings lie beneath the twist's.
+
+Whoever changes a verdict here, or when it comes, raises ``rules`` of equisection.cases.Criteria.
 """
 
 from __future__ import annotations
@@ -39,6 +42,12 @@ _FEWEST_SAMPLES = 8
 # The spread is counted net of noise, so noise may hide a change of the amplitude: more than
 # this many times the steadiness must not be possible within the error of the trend.
 _HIDDEN_CHANGE = 3.0
+# An amplitude A that falls to a limit cycle A_0 slows as it comes near: with the rate
+# sigma ~ 1 - (A/A_0)^n it has d ln|sigma|/d ln A = n r^n/(r^n - 1) > n for r = A/A_0 > 1, and n
+# is 1 or more (2 for the cubic law). Below half of 1 there is no limit cycle beneath.
+_NO_SLOWING = 0.5
+# Fall of ln A between two windows from which the slowing can be told.
+_FALL_TO_TELL = 0.1
 
 
 def assess(
@@ -122,6 +131,7 @@ def _while_running(seen: Observation) -> tuple[Regime, str]:
     tests: tuple[tuple[Regime, Callable[[Observation], str]], ...] = (
         ("settled", _at_rest),
         ("settled", _decaying),
+        ("settled", _dying_out),
         ("limit-cycle", _steady),
     )
     for regime, test in tests:
@@ -186,6 +196,21 @@ def _decaying(seen: Observation) -> str:
     return (
         f"twist amplitude {degrees(last)} has fallen {largest / last:.3g} times and goes on "
         f"falling at an undiminished rate, {change(seen)}"
+    )
+
+
+def _dying_out(seen: Observation) -> str:
+    """Reason why no limit cycle lies beneath a falling amplitude, or ''."""
+    if seen.before.size < seen.amplitude.size or not seen.creeps or seen.trend.growth_rate > 0.0:
+        return ""
+    early, late = -seen.trend_before.growth_rate, -seen.trend.growth_rate
+    fall = 0.5 * (early + late) * seen.window_distance
+    slowest = late - seen.trend.standard_error
+    if fall < _FALL_TO_TELL or math.log(early / slowest) > _NO_SLOWING * fall:
+        return ""
+    return (
+        f"twist amplitude {degrees(float(seen.amplitude[-1]))} dies out at a rate that does not "
+        f"slow with it, {change(seen)}"
     )
 
 

@@ -143,6 +143,13 @@ class Observation:
         return exponential_trend(at, self.before, self.amplitude_noise)
 
     @property
+    def window_distance(self) -> float:
+        """Time (c/V) from the middle of the window before to that of this one."""
+        at = self.cycles.amplitude_time
+        size = self.amplitude.size
+        return float(at[-size:].mean() - at[-size - self.before.size : -size].mean())
+
+    @property
     def negligible_change(self) -> float:
         """Relative change of the amplitude over a window that is none."""
         return _NEGLIGIBLE_CREEP * self.criteria.steadiness

@@ -1,45 +1,28 @@
-"""Run the cases of one job: take what the store has, compute the rest, publish all.
-
-The store keeps each result under the hash of its case, in ``<store>/<hash>/result.nc``, beside
-the solver's own working directory. It is no declared output of a rule, so it survives a kill
-and a change of the sweep: a case that was ever finished is not computed again. Whatever it
-holds is validated before it is published.
-"""
+"""Run the cases of one job: take what is known of them, compute the rest, publish all."""
 
 from __future__ import annotations
 
 import logging
 import os
-import shutil
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-from equisection.cases import Case, SteadyCase, UnsteadyCase, case_hash
-from equisection.errors import ResultFileError, SolverError
-from equisection.files import written_whole
+from equisection.cases import Case, SteadyCase, UnsteadyCase
+from equisection.errors import SolverError
 from equisection.progress import JobProgress
 from equisection.results.kept import kept_results
-from equisection.results.netcdf import read_attributes, write_dataset
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.protocol import Solver
 from equisection.solvers.registry import solver_from_case
+from equisection.solvers.result_store import ResultStore, Task, publish, runs_batches, task_of
 from equisection.solvers.verdicts import refused
 
 logger = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True)
-class Task:
-    """One case of a job under its hash."""
-
-    case: Case
-    hash: str
 
 
 def run_cases(
@@ -76,64 +59,38 @@ def run_cases(
     SolverError
         The solver could not run, or left a case without a result.
     """
-    tasks = {name: Task(case, case_hash(case)) for name, case in cases.items()}
-    known = {task.hash: _in_store(store, task.hash) for task in tasks.values()}
-    if reuse is not None and None in known.values():
-        known |= _reused(reuse, [wanted for wanted, found in known.items() if not found], store)
-    missing = {task.hash: task for task in tasks.values() if known[task.hash] is None}
+    results = ResultStore(store)
+    tasks = {name: task_of(case) for name, case in cases.items()}
+    different = {task.hash: task for task in tasks.values()}
+    known = {name: results.known(task) for name, task in different.items()}
+    kept = kept_results(reuse) if reuse is not None and None in known.values() else []
+    for name, task in different.items():
+        known[name] = known[name] or results.take(task, kept) or results.judge_again(task, kept)
+    missing = [task for name, task in different.items() if known[name] is None]
     logger.info("%d cases, %d of them to be computed", len(tasks), len(missing))
-    for group in _alike(list(missing.values())):
-        known |= _compute(group, store, progress_file)
-    attributes = {}
+    for group in _alike(missing):
+        known |= _compute(group, results, progress_file)
     for name, task in tasks.items():
-        attributes[name] = known[task.hash] or {}
-        _publish(_result(store, task.hash), folder / f"{name}.nc")
-    return attributes
-
-
-def _result(store: Path, case_hash: str) -> Path:
-    return store / case_hash / "result.nc"
-
-
-def _in_store(store: Path, wanted: str) -> dict[str, Any] | None:
-    """Return the attributes of a result that the store has."""
-    path = _result(store, wanted)
-    if not path.exists():
-        return None
-    try:
-        return read_attributes(path, wanted)
-    except ResultFileError as error:
-        logger.warning("%s; it is computed again", error)
-        return None
-
-
-def _reused(folder: Path, wanted: list[str], store: Path) -> dict[str, dict[str, Any]]:
-    """Copy kept results into the store; return their attributes by hash."""
-    kept, found = kept_results(folder), {}
-    for name in wanted:
-        if name not in kept:
-            continue
-        logger.info("taken from %s, where it is kept", kept[name])
-        stored = _result(store, name)
-        stored.parent.mkdir(parents=True, exist_ok=True)
-        with written_whole(stored) as aside:
-            shutil.copyfile(kept[name], aside)
-        found[name] = read_attributes(stored, name)
-    return found
+        publish(results.result(task), folder / f"{name}.nc")
+    return {name: known[task.hash] or {} for name, task in tasks.items()}
 
 
 def _alike(tasks: list[Task]) -> list[list[Task]]:
-    """Group the tasks by solver and its settings: one adapter runs one group."""
+    """Group the tasks by solver and its settings; a solver without batches has one in each."""
     groups: dict[str, list[Task]] = {}
     for task in tasks:
-        groups.setdefault(task.case.solver.model_dump_json(), []).append(task)
+        batch = runs_batches(task.case)
+        name = task.case.solver.model_dump_json() if batch else task.hash
+        groups.setdefault(name, []).append(task)
     return list(groups.values())
 
 
-def _compute(tasks: list[Task], store: Path, progress_file: Path) -> dict[str, dict[str, Any]]:
+def _compute(
+    tasks: list[Task], store: ResultStore, progress_file: Path
+) -> dict[str, dict[str, Any]]:
     """Run cases of one solver into the store; return the attributes of each result by hash."""
     solver = solver_from_case(tasks[0].case.solver)
-    work = store / tasks[0].hash
+    work = store.work(tasks[0])
     work.mkdir(parents=True, exist_ok=True)
     wall, cpu = time.perf_counter(), _cpu_seconds()
     unit = "cases" if isinstance(tasks[0].case, SteadyCase) else "c/V"
@@ -152,14 +109,13 @@ def _compute(tasks: list[Task], store: Path, progress_file: Path) -> dict[str, d
     attributes = {}
     for task, result in zip(tasks, results, strict=True):
         dataset = _dataset(task.case, result).assign_attrs(
-            case_hash=task.hash,
             solver=solver.name,
             solver_version=solver.version,
             solver_description=solver.describe(),
             resolution=task.case.resolution,
             **cost,
         )
-        attributes[task.hash] = write_dataset(_result(store, task.hash), dataset)
+        attributes[task.hash] = store.put(task, dataset)
     return attributes
 
 
@@ -189,14 +145,3 @@ def _dataset(case: Case, result: SteadyResult | UnsteadyResult) -> xr.Dataset:
     return result.to_dataset(case.geometry.chord).assign_attrs(
         k_star=getattr(case, "k_star", float("nan"))
     )
-
-
-def _publish(stored: Path, output: Path) -> None:
-    """Put a result where the workflow wants it: a second name of the file, or a copy."""
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with written_whole(output) as aside:
-        aside.unlink()
-        try:
-            os.link(stored, aside)
-        except OSError:
-            shutil.copyfile(stored, aside)

@@ -25,6 +25,8 @@ Histories = TypeVar("Histories")
 
 #: A verdict is looked for again when the run has become this many times longer (-).
 LOOK_AGAIN = 1.3
+#: Interval (c/V) at which a run of its own job is looked at.
+LOOKS_EVERY = 5.0
 #: Time (c/V) over which a motion beyond the bound is looked for; longer than a slow period.
 LATE = 20.0
 
@@ -40,7 +42,7 @@ class Motion:
 
 def criteria_of(case: UnsteadyCase) -> Criteria:
     """Return the criteria that a case asks for."""
-    return Criteria(**case.criteria.model_dump())
+    return Criteria(**case.criteria.model_dump(exclude={"rules"}))
 
 
 def pitch_frequency(case: UnsteadyCase) -> float:
@@ -141,7 +143,7 @@ def monitor_of(
             looks = (is_due and now >= earliest[lane]) or _may_be_beyond_bound(
                 case, lane_of(histories, case, int(lane), late)
             )
-            if looks and _decided(case, lane_of(histories, case, int(lane), slice(None))):
+            if looks and is_decided(case, lane_of(histories, case, int(lane), slice(None))):
                 done.append(lane)
         return np.array(done, dtype=np.intp)
 
@@ -152,7 +154,8 @@ def _may_be_beyond_bound(case: UnsteadyCase, late: Motion) -> bool:
     return float(np.ptp(late.twist)) > 2 * math.radians(case.criteria.growing_amplitude_deg)
 
 
-def _decided(case: UnsteadyCase, tip: Motion) -> bool:
+def is_decided(case: UnsteadyCase, tip: Motion) -> bool:
+    """Tell whether the verdict on a run so far is in."""
     return assess(tip.time, tip.twist, tip.deflection, criteria_of(case)).decided
 
 

@@ -17,7 +17,6 @@ from numpy.typing import NDArray
 from equisection.cases import SectionProperties, UnsteadyCase
 from equisection.files import write_text
 from equisection.results.unsteady import UnsteadyResult
-from equisection.signals import assess
 from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.case_folder import (
     copy_flow,
@@ -35,12 +34,12 @@ from equisection.solvers.openfoam.mesh import Mesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.rigid import WINDOW, Tell, run_steady
 from equisection.solvers.openfoam.section_motion import MOTION, motion_output, write_motion
-from equisection.solvers.verdicts import Motion, criteria_of, judge, refused
+from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge, refused
 
 logger = logging.getLogger(__name__)
 
-#: Interval of the states that a run is resumed from, and of the looks at the verdict (c/V).
-STATE_INTERVAL, VERDICT_INTERVAL = 2.0, 5.0
+#: Interval of the states that a run is resumed from (c/V).
+STATE_INTERVAL = 2.0
 #: Loads of the rigid section at the release, beside the run that starts from them.
 _AT_RELEASE = "release.json"
 
@@ -67,10 +66,11 @@ class SectionHistory:
     lift: Floats
     moment: Floats
 
-    def sampled(self, step: float, interval: float) -> SectionHistory:
-        """Return the samples at multiples of an interval, which is one of the step."""
+    def sampled(self, step: float, interval: float, end: float = math.inf) -> SectionHistory:
+        """Return the samples up to an end at multiples of an interval, which is one of the step."""
         every = round(interval / step)
         kept = np.rint(self.time / step).astype(int) % every == 0
+        kept &= self.time < end + 0.5 * step
         return SectionHistory(
             self.time[kept],
             self.twist[kept],
@@ -127,6 +127,7 @@ class SectionRun:
             if start:
                 logger.info("goes on from %g c/V", start)
             if start < case.duration:
+                self._write_system()
                 run_program(self.installation, "pimpleFoam", self.folder, self._watch(start, tell))
         except BlowUpError as error:
             failure = str(error)
@@ -135,14 +136,15 @@ class SectionRun:
         return _result(case, self.folder, failure)
 
     def _watch(self, start: float, tell: Tell) -> Watch:
-        case, due = self.case, Every(VERDICT_INTERVAL, start)
+        case, due = self.case, Every(LOOKS_EVERY, start)
 
         def decided(time: float) -> bool:
             tell(time, case.duration)
             if not due.is_due(time):
                 return False
             require_reasonable(read_loads(self.folder), self.folder)
-            return _is_decided(case, read_section(self.folder))
+            history = read_section(self.folder).sampled(case.time_step, case.output_interval)
+            return is_decided(case, _tip(case.section, history))
 
         return decided
 
@@ -162,17 +164,20 @@ class SectionRun:
         folder = emptied(self.folder)
         copy_flow(source, folder)
         write_motion(folder, case.section, self.mesh.channel.height)
-        entries = control("pimpleFoam", case.duration, case.time_step, STATE_INTERVAL)
+        _, lift, moment = loads.last(WINDOW // 3).means()
+        write_text(folder / _AT_RELEASE, json.dumps({"lift": lift, "moment": moment}))
+        mark_ready(folder)
+
+    def _write_system(self) -> None:
+        """Write what controls the run; its end may differ from that of an earlier start."""
+        entries = control("pimpleFoam", self.case.duration, self.case.time_step, STATE_INTERVAL)
         entries["functions"] |= motion_output()
         write_system(
-            folder,
+            self.folder,
             entries,
             flow.schemes(steady=False),
             flow.solution(steady=False, outer_correctors=self.outer_correctors),
         )
-        _, lift, moment = loads.last(WINDOW // 3).means()
-        write_text(folder / _AT_RELEASE, json.dumps({"lift": lift, "moment": moment}))
-        mark_ready(folder)
 
 
 def read_section(folder: Path) -> SectionHistory:
@@ -217,11 +222,6 @@ def _about_moving_centre(loads: Loads, rows: NDArray[np.intp], deflection: Float
     return loads.moment[rows] - deflection * loads.drag[rows]
 
 
-def _is_decided(case: UnsteadyCase, history: SectionHistory) -> bool:
-    tip = _tip(case.section, history.sampled(case.time_step, case.output_interval))
-    return assess(tip.time, tip.twist, tip.deflection, criteria_of(case)).decided
-
-
 def _tip(section: SectionProperties | None, history: SectionHistory) -> Motion:
     assert section is not None
     return Motion(
@@ -234,7 +234,7 @@ def _tip(section: SectionProperties | None, history: SectionHistory) -> Motion:
 def _from_release(folder: Path, history: SectionHistory, case: UnsteadyCase) -> SectionHistory:
     """Return the samples to be stored, the release in front."""
     loads = json.loads((folder / _AT_RELEASE).read_text(encoding="utf-8"))
-    sampled = history.sampled(case.time_step, case.output_interval)
+    sampled = history.sampled(case.time_step, case.output_interval, case.duration)
     return SectionHistory(
         np.concatenate([[0.0], sampled.time]),
         np.concatenate([[0.0], sampled.twist]),
