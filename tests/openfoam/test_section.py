@@ -16,7 +16,13 @@ from equisection.cases import SectionProperties, UnsteadyCase
 from equisection.solvers.openfoam.free import SectionRun, read_section
 from equisection.solvers.openfoam.histories import read_history
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.rigid import RigidLoads, mesh_of, rigid_loads
+from equisection.solvers.openfoam.rigid import (
+    RigidLoads,
+    mesh_of,
+    rigid_loads,
+    run_steady,
+    unsteady_mean,
+)
 
 #: Coarser than any preset, about 4,000 cells: for what does not depend on the mesh.
 VERY_COARSE = 0.6
@@ -74,6 +80,37 @@ def test_loads_at_the_papers_incidence(installation: Installation, tmp_path: Pat
     assert loads.lift == pytest.approx(0.380, rel=0.01)
     assert loads.moment == pytest.approx(0.0756, rel=0.01)
     assert loads.drag == pytest.approx(0.0575, rel=0.01)
+
+
+@pytest.mark.parametrize("incidence_deg", [2.5, -2.5])
+def test_pressure_and_friction_add_up_to_the_loads(
+    installation: Installation, tmp_path: Path, incidence_deg: float
+) -> None:
+    loads = rigid(installation, tmp_path, incidence_deg, VERY_COARSE)
+    drag, lift, moment = loads.surface.loads(incidence_deg)
+    assert drag == pytest.approx(loads.drag, rel=0.005)
+    assert lift == pytest.approx(loads.lift, rel=0.005)
+    assert moment == pytest.approx(loads.moment, rel=0.005)
+    assert loads.surface.length.sum() == pytest.approx(2 * (1 + 0.04))
+
+
+def test_mean_pressure_and_friction_add_up_to_the_mean_loads(
+    installation: Installation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The start of an unsteady run, which drifts: means over the same time are needed."""
+    monkeypatch.setattr("equisection.solvers.openfoam.rigid.DISCARDED", 0.5)
+    monkeypatch.setattr("equisection.solvers.openfoam.rigid.SHORTEST", 5.0)
+    monkeypatch.setattr("equisection.solvers.openfoam.rigid.KNOWN", math.inf)
+    case = STEADY.model_copy(update={"incidence_deg": 10.0})
+    mesh = mesh_of(case, VERY_COARSE)
+    monkeypatch.setattr("equisection.solvers.openfoam.rigid.MOST", 200)
+    source, _, converged = run_steady(installation, case, mesh, tmp_path, nothing)
+    assert not converged
+    loads = unsteady_mean(installation, source, mesh, tmp_path, nothing)
+    drag, lift, moment = loads.surface.loads(10.0)
+    assert drag == pytest.approx(loads.drag, rel=0.005)
+    assert lift == pytest.approx(loads.lift, rel=0.005)
+    assert moment == pytest.approx(loads.moment, rel=0.01)
 
 
 def test_heavy_section_swings_at_its_natural_frequency(

@@ -23,8 +23,12 @@ from equisection.solvers.openfoam.section_mesh import quality, read_cells, secti
 
 def made(installation: Installation, mesh: Mesh, folder: Path) -> Path:
     write_mesh_dictionary(folder, mesh)
-    entries = {**control("simpleFoam", 1, 1, 1), "writeFormat": "ascii"}
-    write_system(folder, entries, flow.schemes(steady=True), flow.solution(steady=True))
+    write_system(
+        folder,
+        control("simpleFoam", 1, 1, 1),
+        flow.schemes(steady=True),
+        flow.solution(steady=True),
+    )
     make_mesh(installation, folder)
     return folder
 

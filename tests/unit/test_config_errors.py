@@ -152,6 +152,18 @@ MALFORMED = [
     ({"steady": {"incidence_deg": [0, 1, 2, 95]}}, "steady.incidence_deg.3", "95", "below 90"),
     ({"steady": {"study": ["coarse"]}}, "steady.study.0", "'coarse'", "neither before it"),
     (
+        {"steady": {"study_incidence_deg": [0, 2.6]}},
+        "steady.study_incidence_deg.1",
+        "2.6",
+        "an angle of steady.incidence_deg: 0, 1, 2, 2.5",
+    ),
+    (
+        {"steady": {"study_incidence_deg": [5, 5]}},
+        "steady.study_incidence_deg.1",
+        "5",
+        "does not stand before it",
+    ),
+    (
         {"structure": {"mesh_study": [{"chord": 4, "sapn": 3}]}},
         "structure.mesh_study.0.sapn",
         "3",

@@ -64,7 +64,12 @@ def section_polar(resolutions=("coarse",), missing=()) -> xr.Dataset:
     lift[:, list(missing)] = np.nan
     over = ("resolution", "incidence_deg")
     return xr.Dataset(
-        {"cl": (over, lift), "cm": (over, 0.1 * lift), "cd": (over, 0.1 + 0 * lift)},
+        {
+            "cl": (over, lift),
+            "cm": (over, 0.1 * lift),
+            "cd": (over, 0.1 + 0 * lift),
+            "is_run": (over, np.ones(lift.shape, dtype=np.int8)),
+        },
         {"resolution": list(resolutions), "incidence_deg": incidence},
         attrs={f"solver_{name}": SOLVER for name in resolutions},
     )
@@ -217,6 +222,18 @@ def test_polars_may_miss_points():
     figure = fig06_section_polar.draw(section_polar(missing=(2,)))
     assert "1 of 6 cases have no result" in words(figure).replace("\n", " ")
     lay_out(figure)
+
+
+def test_polars_join_the_incidences_that_a_resolution_is_run_at():
+    polar = section_polar(("coarse", "fine"))
+    for name in ("cl", "cm", "is_run"):
+        polar[name] = polar[name].where(
+            (polar["resolution"] == "coarse") | polar["incidence_deg"].isin([0.0, 10.0]), 0
+        )
+    coarse, fine = fig06_section_polar.draw(polar).axes[0].get_lines()[:2]
+    assert len(coarse.get_xdata()) == 6
+    assert list(fine.get_xdata()) == [0.0, 10.0]
+    assert "no result" not in words(fig06_section_polar.draw(polar))
 
 
 @pytest.mark.parametrize(

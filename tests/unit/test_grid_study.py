@@ -17,8 +17,14 @@ def polar(order: float = 2.0) -> xr.Dataset:
     incidence = np.array([0.0, 2.5])
     errors = [0.0 if number is None else 0.4 * number ** (-order / 2) for number in CELLS.values()]
     lift = 0.2 * incidence + np.array(errors)[:, None]
+    is_run = np.ones(lift.shape, dtype=np.int8)
     return xr.Dataset(
-        {"cl": (over, lift), "cm": (over, -lift), "cd": (over, 0 * lift)},
+        {
+            "cl": (over, lift),
+            "cm": (over, -lift),
+            "cd": (over, 0 * lift),
+            "is_run": (over, is_run),
+        },
         {"resolution": list(CELLS), "incidence_deg": incidence},
     )
 
@@ -43,3 +49,9 @@ def test_fewer_than_three_similar_meshes_give_no_line() -> None:
     table = grid_study(polar(), {**CELLS, "fine": None})
     assert tuple(table.columns) == COLUMNS
     assert table.empty
+
+
+def test_an_incidence_that_a_mesh_was_not_run_at_has_no_line() -> None:
+    thin = polar()
+    thin["is_run"].loc[{"resolution": "fine", "incidence_deg": 0.0}] = 0
+    assert set(grid_study(thin, CELLS)["incidence_deg"]) == {2.5}

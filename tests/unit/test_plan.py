@@ -82,6 +82,16 @@ def test_steady_cases_are_those_of_every_resolution() -> None:
     assert names == [f"{word}_a{angle}" for word in "ba" for angle in ("0", "2.5", "5", "10")]
 
 
+def test_further_resolutions_are_run_at_the_incidences_of_the_study() -> None:
+    steady = {"incidence_deg": [0, 1, 2.5, 10], "study": ["b"], "study_incidence_deg": [0, 10]}
+    raw = {
+        "steady": {"resolution": "a", **steady},
+        "embedded": {"polars": {"a": "flat-plate", "b": "flat-plate"}},
+    }
+    names = plan.steady_cases(load_config(raw))
+    assert names == ["a_a0", "a_a1", "a_a2.5", "a_a10", "b_a0", "b_a10"]
+
+
 def test_no_refinement_has_the_sweep_alone() -> None:
     assert plan.refinement_rounds(config(k_star=[4, 21], onset="sweep")) == 0
     assert plan.batches(config(k_star=[4, 21], onset="sweep")) == ["sweep"]

@@ -9,6 +9,7 @@ from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.polar import gather_polar, given_polar, polar_at
 from equisection.results.steady import SteadyResult
+from equisection.results.surface import SectionSurface
 
 ANGLES = (0.0, 2.0, 4.0, 6.0, 8.0)
 STATIONS = np.array([0.25, 0.75])
@@ -59,6 +60,35 @@ def test_spanwise_loads_keep_their_stations_beside_failed_angles(
     for angle in failed:
         missing = polar["cl_section"].sel(resolution="fine", incidence_deg=angle).values
         assert np.isnan(missing).all()
+
+
+@pytest.mark.parametrize("spanwise", [False, True], ids=["section", "beam"])
+def test_a_resolution_may_be_run_at_some_incidences_only(spanwise: bool, tmp_path: Path) -> None:
+    cases = [("coarse", angle) for angle in ANGLES] + [("fine", 2.0), ("fine", 8.0)]
+    made = gather_polar({case: result(case[1], spanwise) for case in cases})
+    write_dataset(tmp_path / "polar.nc", made)
+    polar = read_dataset(tmp_path / "polar.nc")
+    fine = polar.sel(resolution="fine")
+    assert polar["is_run"].sel(resolution="coarse").values.tolist() == [1] * 5
+    assert fine["is_run"].values.tolist() == [0, 1, 0, 0, 1]
+    np.testing.assert_allclose(fine["cl"].values, [np.nan, 0.2, np.nan, np.nan, 0.8])
+    assert polar.attrs["failures"] == ""
+    assert ("cl_section" in polar) == spanwise
+
+
+def test_a_polar_has_nothing_of_the_surface_data_of_its_cases() -> None:
+    one = np.ones(3)
+    surface = SectionSurface(one, one, one, np.array(["upper"] * 3), one, one, one)
+    nothing = np.empty(0)
+    made = SteadyResult(
+        0.1, 0.2, 0.3, nothing, nothing, nothing, "made up", surface=surface
+    ).to_dataset()
+    assert made["cp"].sizes == {"face": 3}
+    results = {
+        ("coarse", 0.0): made.assign_attrs(solver_description="made-up solver"),
+        ("coarse", 2.0): result(2.0, False),
+    }
+    assert dict(gather_polar(results).sizes) == {"resolution": 1, "incidence_deg": 2}
 
 
 def test_polar_is_read_without_its_failed_angles() -> None:

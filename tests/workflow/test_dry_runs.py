@@ -48,7 +48,9 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
     """
     config = load_config(raw)
     models, k_star = len(config.sweep.models), len(config.sweep.values())
-    angles = len(config.steady.incidence_deg) * (1 + len(config.steady.study))
+    steady = config.steady
+    of_study = len(steady.study_incidence_deg) or len(steady.incidence_deg)
+    angles = len(steady.incidence_deg) + of_study * len(steady.study)
     rounds = plan.refinement_rounds(config)
     dimensions = len(plan.steady_dimensions(config))
     jobs = Counter((*ONCE, *(ONCE_WITH_BEAM if dimensions == 2 else ())))

@@ -71,8 +71,15 @@ def steady_cases(config: Config) -> list[str]:
     return [
         angle_name(resolution, angle)
         for resolution in resolutions(config)
-        for angle in config.steady.incidence_deg
+        for angle in incidences(config, resolution)
     ]
+
+
+def incidences(config: Config, resolution: str) -> tuple[float, ...]:
+    """Return the incidences (deg) that a resolution is run at."""
+    steady = config.steady
+    of_study = steady.study_incidence_deg or steady.incidence_deg
+    return steady.incidence_deg if resolution == steady.resolution else of_study
 
 
 def resolutions(config: Config) -> tuple[str, ...]:

@@ -25,7 +25,7 @@ def grid_study(polar: xr.Dataset, cells: Mapping[str, int | None]) -> pd.DataFra
     cells
         Number of cells at each resolution; none for a mesh that is not similar to the others,
         which is left out. The three finest of the rest are compared; there are no lines if there
-        are fewer.
+        are fewer, nor of an incidence that one of the three was not run at.
     """
     similar = {name: number for name, number in cells.items() if number is not None}
     names = sorted(similar, key=lambda name: similar[name])[-3:]
@@ -33,7 +33,8 @@ def grid_study(polar: xr.Dataset, cells: Mapping[str, int | None]) -> pd.DataFra
         return pd.DataFrame(columns=COLUMNS)
     coarse, medium, fine = (cell_size(similar[name], 2) for name in names)
     rows = []
-    for angle in polar["incidence_deg"].values:
+    all_run = polar["is_run"].sel(resolution=names).all("resolution")
+    for angle in polar["incidence_deg"].values[all_run.values]:
         for coefficient in ("cl", "cm", "cd"):
             at = polar[coefficient].sel(incidence_deg=angle)
             values = tuple(float(at.sel(resolution=name)) for name in names)

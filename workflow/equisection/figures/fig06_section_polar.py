@@ -35,9 +35,11 @@ def draw(polar: xr.Dataset, grid_study: pd.DataFrame | None = None) -> Figure:
     resolutions = [str(name) for name in polar["resolution"].values]
     for axes, name in zip(panels, ("cl", "cm"), strict=True):
         for number, resolution in enumerate(resolutions):
+            of_resolution = polar.sel(resolution=resolution)
+            run = of_resolution.isel(incidence_deg=of_resolution["is_run"].values == 1)
             axes.plot(
-                polar["incidence_deg"],
-                polar[name].sel(resolution=resolution),
+                run["incidence_deg"],
+                run[name],
                 color=COLOURS[number % len(COLOURS)],
                 linestyle=DASHES[number % len(DASHES)],
                 marker=MARKERS[number % len(MARKERS)],
@@ -102,5 +104,6 @@ def _convergence(axes: Axes, study: pd.DataFrame) -> None:
 
 
 def _failed(polar: xr.Dataset) -> list[str]:
-    count = int(np.isnan(polar["cl"].values).sum())
-    return [f"{count} of {polar['cl'].size} cases have no result"] if count else []
+    cases = polar["cl"].values[polar["is_run"].values == 1]
+    count = int(np.isnan(cases).sum())
+    return [f"{count} of {cases.size} cases have no result"] if count else []

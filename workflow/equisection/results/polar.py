@@ -33,20 +33,30 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
     -------
     xarray.Dataset
         Over ``resolution`` and ``incidence_deg``; in 3D also over ``span``. A case that failed
-        is NaN, with the reason in the attribute ``failures``.
+        is NaN, with the reason in the attribute ``failures``; where ``is_run`` is 0 there is no
+        case.
     """
     resolutions = list(dict.fromkeys(resolution for resolution, _ in results))
     angles = sorted({angle for _, angle in results})
+    gathered = {key: _coefficients(result) for key, result in results.items()}
+    unknown = xr.full_like(next(iter(gathered.values()))[list(_COEFFICIENTS)], np.nan)
     parts = []
     for resolution in resolutions:
         row = [
-            _as_all(results[resolution, angle], results.values()).expand_dims(incidence_deg=[angle])
-            for angle in angles
+            _as_all(gathered.get(key, unknown), gathered.values()).expand_dims(
+                incidence_deg=[key[1]]
+            )
+            for key in _row(resolution, angles)
         ]
         joined = xr.concat(row, "incidence_deg", data_vars="all", combine_attrs="drop")
         parts.append(joined.expand_dims(resolution=[resolution]))
     polar = xr.concat(parts, "resolution", data_vars="all", combine_attrs="drop")
     _describe(polar)
+    polar["is_run"] = (
+        ("resolution", "incidence_deg"),
+        np.array([[key in results for key in _row(name, angles)] for name in resolutions], np.int8),
+        {"units": "1", "long_name": "1 where there is a case of resolution and incidence"},
+    )
     failures = [
         f"{resolution} {angle:g} deg: {data.attrs['failure']}"
         for (resolution, angle), data in results.items()
@@ -94,6 +104,15 @@ def given_polar(polar: SectionPolar, resolution: str) -> xr.Dataset:
     )
     _describe(dataset)
     return dataset
+
+
+def _row(resolution: str, angles: Iterable[float]) -> list[tuple[str, float]]:
+    return [(resolution, angle) for angle in angles]
+
+
+def _coefficients(result: xr.Dataset) -> xr.Dataset:
+    """Return a result without what it has beside its coefficients."""
+    return result[[name for name in (*_COEFFICIENTS, *_SECTIONAL) if name in result]]
 
 
 def _as_all(result: xr.Dataset, others: Iterable[xr.Dataset]) -> xr.Dataset:

@@ -8,6 +8,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.results.surface import SectionSurface
+
 
 @dataclass(frozen=True)
 class SteadyResult:
@@ -25,6 +27,8 @@ class SteadyResult:
         How the value was obtained, for instance ``steady`` or ``mean of unsteady``.
     failure
         Why there is no value, empty if there is one. Coefficients are then NaN.
+    surface
+        Pressure and friction around the section, where the solver has them.
     """
 
     drag: float
@@ -35,6 +39,7 @@ class SteadyResult:
     section_moment: NDArray[np.float64]
     method: str
     failure: str = ""
+    surface: SectionSurface | None = None
 
     def to_dataset(self) -> xr.Dataset:
         """Return the data set that is written to file."""
@@ -67,4 +72,6 @@ class SteadyResult:
                 self.section_moment,
                 {"units": "1", "long_name": "sectional moment coefficient about mid-chord"},
             )
+        if self.surface is not None:
+            data |= self.surface.variables()  # type: ignore[arg-type]
         return xr.Dataset(data, coordinates, attrs={"method": self.method, "failure": self.failure})

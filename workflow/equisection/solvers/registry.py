@@ -29,7 +29,9 @@ class Entry:
 SOLVERS: dict[str, Entry] = {
     "embedded": Entry("equisection.solvers.embedded", frozenset({Capability.BATCH})),
     "openfoam": Entry(
-        "equisection.solvers.openfoam.adapter", frozenset({Capability.MESH}), dimensions=("2d",)
+        "equisection.solvers.openfoam.adapter",
+        frozenset({Capability.MESH, Capability.SURFACE}),
+        dimensions=("2d",),
     ),
 }
 

@@ -26,6 +26,11 @@ class Steady(Section):
     study: tuple[Name, ...] = Field(
         (), description="Further resolutions for the grid study (Fig. 6)."
     )
+    study_incidence_deg: tuple[Angle, ...] = Field(
+        (),
+        description="Incidences (deg) that the further resolutions are run at, some of "
+        "`steady.incidence_deg`; empty for all of them.",
+    )
     beam_polar: str = Field(
         "",
         description="Polar of the rigid beam (CSV file: incidence_deg, C_L, C_M, C_D), measured "
@@ -58,3 +63,14 @@ def _distinct(study: tuple[str, ...], resolution: str) -> Iterator[Problem]:
                 name,
                 "allowed is a resolution that stands neither before it nor in steady.resolution",
             )
+
+
+@check("steady.study_incidence_deg", "steady.incidence_deg")
+def _of_the_polar(study_angles: tuple[float, ...], angles: tuple[float, ...]) -> Iterator[Problem]:
+    for place, angle in enumerate(study_angles):
+        key = f"steady.study_incidence_deg.{place}"
+        if angle not in angles:
+            allowed = ", ".join(f"{value:g}" for value in angles)
+            yield Problem(key, angle, f"allowed is an angle of steady.incidence_deg: {allowed}")
+        elif angle in study_angles[:place]:
+            yield Problem(key, angle, "allowed is an angle that does not stand before it")

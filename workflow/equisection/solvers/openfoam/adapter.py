@@ -10,7 +10,7 @@ import logging
 import math
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -24,6 +24,9 @@ from equisection.solvers.openfoam.installation import find
 from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.protocol import Capability, Progress
 
+if TYPE_CHECKING:
+    from equisection.solvers.openfoam.rigid import RigidLoads
+
 logger = logging.getLogger(__name__)
 
 
@@ -32,7 +35,7 @@ class Adapter:
 
     name = "openfoam"
     version = "2"
-    provides = frozenset({Capability.MESH})
+    provides = frozenset({Capability.MESH, Capability.SURFACE})
 
     def __init__(self, mesh: str, outer_correctors: int) -> None:
         self._mesh = mesh
@@ -97,10 +100,7 @@ class Adapter:
             mesh = mesh_of(case, preset.refinement, preset.spacing)
             try:
                 loads = rigid_loads(installation, case, mesh, work / f"case{number}", tell)
-                drag, lift, moment = loads.drag, loads.lift, loads.moment
-                results.append(
-                    SteadyResult(drag, lift, moment, _NOTHING, _NOTHING, _NOTHING, loads.method)
-                )
+                results.append(_result(loads))
             except BlowUpError as error:
                 results.append(_no_value(str(error)))
         return results
@@ -140,6 +140,19 @@ def _require_section(case: SteadyCase | UnsteadyCase) -> None:
         raise SolverError(
             f"solver 'openfoam' has no {case.dimension} cases; allowed are models of dimension 2d"
         )
+
+
+def _result(loads: RigidLoads) -> SteadyResult:
+    return SteadyResult(
+        loads.drag,
+        loads.lift,
+        loads.moment,
+        _NOTHING,
+        _NOTHING,
+        _NOTHING,
+        loads.method,
+        surface=loads.surface,
+    )
 
 
 def _no_value(reason: str) -> SteadyResult:

@@ -16,6 +16,7 @@ from pathlib import Path
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.files import write_text
+from equisection.results.surface import SectionSurface
 from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.case_folder import copy_flow, emptied
 from equisection.solvers.openfoam.dictionaries import (
@@ -28,6 +29,11 @@ from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
 from equisection.solvers.openfoam.mesh import SIMILAR, Channel, Mesh, Spacing
 from equisection.solvers.openfoam.process import Every, run_program
+from equisection.solvers.openfoam.surface import (
+    averaging,
+    surface_of_mean,
+    surface_of_steady,
+)
 
 logger = logging.getLogger(__name__)
 
@@ -36,6 +42,8 @@ CONVERGED, WINDOW, FEWEST, MOST = 5e-4, 150, 300, 3000
 #: Time step, time left out, shortest and longest record of a rigid unsteady run (c/V), and the
 #: relative difference of the means of its halves at which they count as known.
 STEP, DISCARDED, SHORTEST, LONGEST, KNOWN = 0.01, 10.0, 40.0, 100.0, 0.01
+#: Steps of a rigid unsteady run from one sample of the surface data to the next.
+SAMPLED = 10
 
 #: Called with what is done and what there is to do at most.
 Tell = Callable[[float, float], None]
@@ -43,13 +51,14 @@ Tell = Callable[[float, float], None]
 
 @dataclass(frozen=True)
 class RigidLoads:
-    """Loads of the rigid section, and how they were obtained."""
+    """Loads of the rigid section, how they were obtained, and what they are the sum of."""
 
     drag: float
     lift: float
     moment: float
     method: str
     cells: int
+    surface: SectionSurface
 
 
 def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = SIMILAR) -> Mesh:
@@ -78,12 +87,8 @@ def run_steady(
     mesh: Mesh,
     work: Path,
     tell: Tell,
-    *,
-    readable: bool = False,
 ) -> tuple[Path, Loads, bool]:
     """Make the mesh and run the steady solver until it has converged, or for long enough.
-
-    ``readable`` has mesh and fields written as text, for those who read them here.
 
     Returns
     -------
@@ -98,12 +103,9 @@ def run_steady(
     folder = emptied(work / "steady")
     write_mesh_dictionary(folder, mesh)
     flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium))
-    entries = control("simpleFoam", MOST, 1, MOST)
-    if readable:
-        entries["writeFormat"] = "ascii"
     write_system(
         folder,
-        entries,
+        control("simpleFoam", MOST, 1, MOST),
         flow.schemes(steady=True),
         flow.solution(steady=True),
     )
@@ -170,31 +172,31 @@ def rigid_loads(
     if converged:
         drag, lift, moment = steady.last(WINDOW // 3).means()
         iterations = f"{steady.time.size} iterations"
-        return RigidLoads(drag, lift, moment, f"steady, {iterations}", mesh.cells)
+        surface = surface_of_steady(installation, folder, mesh)
+        return RigidLoads(drag, lift, moment, f"steady, {iterations}", mesh.cells, surface)
     logger.info("%g deg: the steady solver does not converge", case.incidence_deg)
-    record = _rigid_unsteady(installation, folder, work, tell)
-    drag, lift, moment = record.means()
-    method = (
-        f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
-        f"{100 * record.drift():.2g} % apart"
-    )
-    return RigidLoads(drag, lift, moment, method, mesh.cells)
+    return unsteady_mean(installation, folder, mesh, work, tell)
 
 
-def _rigid_unsteady(installation: Installation, source: Path, work: Path, tell: Tell) -> Loads:
-    """Go on unsteadily from a steady run, and return the record to be averaged."""
+def unsteady_mean(
+    installation: Installation, source: Path, mesh: Mesh, work: Path, tell: Tell
+) -> RigidLoads:
+    """Return the mean loads of the flow that goes on unsteadily from a steady run.
+
+    Raises
+    ------
+    SolverError
+        A program failed.
+    """
     folder = emptied(work / "unsteady")
     copy_flow(source, folder)
     write_text(
         folder / "constant" / "dynamicMeshDict",
         dictionary("dynamicMeshDict", {"dynamicFvMesh": "staticFvMesh"}),
     )
-    write_system(
-        folder,
-        control("pimpleFoam", DISCARDED + LONGEST, STEP, DISCARDED + LONGEST),
-        flow.schemes(steady=False),
-        flow.solution(steady=False),
-    )
+    entries = control("pimpleFoam", DISCARDED + LONGEST, STEP, DISCARDED + LONGEST)
+    entries["functions"] |= averaging(DISCARDED, SAMPLED)
+    write_system(folder, entries, flow.schemes(steady=False), flow.solution(steady=False))
     seen = Every(5.0)
 
     def known(time: float) -> bool:
@@ -208,4 +210,11 @@ def _rigid_unsteady(installation: Installation, source: Path, work: Path, tell: 
     run_program(installation, "pimpleFoam", folder, known)
     loads = read_loads(folder)
     require_reasonable(loads, folder)
-    return loads.since(DISCARDED)
+    record = loads.since(DISCARDED)
+    drag, lift, moment = record.means()
+    method = (
+        f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
+        f"{100 * record.drift():.2g} % apart"
+    )
+    surface = surface_of_mean(folder, mesh)
+    return RigidLoads(drag, lift, moment, method, mesh.cells, surface)

@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+from foamlib import FoamFieldFile
 from numpy.typing import NDArray
 
 from equisection.cases import SteadyCase
@@ -14,6 +15,7 @@ from equisection.results.section_mesh import SectionMesh
 from equisection.solvers.openfoam.case_folder import states
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh import Mesh
+from equisection.solvers.openfoam.poly_mesh import read_poly_mesh
 from equisection.solvers.openfoam.process import run_program
 from equisection.solvers.openfoam.rigid import run_steady
 
@@ -41,12 +43,12 @@ def section_mesh(
     SolverError
         A program failed, or the mesh is not sound.
     """
-    folder, loads, converged = run_steady(installation, case, mesh, work, _nothing, readable=True)
+    folder, loads, converged = run_steady(installation, case, mesh, work, _nothing)
     run_program(
         installation, "postProcess", folder, arguments=("-func", "CourantNo", "-latestTime")
     )
     points, corners = read_cells(folder)
-    courant = _numbers(states(folder)[-1] / "Co")[: len(corners)]
+    courant = np.asarray(FoamFieldFile(states(folder)[-1] / "Co").internal_field, dtype=float)
     how = "converged" if converged else "not converged"
     return SectionMesh(
         points=points,
@@ -80,30 +82,13 @@ def quality(log: Path) -> dict[str, float]:
 
 
 def read_cells(folder: Path) -> tuple[Floats, NDArray[np.int64]]:
-    """Return points (n, 2) and corners of the cells (m, 4) of a plane mesh written as text.
+    """Return points (n, 2) and corners of the cells (m, 4) of a plane mesh.
 
     A cell of one layer has one face in the plane of negative z, which shows the cell.
     """
-    place = folder / "constant" / "polyMesh"
-    points = _numbers(place / "points").reshape(-1, 3)
-    owner = _numbers(place / "owner").astype(np.int64)
-    flat = re.findall(r"^4\(([\d ]+)\)", _body(place / "faces"), re.MULTILINE)
-    faces = np.array([line.split() for line in flat], dtype=np.int64)
-    low = points[:, 2] < 0
-    shown = np.flatnonzero(low[faces].all(axis=1))
-    corners = faces[shown][np.argsort(owner[shown])]
+    mesh = read_poly_mesh(folder)
+    low = mesh.points[:, 2] < 0
+    shown = np.flatnonzero(low[mesh.faces].all(axis=1))
+    corners = mesh.faces[shown][np.argsort(mesh.owner[shown])]
     numbers = np.cumsum(low) - 1
-    return points[low, :2], numbers[corners]
-
-
-def _body(path: Path) -> str:
-    """Return the list that a file begins with, behind its head."""
-    return path.read_text(encoding="ascii").split("// * *", 1)[1]
-
-
-def _numbers(path: Path) -> Floats:
-    """Return the numbers of a file's first list."""
-    match = re.search(r"^(\d+)\s*\n\((.*?)^\)", _body(path), re.MULTILINE | re.DOTALL)
-    if match is None:
-        raise SolverError(f"{path}: no list of numbers written as text")
-    return np.fromstring(re.sub(r"[()]", " ", match[2]), sep=" ")
+    return mesh.points[low, :2], numbers[corners]

@@ -1,0 +1,129 @@
+"""Pressure, friction and wall distance around the section, as data.
+
+Everything is in the frame of the section: x from the leading edge along the chord, y from the
+chord line to the upper side, over the chord. The faces close the contour, so that the loads
+follow from them.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from equisection.errors import ResultFileError
+
+Floats = NDArray[np.float64]
+
+#: Outward normals of the sides, and the directions in which friction counts as positive: towards
+#: the trailing edge along the chord, and upwards at the edges.
+NORMALS = {
+    "upper": (0.0, 1.0),
+    "lower": (0.0, -1.0),
+    "leading edge": (-1.0, 0.0),
+    "trailing edge": (1.0, 0.0),
+}
+TANGENTS = {
+    "upper": (1.0, 0.0),
+    "lower": (1.0, 0.0),
+    "leading edge": (0.0, 1.0),
+    "trailing edge": (0.0, 1.0),
+}
+
+
+@dataclass(frozen=True)
+class SectionSurface:
+    """What the flow does to each face of the section's contour, arrays of shape (n,).
+
+    Attributes
+    ----------
+    x, y
+        Middle of the face over the chord.
+    length
+        Length of the face over the chord.
+    side
+        Where the face is, one of :data:`NORMALS`; by ascending x or y on each side.
+    pressure
+        c_p = (p - p_outlet)/(rho V^2/2).
+    friction
+        c_f = tau/(rho V^2/2), positive as in :data:`TANGENTS`; negative on the upper and the lower
+        side where the flow at the wall is reversed.
+    y_plus
+        y+ of the middle of the first cell.
+    """
+
+    x: Floats
+    y: Floats
+    length: Floats
+    side: NDArray[np.str_]
+    pressure: Floats
+    friction: Floats
+    y_plus: Floats
+
+    def variables(self) -> dict[str, tuple[str, NDArray[np.generic], dict[str, str]]]:
+        """Return the variables that are written to file, over ``face``."""
+        along = "positive towards the trailing edge, at the edges upwards"
+        return {
+            "x": ("face", self.x, _says("x/c of the face from the leading edge along the chord")),
+            "y": ("face", self.y, _says("y/c of the face from the chord line, up")),
+            "length": ("face", self.length, _says("length of the face over the chord")),
+            "side": ("face", self.side, _says(f"side of the section: {', '.join(NORMALS)}")),
+            "cp": ("face", self.pressure, _says("pressure coefficient, from the outlet's")),
+            "cf": ("face", self.friction, _says(f"friction coefficient, {along}")),
+            "y_plus": ("face", self.y_plus, _says("y+ of the middle of the first cell")),
+        }
+
+    def on(self, side: str) -> SectionSurface:
+        """Return the faces of one side."""
+        here = self.side == side
+        return SectionSurface(
+            self.x[here],
+            self.y[here],
+            self.length[here],
+            self.side[here],
+            self.pressure[here],
+            self.friction[here],
+            self.y_plus[here],
+        )
+
+    def loads(self, incidence_deg: float) -> tuple[float, float, float]:
+        """Return c_d, c_l and c_m about mid-chord, nose up, summed over the contour.
+
+        The traction on a face is -c_p n + c_f t; there is no other at a wall that the flow
+        sticks to.
+        """
+        sides = [str(side) for side in self.side]
+        normal = np.array([NORMALS[side] for side in sides])
+        tangent = np.array([TANGENTS[side] for side in sides])
+        traction = self.friction[:, None] * tangent - self.pressure[:, None] * normal
+        force = traction * self.length[:, None]
+        along, across = force.sum(axis=0)
+        moment = (self.y * force[:, 0] - (self.x - 0.5) * force[:, 1]).sum()
+        cosine, sine = math.cos(math.radians(incidence_deg)), math.sin(math.radians(incidence_deg))
+        return (
+            float(along * cosine + across * sine),
+            float(across * cosine - along * sine),
+            float(moment),
+        )
+
+
+def surface_from_dataset(dataset: xr.Dataset) -> SectionSurface | None:
+    """Return the surface data of a steady result; None if it has none."""
+    if "cp" not in dataset:
+        return None
+    side = dataset["side"].values.astype(str)
+    unknown = sorted(set(side) - set(NORMALS))
+    if unknown:
+        raise ResultFileError(
+            f"side: {', '.join(unknown)}; allowed are {', '.join(NORMALS)}; run the case again"
+        )
+    names = ("x", "y", "length", "cp", "cf", "y_plus")
+    x, y, length, pressure, friction, y_plus = (dataset[name].values for name in names)
+    return SectionSurface(x, y, length, side, pressure, friction, y_plus)
+
+
+def _says(long_name: str) -> dict[str, str]:
+    return {"units": "1", "long_name": long_name}

@@ -1,0 +1,56 @@
+"""The mesh as it stands in OpenFOAM's files: points, faces, cells on either side, patches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from foamlib import FoamFile
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class PolyMesh:
+    """A mesh of quadrilateral faces.
+
+    Attributes
+    ----------
+    points : (n, 3) array
+        Points.
+    faces : (m, 4) array
+        Points of each face, in order around it.
+    owner : (m,) array
+        The cell that each face belongs to; that on the other side has a higher number, or is none.
+    patches
+        First and last face of each part of the boundary.
+    """
+
+    points: Floats
+    faces: Numbers
+    owner: Numbers
+    patches: dict[str, slice]
+
+
+def read_poly_mesh(folder: Path) -> PolyMesh:
+    """Return the mesh of a case, written in binary."""
+    place = folder / "constant" / "polyMesh"
+    _, corners = _content(place / "faces")
+    return PolyMesh(
+        points=np.asarray(_content(place / "points"), dtype=float),
+        faces=np.asarray(corners, dtype=np.int64).reshape(-1, 4),
+        owner=np.asarray(_content(place / "owner"), dtype=np.int64),
+        patches={
+            name: slice(patch["startFace"], patch["startFace"] + patch["nFaces"])
+            for name, patch in _content(place / "boundary")
+        },
+    )
+
+
+def _content(path: Path) -> Any:
+    """Return what a file without keywords holds."""
+    return FoamFile(path)[None]
