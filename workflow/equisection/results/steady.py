@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.results.spent import Spent
 from equisection.results.surface import SectionSurface
 
 
@@ -29,6 +30,8 @@ class SteadyResult:
         Why there is no value, empty if there is one. Coefficients are then NaN.
     surface
         Pressure and friction around the section, where the solver has them.
+    spent
+        What the case took, where the solver knows it better than its job does.
     """
 
     drag: float
@@ -40,6 +43,7 @@ class SteadyResult:
     method: str
     failure: str = ""
     surface: SectionSurface | None = None
+    spent: Spent | None = None
 
     def to_dataset(self) -> xr.Dataset:
         """Return the data set that is written to file."""

@@ -9,6 +9,8 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.results.spent import Spent
+
 
 class Regime(StrEnum):
     """What a run turned out to be."""
@@ -51,6 +53,8 @@ class UnsteadyResult:
         theta_0 + twist of the section or tip (rad), shape (n,).
     torsion_amplitudes, bending_amplitudes
         Theta_i (rad) and W_i (chords), shape (modes, n); empty in 2D.
+    spent
+        What the case took, where the solver knows it better than its job does.
     verdict
         The values of :data:`VERDICT_ATTRIBUTES`.
     """
@@ -66,6 +70,7 @@ class UnsteadyResult:
     verdict: dict[str, str | float | int]
     torsion_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     bending_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
+    spent: Spent | None = None
 
     def to_dataset(self, chord: float) -> xr.Dataset:
         """Return the data set that is written to file, lengths in metres of a chord ``chord``."""

@@ -6,6 +6,7 @@ import logging
 import os
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from equisection.cases import Case, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.progress import JobProgress
 from equisection.results.kept import kept_results
+from equisection.results.spent import Spent
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.protocol import Solver
@@ -101,11 +103,10 @@ def _compute(
         raise SolverError(
             f"solver '{solver.name}' returned {len(results)} results for {len(tasks)} cases"
         )
-    cost = {
-        "wall_seconds": (time.perf_counter() - wall) / len(tasks),
-        "cpu_seconds": (_cpu_seconds() - cpu) / len(tasks),
-        "batch_cases": len(tasks),
-    }
+    shared = Spent(
+        cpu_seconds=(_cpu_seconds() - cpu) / len(tasks),
+        wall_seconds=(time.perf_counter() - wall) / len(tasks),
+    )
     attributes = {}
     for task, result in zip(tasks, results, strict=True):
         dataset = _dataset(task.case, result).assign_attrs(
@@ -113,7 +114,8 @@ def _compute(
             solver_version=solver.version,
             solver_description=solver.describe(),
             resolution=task.case.resolution,
-            **cost,
+            batch_cases=len(tasks),
+            **asdict(result.spent or shared),
         )
         attributes[task.hash] = store.put(task, dataset)
     return attributes

@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import logging
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +34,7 @@ from equisection.solvers.openfoam.mesh import Mesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.rigid import WINDOW, Tell, run_steady
 from equisection.solvers.openfoam.section_motion import MOTION, motion_output, write_motion
+from equisection.solvers.openfoam.spent import spent
 from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge, refused
 
 logger = logging.getLogger(__name__)
@@ -133,7 +134,7 @@ class SectionRun:
             failure = str(error)
             if not is_ready(self.folder):
                 return refused(case.model_copy(update={"refusal": failure}))
-        return _result(case, self.folder, failure)
+        return replace(_result(case, self.folder, failure), spent=spent(self.work))
 
     def _watch(self, start: float, tell: Tell) -> Watch:
         case, due = self.case, Every(LOOKS_EVERY, start)
