@@ -19,7 +19,7 @@ COLUMNS = (
 #: Says of a result that was made before surface data were stored how to have them.
 MISSING = (
     "no surface data, which results made by an earlier version lack; to have them delete "
-    "results/.store/{case_hash} and the result, and run with --config reuse="
+    "results/.store/{case_hash} and the result, and run with reuse: '' in the configuration"
 )
 
 
