@@ -25,12 +25,12 @@ def main(
 
     ``inputs`` holds ``modes``, ``equivalent``, ``mesh_study``, ``summary`` and ``onset``, with
     ``polar_3d`` and ``correction`` where the solver has 3D cases and ``reference_3d`` where the
-    beam is run.
+    beam is run, and ``bubble`` where the solver has surface data.
     """
     config = load_config(raw_config)
     data = {name: read_dataset(path) for name, path in inputs.items() if path.suffix == ".nc"}
     mesh_study = data.pop("mesh_study")
-    tables = {name: pd.read_csv(inputs[name]) for name in ("summary", "onset")}
+    tables = {name: pd.read_csv(path) for name, path in inputs.items() if path.suffix == ".csv"}
     run = Run(config, **data, **tables)
     thickness_over_span = config.beam.thickness / config.beam.length
     frames = {
@@ -46,7 +46,7 @@ if __name__ == "__main__":
     WANTED = ("modes", "equivalent", "mesh_study", "summary", "onset")
     with logged(snakemake.log[0]):
         inputs = {name: Path(snakemake.input[name]) for name in WANTED}
-        for name in ("polar_3d", "correction"):
+        for name in ("polar_3d", "correction", "bubble"):
             for path in snakemake.input[name]:
                 inputs[name] = Path(path)
         for index in snakemake.input.index_3d:

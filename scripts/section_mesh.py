@@ -11,13 +11,15 @@ from equisection.solvers.registry import solver_from_case
 
 
 def main(cases: Path, time_step: float, store: Path, output: Path) -> None:
-    """Have the solver mesh the one case of ``cases``; ``time_step`` is in c/V."""
+    """Have the solver mesh the one case of ``cases``; ``time_step`` is in c/V.
+
+    The file does not name the case's hash, by which the result of the case is known.
+    """
     ((_, case),) = read_cases(cases).items()
     solver = cast(MeshingSolver, solver_from_case(case.solver))
-    identity = case_hash(case)
-    mesh = solver.section_mesh(cast(SteadyCase, case), time_step, store / identity / "mesh")
+    work = store / case_hash(case) / "mesh"
+    mesh = solver.section_mesh(cast(SteadyCase, case), time_step, work)
     dataset = mesh.to_dataset().assign_attrs(
-        case_hash=identity,
         solver=solver.name,
         solver_version=solver.version,
         solver_description=solver.describe(),

@@ -13,12 +13,14 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 import equisection
+from equisection.comparison.bubble import bubble_table
 from equisection.comparison.grid_study import grid_study
 from equisection.figures import (
     fig01_workflow,
     fig03_modes,
     fig05_section_mesh,
     fig06_section_polar,
+    fig07_surface,
     fig08_courant_number,
     fig10_spanwise_loads,
     fig13_lift_correction,
@@ -33,6 +35,8 @@ from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import write_dataset
 from equisection.results.section_mesh import SectionMesh
+from equisection.results.steady import SteadyResult
+from equisection.results.surface import SectionSurface
 from equisection.results.unsteady import UnsteadyResult
 from equisection.structure.plate import Plate
 
@@ -107,6 +111,29 @@ def section_mesh() -> xr.Dataset:
     return mesh.to_dataset().assign_attrs(solver_description=SOLVER, resolution="coarse")
 
 
+def surface(reattachment=0.5) -> SectionSurface:
+    """Return a surface of ten faces a side, whose flow is reversed up to a place."""
+    x = np.tile(np.linspace(0.05, 0.95, 10), 2)
+    side = np.array(["lower"] * 10 + ["upper"] * 10)
+    y, one = np.where(side == "upper", 0.02, -0.02), np.ones(20)
+    return SectionSurface(x, y, 0.1 * one, side, -y, 1e-3 * (x - reattachment), one - x)
+
+
+def bubbles(known: dict[tuple[str, float], float], without=()) -> pd.DataFrame:
+    """Return ``tables/bubble.csv`` of bubbles by resolution and incidence."""
+    results = {}
+    for (resolution, angle), length in known.items():
+        method = "mean of unsteady over 40 c/V" if angle > 5 else "steady, 9 iterations"
+        made = SteadyResult(
+            0.1, 0.2, 0.3, *[np.empty(0)] * 3, method,
+            surface=None if angle in without else surface(length),
+        )  # fmt: skip
+        results[resolution, angle] = made.to_dataset().assign_attrs(
+            solver_description=SOLVER, case_hash="4f" * 32
+        )
+    return bubble_table(results)
+
+
 def modes(count=4) -> xr.Dataset:
     beam = fig03_modes.analytic_shapes(PLATE)
     return xr.Dataset(
@@ -179,6 +206,12 @@ def figures_of_data():
         "fig01": lambda: fig01_workflow.draw(graph, texts, SOLVER),
         "fig06": lambda: fig06_section_polar.draw(section_polar(("coarse", "fine", "finest"))),
         "fig05": lambda: fig05_section_mesh.draw(section_mesh()),
+        "fig07": lambda: fig07_surface.draw(
+            {1.0: surface(0.4), 10.0: surface(2.0)},
+            bubbles({("coarse", 1.0): 0.4, ("coarse", 10.0): 2.0, ("fine", 1.0): 0.5}),
+            "coarse",
+            {1.0: 0.5},
+        ),
         "fig08": lambda: fig08_courant_number.draw(section_mesh()),
         "fig10": lambda: fig10_spanwise_loads.draw(beam_polar(), "coarse"),
         "fig13": lambda: fig13_lift_correction.draw(whole),
@@ -257,6 +290,35 @@ def test_polars_of_a_grid_study_without_an_order_say_so():
     figure = fig06_section_polar.draw(polar, study)
     assert "has an observed order" in words(figure).replace("\n", " ")
     lay_out(figure)
+
+
+def test_surface_shows_the_bubble_of_every_resolution_beside_the_papers():
+    figure = figures_of_data()["fig07"]()
+    lines = {str(line.get_label()): line for line in figure.axes[3].get_lines()}
+    np.testing.assert_allclose(lines["coarse"].get_ydata(), [0.4, 1.0])
+    np.testing.assert_allclose(lines["fine"].get_ydata(), [0.5])
+    assert list(lines["stated in the paper"].get_xdata()) == [1.0]
+    assert "10 deg, mean of unsteady" in words(figure)
+    assert "1 deg, mean" not in words(figure)
+
+
+@pytest.mark.parametrize("without", [(1.0,), (1.0, 5.0)])
+def test_surface_says_which_results_have_no_data(without):
+    table = bubbles({("coarse", 1.0): 0.4, ("coarse", 5.0): 1.0}, without)
+    shown = {angle: surface() for angle in (5.0,) if angle not in without}
+    figure = fig07_surface.draw(shown, table, "coarse", {})
+    found = words(figure).replace("\n", " ")
+    assert f"{len(without)} of 2 cases have no surface data" in found
+    assert ("No result has surface data." in found) == (len(without) == 2)
+    lay_out(figure)
+
+
+@pytest.mark.parametrize(
+    ("available", "shown"),
+    [([0.0, 1.0, 2.5, 5.0, 10.0], [1.0, 2.5, 5.0, 10.0]), ([0.0, 2.0], []), ([0.0, 2.5], [2.5])],
+)
+def test_incidences_of_the_surface_shown(available, shown):
+    assert fig07_surface.incidences_shown(available, 2.5) == shown
 
 
 def test_courant_number_says_how_much_of_the_area_is_below_the_limit():

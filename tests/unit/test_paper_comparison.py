@@ -80,6 +80,20 @@ def onset(*rows: tuple[str, float, float]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["model", "k_star_stable", "k_star_unstable"])
 
 
+def bubble() -> pd.DataFrame:
+    """Return the table of a run whose result at 5 deg has no surface data."""
+    columns = (
+        "resolution incidence_deg bubble y_plus_mean y_plus_largest y_plus_below_1 method note"
+    )
+    rows = [
+        ("coarse", 1.0, 0.4, 0.7, 2.0, 0.95, "steady", ""),
+        ("coarse", 2.5, 0.6, 0.8, 2.4, 0.93, "steady", ""),
+        ("coarse", 5.0, *[math.nan] * 4, "steady", "made before"),
+        ("fine", 5.0, 0.9, 0.5, 0.9, 1.0, "steady", ""),
+    ]
+    return pd.DataFrame(rows, columns=columns.split()).assign(solver="a solver on 9 cells")
+
+
 REGIMES = {
     "2d": {5.0: "growing", 6.0: "settled"},
     "2d-corrected": {5.0: "growing", 6.0: "settled"},
@@ -274,6 +288,26 @@ class TestPaperTable:
         row = by_quantity(paper_table(run(), True)).loc["cost of 3D over 2D, per time simulated"]
         assert row["here"] == pytest.approx(4.0)
         assert math.isnan(row["relative_difference"])
+
+    def test_bubble_and_wall_distance_beside_the_papers(self) -> None:
+        table = by_quantity(paper_table(run(bubble=bubble()), True))
+        row = table.loc["bubble over chord, 2D at 1 deg"]
+        assert row["here"] == 0.4
+        assert row["relative_difference"] == pytest.approx(-0.2)
+        assert "resolution coarse, a solver on 9 cells, steady" in row["note"]
+        row = table.loc["wall y+, 2D"]
+        assert row["here"] == 2.4
+        assert row["note"].startswith("does not hold here")
+        assert "at 2.5 deg; 0.8 in the mean, below 1 on 93 % of both sides" in row["note"]
+
+    def test_a_bubble_that_is_not_known_says_why(self) -> None:
+        table = by_quantity(paper_table(run(bubble=bubble()), True))
+        assert "made before" in table.loc["bubble over chord, 2D at 5 deg", "note"]
+        few = bubble().iloc[1:]
+        table = by_quantity(paper_table(run(bubble=few), True))
+        assert "1 deg: not among" in table.loc["bubble over chord, 2D at 1 deg", "note"]
+        table = by_quantity(paper_table(run(), True))
+        assert "'embedded' has no surface" in table.loc["wall y+, 2D", "note"]
 
     def test_another_case_than_the_papers_has_no_paper_column(self) -> None:
         table = paper_table(run(), False)

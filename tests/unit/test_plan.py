@@ -156,6 +156,13 @@ def test_figures_of_a_dimension_are_drawn_only_with_a_model_of_it(
     assert names == sorted(names)
 
 
+def test_surface_is_shown_where_the_solver_has_it() -> None:
+    assert "fig07-surface" not in plan.figures(load_config({}))
+    raw = {"solver": "openfoam", "sweep": {"models": ["2d"]}, "unsteady": {"time_step": 0.02}}
+    cfd = load_config(raw)
+    assert "fig07-surface" in plan.figures(cfd)
+
+
 def test_plan_needs_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     asked: list[Callable[[Config], object]] = [

@@ -8,17 +8,21 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+import numpy as np
 import pandas as pd
 import pytest
 import yaml
 from tests.conftest import ROOT
+from tests.sample_cases import STEADY
 
 from equisection import plan
-from equisection.cases import case_hash, read_cases
+from equisection.cases import SteadyCase, case_hash, read_cases, write_cases
 from equisection.config import load_config, resolve_config
 from equisection.config.sections import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
+from equisection.results.kept import kept_results
 from equisection.results.netcdf import read_dataset
+from equisection.results.section_mesh import SectionMesh
 from equisection.script import logged
 
 SCRIPTS = sorted(path.stem for path in (ROOT / "scripts").glob("*.py"))
@@ -153,6 +157,32 @@ def test_more_modes_than_there_are_is_an_error_that_leaves_no_file(
     with pytest.raises(ModesError, match="12"):
         load_script("modes").main(Beam(), few, tmp_path / "modes.nc")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_mesh_of_a_case_is_not_taken_for_its_result(
+    load_script: LoadScript, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Kept results are found by the hash of their case."""
+
+    class Meshing:
+        name, version = "made up", "1"
+
+        def describe(self) -> str:
+            return "made up"
+
+        def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
+            del work
+            points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            one = np.ones(1)
+            corners = np.arange(4)[None]
+            return SectionMesh(points, corners, one, time_step, case.incidence_deg, "", {})
+
+    script = load_script("section_mesh")
+    monkeypatch.setattr(script, "solver_from_case", lambda block: Meshing())
+    write_cases(tmp_path / "case.json", {"coarse_a2.5": STEADY})
+    script.main(tmp_path / "case.json", 0.02, tmp_path, tmp_path / "kept" / "section_mesh.nc")
+    assert read_dataset(tmp_path / "kept" / "section_mesh.nc").attrs["resolution"] == "coarse"
+    assert not kept_results(tmp_path / "kept")
 
 
 def test_missing_input_is_named(load_script: LoadScript, tmp_path: Path) -> None:

@@ -40,6 +40,9 @@ ONCE_WITH_BEAM_POLAR = ("correction_factors", "fig13_lift_correction", "fig14_mo
 #: Rules that run once where the solver has a mesh of the section.
 ONCE_WITH_MESH = ("section_mesh", "fig05_section_mesh", "fig08_courant_number")
 
+#: Rules that run once where the solver has surface data.
+ONCE_WITH_SURFACE = ("bubble", "fig07_surface")
+
 
 def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
     """Return the jobs of a run on a fresh clone, counted from its configuration alone.
@@ -58,6 +61,8 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
         jobs.update(ONCE_WITH_BEAM_POLAR)
     if plan.has_mesh(config):
         jobs.update(ONCE_WITH_MESH)
+    if plan.has_surface(config):
+        jobs.update(ONCE_WITH_SURFACE)
     jobs.update(
         polar=dimensions,
         given_beam_polar=bool(config.steady.beam_polar),

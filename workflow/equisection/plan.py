@@ -137,6 +137,8 @@ FIGURES_OF_BEAM = ("fig10-spanwise-loads",)
 FIGURES_OF_CORRECTION = ("fig13-lift-correction", "fig14-moment-correction")
 #: Figures of the mesh of the section, drawn only where the solver has one.
 FIGURES_OF_MESH = ("fig05-section-mesh", "fig08-courant-number")
+#: Figures of pressure and friction along the section, drawn only where the solver has them.
+FIGURES_OF_SURFACE = ("fig07-surface",)
 #: Figures of one dimension, drawn only where a model of it is run.
 FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
 
@@ -147,9 +149,10 @@ def figures(config: Config) -> list[str]:
     if "3d" in steady_dimensions(config):
         of_beam = (*FIGURES_OF_BEAM, *of_beam)
     of_mesh = FIGURES_OF_MESH if has_mesh(config) else ()
+    of_surface = FIGURES_OF_SURFACE if has_surface(config) else ()
     run = {model(name, config.reduction).dimension for name in config.sweep.models}
     shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
-    return sorted([*FIGURES, *of_beam, *of_mesh, *shown])
+    return sorted([*FIGURES, *of_beam, *of_mesh, *of_surface, *shown])
 
 
 def steady_dimensions(config: Config) -> tuple[str, ...]:
@@ -167,6 +170,11 @@ def has_beam_polar(config: Config) -> bool:
 def has_mesh(config: Config) -> bool:
     """Tell whether the configured solver has a mesh."""
     return Capability.MESH in SOLVERS[config.solver].provides
+
+
+def has_surface(config: Config) -> bool:
+    """Tell whether the configured solver has pressure and friction along the section."""
+    return Capability.SURFACE in SOLVERS[config.solver].provides
 
 
 def has_grid_study(config: Config) -> bool:

@@ -215,6 +215,11 @@ def grid_study_of_section():
     return [f"{RESULTS}/tables/grid_study.csv"] if plan.has_grid_study(CONFIG) else []
 
 
+def bubble_of_section():
+    """Return the table of the section's bubble, if the solver has surface data."""
+    return [f"{RESULTS}/tables/bubble.csv"] if plan.has_surface(CONFIG) else []
+
+
 def comparison_files():
     """Return the tables that compare the models with each other and with the paper."""
     return [
@@ -228,4 +233,5 @@ def table_files():
     return [
         *(f"{RESULTS}/tables/{name}.csv" for name in tables),
         *grid_study_of_section(),
+        *bubble_of_section(),
     ]

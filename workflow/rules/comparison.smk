@@ -86,6 +86,7 @@ rule paper_comparison:
         polar_3d=polar_of_beam(),
         index_3d=index_of_beam(),
         correction=correction_of_beam(),
+        bubble=bubble_of_section(),
         summary=f"{RESULTS}/comparison/summary.csv",
         onset=f"{RESULTS}/comparison/onset.csv",
     output:

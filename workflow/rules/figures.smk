@@ -153,6 +153,45 @@ rule fig06_section_polar:
         "../../scripts/fig06_section_polar.py"
 
 
+rule fig07_surface:
+    """Wall distance, pressure and friction along the section (Fig. 7)."""
+    input:
+        index=f"{RESULTS}/steady/2d/polar.json",
+        bubble=f"{RESULTS}/tables/bubble.csv",
+        style=STYLE,
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig07-surface.png",
+            caption="../report/fig07.rst",
+            category="Figures",
+            labels={"figure": "7", "shows": "wall distance and pressure"},
+        ),
+        svg=f"{RESULTS}/figures/fig07-surface.svg",
+        pdf=f"{RESULTS}/figures/fig07-surface.pdf",
+    log:
+        f"{LOGS}/fig07_surface.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code(
+            *DRAWING,
+            "comparison/paper_values.py",
+            "figures/fig07_surface.py",
+            "results/surface.py",
+        ),
+        resolution=CONFIG.steady.resolution,
+        incidence_deg=CONFIG.flow.incidence_deg,
+        is_paper_case=CONFIG.is_paper_case,
+    message:
+        "Fig. 7, wall distance and pressure"
+    script:
+        "../../scripts/fig07_surface.py"
+
+
 rule fig08_courant_number:
     """Courant number on the mesh of the section (Fig. 8)."""
     input:

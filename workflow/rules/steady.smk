@@ -233,3 +233,33 @@ rule grid_study:
         "grid study of the section polar"
     script:
         "../../scripts/grid_study.py"
+
+
+rule bubble:
+    """Length of the section's bubble, and y+, at each resolution and incidence."""
+    input:
+        index=f"{RESULTS}/steady/2d/polar.json",
+    output:
+        report(
+            f"{RESULTS}/tables/bubble.csv",
+            caption="../report/bubble.rst",
+            category="Tables",
+            labels={
+                "table": "bubble",
+                "shows": "length of the bubble and wall distance",
+            },
+        ),
+    log:
+        f"{LOGS}/bubble.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("comparison/bubble.py", "results/surface.py"),
+    message:
+        "bubble of the section"
+    script:
+        "../../scripts/bubble.py"

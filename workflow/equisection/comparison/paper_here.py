@@ -11,6 +11,7 @@ import xarray as xr
 
 from equisection import plan
 from equisection.comparison.paper_values import (
+    BUBBLE_2D,
     COEFFICIENTS,
     DISCRETISATION,
     FLOW_FIELD,
@@ -32,6 +33,8 @@ class Run:
         of it is given either.
     reference_3d
         Result of the beam at the stiffest k* of the sweep; None if the beam is not run.
+    bubble
+        ``tables/bubble.csv``; None where the solver has no surface data.
     """
 
     config: Config
@@ -42,6 +45,7 @@ class Run:
     polar_3d: xr.Dataset | None = None
     correction: xr.Dataset | None = None
     reference_3d: xr.Dataset | None = None
+    bubble: pd.DataFrame | None = None
 
 
 @dataclass(frozen=True)
@@ -66,6 +70,7 @@ class Here:
     comparable: bool = True
 
 
+_NOT_AMONG = "not among the incidences of this run (steady.incidence_deg)"
 _NO_BEAM = Here(math.nan, "this run has no rigid beam of its own")
 
 
@@ -79,6 +84,7 @@ def values_here(run: Run) -> dict[str, list[Here]]:
     found |= _modal_contributions(run)
     found["k* of the onset"] = onsets(run.onset, run.summary, run.config.reduction)
     found["cost of 3D over 2D, per time simulated"] = [_cost(run.summary)]
+    found |= _surface(run)
     for quantity in FLOW_FIELD:
         found[quantity] = [Here(math.nan, "a resolved flow field has it; not in this run's files")]
     for quantity in DISCRETISATION:
@@ -150,13 +156,43 @@ def _rigid_plate(run: Run) -> dict[str, list[Here]]:
         for name, short in COEFFICIENTS.items():
             value = math.nan if row is None else float(row[short])
             if row is None:
-                note = "not among the incidences of this run (steady.incidence_deg)"
+                note = _NOT_AMONG
             elif math.isfinite(value):
                 note = f"resolution {resolution}, {solver}"
             else:
                 note = f"failed here: {run.polar_3d.attrs.get('failures') or 'no value'}"
             found[f"{name} at {angle:g} deg"] = [Here(value, note)]
     return found
+
+
+def _surface(run: Run) -> dict[str, list[Here]]:
+    """Return the bubble of the section at the paper's incidences, and y+ at that of the run."""
+    found = {
+        f"bubble over chord, 2D at {angle:g} deg": _on_surface(run, angle, "bubble")
+        for angle in BUBBLE_2D
+    }
+    return found | {
+        "wall y+, 2D": _on_surface(run, run.config.flow.incidence_deg, "y_plus_largest")
+    }
+
+
+def _on_surface(run: Run, angle: float, column: str) -> list[Here]:
+    if run.bubble is None:
+        return [Here(math.nan, f"solver '{run.config.solver}' has no surface data")]
+    table, resolution = run.bubble, run.config.steady.resolution
+    rows = table[(table["resolution"] == resolution) & np.isclose(table["incidence_deg"], angle)]
+    if rows.empty:
+        return [Here(math.nan, f"{angle:g} deg: {_NOT_AMONG}")]
+    row = rows.iloc[0]
+    if not math.isfinite(row[column]):
+        return [Here(math.nan, str(row["note"]))]
+    note = f"resolution {resolution}, {row['solver']}, {row['method']}"
+    if column == "y_plus_largest":
+        note = (
+            f"largest, at {angle:g} deg; {row['y_plus_mean']:.2g} in the mean, below 1 on "
+            f"{100 * row['y_plus_below_1']:.0f} % of both sides; {note}"
+        )
+    return [Here(float(row[column]), note)]
 
 
 def _factors(run: Run) -> dict[str, list[Here]]:

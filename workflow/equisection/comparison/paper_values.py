@@ -172,12 +172,24 @@ _RESPONSE = (
     ),
 )
 
+#: Length of the section's bubble over the chord, by incidence (deg).
+BUBBLE_2D = {1.0: 0.5, 5.0: 1.0}
+
+_SURFACE = (
+    Published("bubble over chord, 2D at 1 deg", BUBBLE_2D[1.0], "Section 4.1, on Fig. 7", "about"),
+    Published("bubble over chord, 2D at 5 deg", BUBBLE_2D[5.0], "Section 4.1, on Fig. 7"),
+    Published(
+        "wall y+, 2D",
+        1.0,
+        "Section 4.1, on Fig. 7",
+        "below",
+        note="the paper says 'for the whole plate'",
+    ),
+)
+
 _FLOW_FIELD = (
-    Published("bubble over chord, 2D at 1 deg", 0.5, "Section 4.1, on Fig. 7", "about"),
-    Published("bubble over chord, 2D at 5 deg", 1.0, "Section 4.1, on Fig. 7"),
     Published("bubble over chord, 3D root at 2 deg", 0.25, "Section 5.1, on Fig. 11", "about"),
     Published("bubble over chord, 3D at 4 deg", 0.8, "Section 5.1, on Fig. 11", "about"),
-    Published("wall y+, 2D", 1.0, "Section 4.1, on Fig. 7", "below"),
     Published("CFL of the major part of the cells, 2D", 2.0, "Section 4.1, on Fig. 8", "below"),
     Published("CFL of 90 % of the volume, 2D", 1.5, "Section 4.1, on Fig. 8", "below"),
     Published("CFL of 92 % of the volume, 3D", 1.0, "Section 4.2, on Fig. 8", "below"),
@@ -215,6 +227,7 @@ PUBLISHED: tuple[Published, ...] = (
     *_TABLE_1,
     *_AERODYNAMICS,
     *_RESPONSE,
+    *_SURFACE,
     *_FLOW_FIELD,
     *_DISCRETISATION,
 )

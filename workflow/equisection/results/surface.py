@@ -89,6 +89,20 @@ class SectionSurface:
             self.y_plus[here],
         )
 
+    def reattachment(self, side: str) -> float:
+        """Return x/c where the bubble from the leading edge ends: 0 for none, 1 for all the chord.
+
+        There c_f changes from negative to positive. Of several such places (the small vortices at
+        the corners of the edges have their own) it is the one up to which the integral of c_f over
+        x is smallest.
+        """
+        faces = self.on(side)
+        reversed_faces = int(np.argmin(np.cumsum(np.append(0.0, faces.friction * faces.length))))
+        if reversed_faces in (0, faces.x.size):
+            return float(reversed_faces > 0)
+        both = slice(reversed_faces - 1, reversed_faces + 1)
+        return float(np.interp(0.0, faces.friction[both], faces.x[both]))
+
     def loads(self, incidence_deg: float) -> tuple[float, float, float]:
         """Return c_d, c_l and c_m about mid-chord, nose up, summed over the contour.
 
@@ -108,6 +122,11 @@ class SectionSurface:
             float(across * cosine - along * sine),
             float(moment),
         )
+
+
+def suction_side(incidence_deg: float) -> str:
+    """Return the side of lower pressure; of the two that are alike at 0 deg the upper one."""
+    return "lower" if incidence_deg < 0 else "upper"
 
 
 def surface_from_dataset(dataset: xr.Dataset) -> SectionSurface | None:

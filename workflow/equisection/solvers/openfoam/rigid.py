@@ -170,12 +170,23 @@ def rigid_loads(
     """
     folder, steady, converged = run_steady(installation, case, mesh, work, tell)
     if converged:
-        drag, lift, moment = steady.last(WINDOW // 3).means()
-        iterations = f"{steady.time.size} iterations"
-        surface = surface_of_steady(installation, folder, mesh)
-        return RigidLoads(drag, lift, moment, f"steady, {iterations}", mesh.cells, surface)
+        return steady_mean(installation, folder, steady, mesh)
     logger.info("%g deg: the steady solver does not converge", case.incidence_deg)
     return unsteady_mean(installation, folder, mesh, work, tell)
+
+
+def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Mesh) -> RigidLoads:
+    """Return the loads of a converged steady run, the means of its last iterations.
+
+    Raises
+    ------
+    SolverError
+        A program failed.
+    """
+    drag, lift, moment = loads.last(WINDOW // 3).means()
+    surface = surface_of_steady(installation, folder, mesh)
+    method = f"steady, {loads.time.size} iterations"
+    return RigidLoads(drag, lift, moment, method, mesh.cells, surface)
 
 
 def unsteady_mean(

@@ -1,0 +1,25 @@
+"""Length of the bubble, and y+, at each resolution and incidence."""
+
+from pathlib import Path
+
+from equisection import plan
+from equisection.comparison.bubble import bubble_table
+from equisection.files import written_whole
+from equisection.results.index import read_index, result_file
+from equisection.results.netcdf import read_dataset
+from equisection.script import logged
+
+
+def main(index: Path, output: Path) -> None:
+    """Read the surface data of every steady case of the section."""
+    results = {
+        plan.angle_of(name): read_dataset(result_file(index, name), str(attributes["case_hash"]))
+        for name, attributes in read_index(index).items()
+    }
+    with written_whole(output) as aside:
+        bubble_table(results).to_csv(aside, index=False, float_format="%.6g")
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(Path(snakemake.input.index), Path(snakemake.output[0]))

@@ -1,0 +1,82 @@
+"""Whether steady solver and unsteady mean agree on the rigid section, where both can be had.
+
+    python -m tests.benchmarks.rigid [mesh] [incidence in deg]
+
+The section of `config/openfoam.yaml` runs steadily, and goes on unsteadily from there as it does
+where the steady solver does not converge. Beside the coefficients stand those that pressure and
+friction add up to. The files stay in `results/rigid-<mesh>`.
+"""
+
+import argparse
+from pathlib import Path
+
+import pandas as pd
+import yaml
+
+from equisection.assemble import steady_case
+from equisection.cases import SteadyCase
+from equisection.config import load_config
+from equisection.solvers.openfoam.installation import find
+from equisection.solvers.openfoam.presets import PRESETS
+from equisection.solvers.openfoam.rigid import (
+    RigidLoads,
+    mesh_of,
+    run_steady,
+    steady_mean,
+    unsteady_mean,
+)
+from equisection.solvers.registry import solver_from_config
+
+CONFIG = Path("config/openfoam.yaml")
+
+
+def section(incidence_deg: float) -> SteadyCase:
+    """Return the configured section at an incidence (deg)."""
+    config = load_config(yaml.safe_load(CONFIG.read_text(encoding="utf-8")))
+    resolution = config.steady.resolution
+    solver = solver_from_config(config, resolution)
+    return steady_case(config, "2d", incidence_deg, resolution, solver)
+
+
+def table(loads: dict[str, RigidLoads], incidence_deg: float) -> pd.DataFrame:
+    """Return the coefficients, their sums over the surface, and how far each is from the first."""
+    names = ["cl", "cm", "cd"]
+    rows = {}
+    for name, this in loads.items():
+        drag, lift, moment = this.surface.loads(incidence_deg)
+        rows[name] = [this.lift, this.moment, this.drag]
+        rows[f"{name}, summed over the surface"] = [lift, moment, drag]
+    found = pd.DataFrame.from_dict(rows, orient="index", columns=names)
+    first = found.iloc[0]
+    for name in names:
+        found[f"{name} off by %"] = 100 * (found[name] / first[name] - 1)
+    return found
+
+
+def main(mesh_name: str, incidence_deg: float) -> None:
+    """Run the section both ways and print the table."""
+    case, preset = section(incidence_deg), PRESETS[mesh_name]
+    mesh = mesh_of(case, preset.refinement, preset.spacing)
+    work = Path("results") / f"rigid-{mesh_name}"
+    folder, history, converged = run_steady(find(), case, mesh, work, _nothing)
+    if not converged:
+        raise SystemExit(f"the steady solver does not converge at {incidence_deg:g} deg")
+    loads = {
+        "steady": steady_mean(find(), folder, history, mesh),
+        "unsteady": unsteady_mean(find(), folder, mesh, work, _nothing),
+    }
+    print(f"{mesh_name}, {mesh.cells} cells, {incidence_deg:g} deg")
+    print("; ".join(this.method for this in loads.values()))
+    print(table(loads, incidence_deg).to_string(float_format="%.4g"))
+
+
+def _nothing(done: float, total: float) -> None:
+    del done, total
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.rigid")
+    parser.add_argument("mesh", nargs="?", default="medium", choices=sorted(PRESETS))
+    parser.add_argument("incidence_deg", nargs="?", type=float, default=2.5)
+    chosen = parser.parse_args()
+    main(chosen.mesh, chosen.incidence_deg)
