@@ -1,8 +1,11 @@
 """Run the cases of one job with the solver that they name."""
 
+import logging
+import sys
 from pathlib import Path
 
 from equisection.cases import read_cases
+from equisection.results.failures import warning_of
 from equisection.results.index import write_index
 from equisection.script import logged
 from equisection.solvers.job import run_cases
@@ -16,6 +19,10 @@ def main(cases: Path, output: Path, store: Path, progress: Path, reuse: Path | N
     attributes = run_cases(read_cases(cases), output.parent, store, progress, reuse)
     if output.suffix == ".json":
         write_index(output, attributes)
+    warning = warning_of(attributes, output)
+    if warning:
+        logging.getLogger(__name__).warning("%s", warning)
+        print(f"warning: {warning}", file=sys.stderr)
 
 
 if __name__ == "__main__":

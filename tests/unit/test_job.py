@@ -129,6 +129,17 @@ def test_case_in_the_store_is_not_run_again(run: Run, solver: type[Adapter]) -> 
     assert solver.calls == [[1.0], [5.0]]
 
 
+def test_failed_case_in_the_store_is_run_again(
+    run: Run, solver: type[Adapter], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    failed = SteadyResult(np.nan, np.nan, np.nan, NOTHING, NOTHING, NOTHING, "none", "it blew up")
+    with monkeypatch.context() as patch:
+        patch.setattr(Adapter, "run_steady", lambda self, cases, work, progress: [failed])
+        assert run(low=steady(1.0))["low"]["failure"] == "it blew up"
+    assert run(low=steady(1.0))["low"]["failure"] == ""
+    assert solver.calls == [[1.0]]
+
+
 def test_damaged_result_in_the_store_is_computed_again(
     run: Run, solver: type[Adapter], tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:

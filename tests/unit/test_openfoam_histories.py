@@ -47,6 +47,17 @@ def test_second_start_from_the_same_time(tmp_path: Path) -> None:
     assert read_history(tmp_path, "coefficient.dat", ["Cl"])["Cl"].tolist() == [10]
 
 
+@pytest.mark.parametrize("left", ["", "# Fo", HEADER[:-5], HEADER])
+def test_start_that_was_killed_before_its_first_row_is_passed_over(
+    tmp_path: Path, left: str
+) -> None:
+    write(tmp_path, "0", "1 0 1 0\n2 0 2 0\n")
+    killed = write(tmp_path, "2", "")
+    killed.write_text(left)
+    write(tmp_path, "2", "3 0 3 0\n", "coefficient_2.dat")
+    assert read_history(tmp_path, "coefficient.dat", ["Cl"])["Cl"].tolist() == [1, 2, 3]
+
+
 @pytest.mark.parametrize("last", ["2 0 2", "2 0 2.", "2 0 2 0", ""])
 def test_row_that_is_not_whole_is_left_out(tmp_path: Path, last: str) -> None:
     path = write(tmp_path, "0", f"1 0 1 0\n{last}")

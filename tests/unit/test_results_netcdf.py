@@ -1,3 +1,4 @@
+import resource
 import struct
 from pathlib import Path
 
@@ -48,8 +49,22 @@ def test_error_while_writing_leaves_the_old_file_and_nothing_else(
         raise OSError("no space left on device")
 
     monkeypatch.setattr("equisection.results.netcdf._write_variable", break_down)
-    with pytest.raises(OSError, match="no space left"):
+    with pytest.raises(ResultFileError, match=r"cannot be written .*no space left.* the disk may"):
         write_dataset(written, dataset(5))
+    assert written.read_bytes() == before
+    assert list(written.parent.iterdir()) == [written]
+
+
+def test_file_that_may_not_grow_is_not_taken_for_whole(written: Path) -> None:
+    """The library's own error, which does not say that there is no space."""
+    before = written.read_bytes()
+    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, limits[1]))
+    try:
+        with pytest.raises(ResultFileError, match=r"cannot be written .*free some space"):
+            write_dataset(written, dataset(100_000))
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
     assert written.read_bytes() == before
     assert list(written.parent.iterdir()) == [written]
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import logging
+import os
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -10,13 +12,16 @@ from pathlib import Path
 
 from equisection.errors import EquisectionError
 
+#: No space left on the device, quota exceeded, file too large.
+_FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+
 
 @contextmanager
 def logged(log: str) -> Iterator[None]:
     """Send the log of the block to a file; end with status 1 on an error a user can mend.
 
-    Such an error is printed and logged as its message alone. Anything else is a fault of the
-    program and keeps its traceback, in the log and on the terminal.
+    Such an error, a full disk among them, is printed and logged as its message alone. Anything
+    else is a fault of the program and keeps its traceback, in the log and on the terminal.
     """
     path = Path(log)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -27,12 +32,27 @@ def logged(log: str) -> Iterator[None]:
         format="%(asctime)s %(levelname)s %(message)s",
         force=True,
     )
+    logging.raiseExceptions = False  # a log without space must not hide what was to stand in it
     try:
         yield
-    except EquisectionError as error:
-        logging.getLogger(__name__).error("%s", error)
-        print(f"error: {error}", file=sys.stderr)
-        raise SystemExit(1) from None
-    except Exception:
+    except Exception as error:
+        message = _message(error)
+        if message:
+            logging.getLogger(__name__).error("%s", message)
+            print(f"error: {message}", file=sys.stderr)
+            raise SystemExit(1) from None
         logging.getLogger(__name__).exception("a fault of the program")
         raise
+
+
+def _message(error: Exception) -> str:
+    """Return what a person is told of an error; nothing of a fault of the program."""
+    if isinstance(error, EquisectionError):
+        return str(error)
+    # copying a folder raises an error that holds those of its files as text
+    if isinstance(error, OSError) and any(os.strerror(code) in str(error) for code in _FULL):
+        return (
+            "the disk is full, or a limit on it reached; free some space and run again, what is "
+            f"finished is kept ({str(error)[:300]})"
+        )
+    return ""

@@ -21,8 +21,8 @@ from equisection.cases import case_hash, read_cases
 from equisection.config import load_config
 from equisection.errors import CaseFileError, ConfigError, EquisectionError, ResultFileError
 from equisection.progress import SUFFIX, Snapshot, read_snapshot
+from equisection.results.failures import failure_of
 from equisection.results.netcdf import read_attributes
-from equisection.results.unsteady import Regime
 
 
 class StatusError(EquisectionError):
@@ -243,11 +243,11 @@ def _unfinished(job: Snapshot | None, broken: str, error: str, in_store: bool) -
 
 def _finished(model: str, case: str, attributes: dict[str, Any]) -> Entry:
     """Return the entry of a result; a steady one has no regime, only perhaps a failure."""
-    failure = str(attributes.get("failure", ""))
     regime = str(attributes.get("regime", ""))
-    text = failure or str(attributes.get("reason", ""))
-    failed = bool(failure) or regime == Regime.FAILED
-    return Entry(model, case, State.FAILED if failed else State.DONE, regime, text=text)
+    failure = failure_of(attributes)
+    if failure:
+        return Entry(model, case, State.FAILED, regime, text=failure)
+    return Entry(model, case, State.DONE, regime, text=str(attributes.get("reason", "")))
 
 
 def _is_run(folder: Path) -> bool:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -17,6 +16,7 @@ from typing import Any
 from equisection.cases import ENDS, Case, UnsteadyCase, are_alike, canonical
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
+from equisection.results.failures import failure_of
 from equisection.results.netcdf import read_attributes
 
 #: Where a run has the results of its cases.
@@ -55,11 +55,11 @@ def _without_end(case: dict[str, Any]) -> dict[str, Any]:
 
 
 def kept_results(folder: Path) -> list[Kept]:
-    """Return the whole results of cases below a folder, the longest first."""
+    """Return the whole results of cases below a folder that have not failed, the longest first."""
     found = []
     for path in sorted(folder.rglob("*.nc")):
         attributes = _attributes(path)
-        if attributes.get("case_hash"):
+        if attributes.get("case_hash") and not failure_of(attributes):
             found.append(Kept(path, attributes))
     return sorted(found, key=lambda kept: -kept.end_time)
 
@@ -81,7 +81,7 @@ def keep_results(run: Path, folder: Path) -> list[Path]:
     for kind in _KINDS:
         for path in sorted((run / kind).rglob("*.nc")):
             attributes = _attributes(path)
-            if attributes.get("case_hash") and not _has_failed(attributes):
+            if attributes.get("case_hash") and not failure_of(attributes):
                 copy = folder / path.relative_to(run)
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 with written_whole(copy) as aside:
@@ -98,7 +98,3 @@ def _attributes(path: Path) -> dict[str, Any]:
         return read_attributes(path)
     except ResultFileError:
         return {}
-
-
-def _has_failed(attributes: Mapping[str, Any]) -> bool:
-    return attributes.get("regime") == "failed" or bool(attributes.get("failure"))

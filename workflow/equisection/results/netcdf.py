@@ -31,7 +31,7 @@ def write_dataset(path: Path, dataset: xr.Dataset) -> dict[str, Any]:
     ------
     ResultFileError
         A variable lacks ``units`` or ``long_name``, or holds a value that is not finite and is
-        not marked as allowed to (attribute ``missing_allowed``).
+        not marked as allowed to (attribute ``missing_allowed``); or the file cannot be written.
     """
     for name, variable in dataset.variables.items():
         for wanted in ("units", "long_name"):
@@ -43,12 +43,18 @@ def write_dataset(path: Path, dataset: xr.Dataset) -> dict[str, Any]:
         "schema_version": SCHEMA_VERSION,
         "equisection_version": equisection.__version__,
     }
-    with written_whole(path) as aside, netCDF4.Dataset(aside, "w", format="NETCDF4") as file:
-        for dimension, size in dataset.sizes.items():
-            file.createDimension(str(dimension), size)
-        for name, variable in dataset.variables.items():
-            _write_variable(file, str(name), variable)
-        file.setncatts(attributes)
+    try:
+        with written_whole(path) as aside, netCDF4.Dataset(aside, "w", format="NETCDF4") as file:
+            for dimension, size in dataset.sizes.items():
+                file.createDimension(str(dimension), size)
+            for name, variable in dataset.variables.items():
+                _write_variable(file, str(name), variable)
+            file.setncatts(attributes)
+    except (OSError, RuntimeError) as error:  # the library does not say why
+        raise ResultFileError(
+            f"{path}: cannot be written ({error}); the disk may be full: free some space and run "
+            "again"
+        ) from None
     return attributes
 
 

@@ -1,8 +1,8 @@
 """Where results are under the hash of their case, for all runs.
 
 Each is in ``<store>/<hash>/result.nc``. It is no declared output of a rule, so it survives a kill
-and a change of the sweep: a case that was ever finished is not computed again. Whatever the store
-holds is validated before it is used.
+and a change of the sweep: a case that was ever finished is not computed again, but one that has
+failed is. Whatever the store holds is validated before it is used.
 
 A solver that runs its cases one by one has its working directory in ``<store>/<hash>`` too, that of
 an unsteady case under the hash of its history, with the longest result so far as ``history.nc``.
@@ -24,9 +24,9 @@ import xarray as xr
 from equisection.cases import Case, UnsteadyCase, canonical, case_hash, history_hash
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
+from equisection.results.failures import failure_of
 from equisection.results.kept import Kept
 from equisection.results.netcdf import read_attributes, read_dataset, write_dataset
-from equisection.results.unsteady import Regime
 from equisection.solvers.judged_again import judged_again
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
@@ -84,15 +84,20 @@ class ResultStore:
         return self.work(task) / "history.nc"
 
     def known(self, task: Task) -> dict[str, Any] | None:
-        """Return the attributes of a result that the store has."""
+        """Return the attributes of a result that the store has, if its case has not failed."""
         path = self.result(task)
         if not path.exists():
             return None
         try:
-            return read_attributes(path, task.hash)
+            attributes = read_attributes(path, task.hash)
         except ResultFileError as error:
             logger.warning("%s; it is computed again", error)
             return None
+        failure = failure_of(attributes)
+        if failure:
+            logger.info("it failed before and is tried again: %s", failure)
+            return None
+        return attributes
 
     def put(self, task: Task, dataset: xr.Dataset) -> dict[str, Any]:
         """Write a result; return its attributes. The longest of a history is the history."""
@@ -101,7 +106,7 @@ class ResultStore:
         if not runs_batches(task.case):
             own["case"] = canonical(task.case)
         attributes = write_dataset(path, dataset.assign_attrs(own))
-        if task.history and attributes["regime"] != Regime.FAILED:
+        if task.history and not failure_of(attributes):
             longest = self._history(task)
             if float(attributes["end_time"]) > _length(longest):
                 publish(path, longest)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.cases import SectionProperties, UnsteadyCase
+from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.openfoam import flow
@@ -116,8 +117,9 @@ class SectionRun:
         Raises
         ------
         SolverError
-            A program failed. A flow that blew up is a result: ``failed``, or ``growing`` if the
-            motion had grown beyond the bound before.
+            A program failed through no fault of the case. A case that went where it cannot be
+            computed has a result: ``failed``, or ``growing`` if the motion had grown beyond the
+            bound before.
         """
         case, failure = self.case, ""
         try:
@@ -130,6 +132,7 @@ class SectionRun:
             if start < case.duration:
                 self._write_system()
                 run_program(self.installation, "pimpleFoam", self.folder, self._watch(start, tell))
+                require_reasonable(read_loads(self.folder), self.folder)
         except BlowUpError as error:
             failure = str(error)
             if not is_ready(self.folder):
@@ -187,7 +190,7 @@ def read_section(folder: Path) -> SectionHistory:
     Raises
     ------
     SolverError
-        A file is missing or of an unknown layout.
+        A file is missing or of an unknown layout, or steps are missing in it.
     """
     loads = read_loads(folder)
     loads = loads.first(reasonable(loads))
@@ -200,6 +203,7 @@ def read_section(folder: Path) -> SectionHistory:
     _, one, other = np.intersect1d(
         _steps(loads.time), _steps(motion["Time"]), return_indices=True, assume_unique=True
     )
+    _require_every_step(loads.time[one], folder)
     deflection = motion["centreOfRotation"][other, 1]
     return SectionHistory(
         time=loads.time[one],
@@ -213,6 +217,17 @@ def read_section(folder: Path) -> SectionHistory:
 def _steps(time: Floats) -> NDArray[np.int64]:
     """Return times as whole numbers, by which two files agree."""
     return np.rint(time * 1e7).astype(np.int64)
+
+
+def _require_every_step(time: Floats, folder: Path) -> None:
+    """Refuse a history that a full disk, or a hand, has left with a gap."""
+    steps = np.diff(_steps(time))
+    if steps.size and steps.max() > 1.5 * np.median(steps):
+        gap = int(steps.argmax())
+        raise SolverError(
+            f"{folder / 'postProcessing'}: steps are missing between {time[gap]:g} and "
+            f"{time[gap + 1]:g} c/V; delete {folder} and run again"
+        )
 
 
 def _about_moving_centre(loads: Loads, rows: NDArray[np.intp], deflection: Floats) -> Floats:

@@ -39,9 +39,11 @@ def read_history(folder: Path, name: str, columns: Sequence[str]) -> dict[str, F
     SolverError
         There is no file, a header does not name the columns, or a row does not fit its header.
     """
-    parts = [read_table(path, columns) for path in _files(folder, name)]
-    if not parts:
+    files = _files(folder, name)
+    if not files:
         raise SolverError(f"{folder}: no {name}; the run wrote no history")
+    # a start that was killed before its first row may not even have a whole header
+    parts = [read_table(path, columns) for path in files if path == files[-1] or _has_rows(path)]
     joined = parts[0]
     for part in parts[1:]:
         if not part["Time"].size:
@@ -69,6 +71,11 @@ def _files(folder: Path, name: str) -> list[Path]:
             if path.is_file()
         ]
     return [path for *_, path in sorted(found)]
+
+
+def _has_rows(path: Path) -> bool:
+    with path.open(encoding="utf-8", errors="replace") as lines:
+        return any(line.strip() and not line.startswith("#") for line in lines)
 
 
 def read_table(path: Path, columns: Sequence[str]) -> dict[str, Floats]:

@@ -6,6 +6,7 @@ import contextlib
 import ctypes
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -25,7 +26,11 @@ INTERVAL = 0.2
 SILENCE = 900.0
 #: Lines of a fault that reach the user.
 _LINES = 12
+#: Bytes left on a disk that counts as full: less than any state that is written.
+_FULL = 2**16
 _TIME = re.compile(rb"^Time = ([-+0-9.eE]+)", re.MULTILINE)
+#: Stands in the log behind each step that was computed.
+_STEP_DONE = b"ExecutionTime = "
 
 #: Called with the latest time in the log; true ends the run at the end of a step.
 Watch = Callable[[float], bool]
@@ -66,9 +71,9 @@ def run_program(
     Raises
     ------
     BlowUpError
-        It ended with a floating-point exception.
+        It ended with a floating-point exception, or gave up after steps that went well.
     SolverError
-        It could not start, ended with a fault, or its log has been silent for too long.
+        It could not start, ended with any other fault, or its log has been silent for too long.
     """
     log = folder / f"log.{program}"
     stop = folder / STOP_FILE
@@ -129,9 +134,12 @@ def _follow(
     with log.open("rb") as lines:
         lines.seek(start)
         while process.poll() is None:
-            time.sleep(INTERVAL)
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(INTERVAL)
             new = lines.read()
             if not new:
+                if _is_full(log.parent):
+                    raise SolverError(f"{_disk_is_full(log.parent)}; see {log}")
                 if time.monotonic() - heard > silence:
                     raise SolverError(
                         f"{log.name.removeprefix('log.')} has said nothing for {silence:g} s and "
@@ -147,17 +155,37 @@ def _follow(
                 watch = None
 
 
+def _is_full(folder: Path) -> bool:
+    return shutil.disk_usage(folder).free < _FULL
+
+
+def _disk_is_full(folder: Path) -> str:
+    return (
+        f"the disk of {folder} is full; free some space and run again, the case goes on from its "
+        "last whole state"
+    )
+
+
 def _fault(program: str, status: int, log: Path, start: int) -> SolverError:
-    """Return what went wrong, in the words of the log."""
-    with log.open("rb") as opened:
-        opened.seek(start)
-        said = opened.read().decode(errors="replace")
+    """Return what went wrong, in the words of the log.
+
+    A program that gives up with a ``FOAM FATAL ERROR`` after steps that went well was set up
+    rightly: the case went where it cannot be computed. Before the first step, or in reading and
+    writing files (``FOAM FATAL IO ERROR``), it is a fault of the set-up or the machine.
+    """
+    whole = log.read_bytes()
+    said = whole[start:].decode(errors="replace")
     fatal = said.rfind("FOAM FATAL")
+    words = f"status {status}" if status >= 0 else f"signal {-status}"
+    words = f"ended with {words}: {' / '.join(said.strip().splitlines()[-3:])[: _LINES * 50]}"
     if fatal >= 0:
         words = " / ".join(line.strip() for line in said[fatal:].splitlines() if line.strip())
-        return SolverError(f"{program}: {words[:600]}; see {log}")
+        words = words[: _LINES * 50]
+    if _is_full(log.parent):
+        return SolverError(f"{_disk_is_full(log.parent)} ({program}: {words}); see {log}")
+    if fatal >= 0:
+        gave_up = said.startswith("FOAM FATAL ERROR", fatal) and _STEP_DONE in whole
+        return (BlowUpError if gave_up else SolverError)(f"{program}: {words}; see {log}")
     if "sigFpe" in said or status in (-signal.SIGFPE, 128 + signal.SIGFPE):
         return BlowUpError(f"{program}: floating-point exception; see {log}")
-    how = f"signal {-status}" if status < 0 else f"status {status}"
-    last = " / ".join(said.strip().splitlines()[-3:])
-    return SolverError(f"{program} ended with {how}: {last[: _LINES * 50]}; see {log}")
+    return SolverError(f"{program} {words}; see {log}")

@@ -28,7 +28,7 @@ from equisection.solvers.openfoam.dictionaries import (
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
 from equisection.solvers.openfoam.mesh import SIMILAR, Channel, Mesh, Spacing
-from equisection.solvers.openfoam.process import Every, run_program
+from equisection.solvers.openfoam.process import BlowUpError, Every, run_program
 from equisection.solvers.openfoam.surface import (
     averaging,
     surface_of_mean,
@@ -149,13 +149,18 @@ def require_sound_mesh(log: Path) -> None:
 
     Raises
     ------
+    BlowUpError
+        It found faults: this section at this incidence has no mesh.
     SolverError
-        With what it said.
+        It said nothing of the kind.
     """
     said = log.read_text(encoding="utf-8", errors="replace")
-    if "Mesh OK." not in said:
-        faults = [line.strip(" *") for line in said.splitlines() if "***" in line]
-        raise SolverError(f"the mesh is not sound: {'; '.join(faults) or 'no verdict'}; see {log}")
+    if "Mesh OK." in said:
+        return
+    faults = [line.strip(" *") for line in said.splitlines() if "***" in line]
+    if not faults:
+        raise SolverError(f"checkMesh has no verdict on the mesh; see {log}")
+    raise BlowUpError(f"the mesh is not sound: {'; '.join(faults)}; see {log}")
 
 
 def rigid_loads(

@@ -1,0 +1,271 @@
+"""Cases whose solver goes wrong: what is of the case is a result, what is of the machine is none.
+
+OpenFOAM is a stand-in here, whose faults come on demand.
+"""
+
+import os
+import random
+import re
+import resource
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import psutil
+import pytest
+import xarray as xr
+from tests.conftest import ROOT
+from tests.sample_cases import STEADY, UNSTEADY
+
+from equisection.cases import SolverBlock, history_hash, write_cases
+from equisection.config.sections.openfoam import PREFIX_VARIABLE
+from equisection.errors import SolverError
+from equisection.results.netcdf import read_dataset
+from equisection.solvers.job import run_cases
+from equisection.solvers.openfoam.free import read_section
+
+STAND_IN = f"{sys.executable} {ROOT / 'tests' / 'openfoam_stand_in.py'}"
+SOLVER = SolverBlock(
+    name="openfoam", version="2", settings={"mesh": "coarse", "outer_correctors": 3}
+)
+CASE = UNSTEADY.model_copy(
+    update={"solver": SOLVER, "duration": 20.0, "time_step": 0.02, "output_interval": 0.1}
+)
+RIGID = STEADY.model_copy(update={"solver": SOLVER})
+
+
+@pytest.fixture(autouse=True)
+def stand_in(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(PREFIX_VARIABLE, STAND_IN)
+
+
+def run(folder: Path, case: Any = CASE) -> dict[str, Any]:
+    found = run_cases({"k": case}, folder, folder / "store", folder / "progress.json")
+    return found["k"]
+
+
+def free_folder(folder: Path) -> Path:
+    return folder / "store" / history_hash(CASE) / "case0" / "free"
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> xr.Dataset:
+    folder = tmp_path_factory.mktemp("undisturbed")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(PREFIX_VARIABLE, STAND_IN)
+        run(folder)
+    return read_dataset(folder / "k.nc")
+
+
+def assert_same_history(folder: Path, undisturbed: xr.Dataset) -> None:
+    found = read_dataset(folder / "k.nc")
+    for name in ("time", "twist", "deflection", "cl", "cm"):
+        np.testing.assert_allclose(found[name], undisturbed[name], atol=1e-12)
+    for name in ("regime", "end_time", "twist_amplitude_deg"):
+        assert found.attrs[name] == undisturbed.attrs[name]
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("fatal", "pimpleFoam: FOAM FATAL ERROR: / Maximum number of iterations exceeded"),
+        ("fpe", "pimpleFoam: floating-point exception"),
+        ("nan", "the loads are beyond reason from time 7 on"),
+        ("mesh", "the mesh is not sound: Max skewness = 9"),
+    ],
+)
+def test_case_that_cannot_be_computed_is_failed_with_its_reason(
+    fault: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("STAND_IN_FAULT", fault)
+    found = run(tmp_path)
+    assert found["regime"] == "failed"
+    assert words in found["reason"]
+    assert str(tmp_path / "store") in found["reason"]
+    assert read_dataset(tmp_path / "k.nc").attrs["reason"] == found["reason"]
+
+
+def test_loads_that_blow_up_just_before_the_end_are_no_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """After the last look at the history, and with floating-point exceptions switched off."""
+    monkeypatch.setenv("STAND_IN_FAULT", "nan")
+    assert run(tmp_path, CASE.model_copy(update={"duration": 7.1}))["regime"] == "failed"
+
+
+def test_angle_without_a_mesh_has_no_value(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("STAND_IN_FAULT", "mesh")
+    assert "the mesh is not sound" in run(tmp_path, RIGID)["failure"]
+    assert np.isnan(read_dataset(tmp_path / "k.nc")["cl"])
+
+
+def test_failed_case_is_tried_again_and_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, undisturbed: xr.Dataset
+) -> None:
+    monkeypatch.setenv("STAND_IN_FAULT", "fatal")
+    assert run(tmp_path)["regime"] == "failed"
+    monkeypatch.delenv("STAND_IN_FAULT")
+    run(tmp_path)
+    assert_same_history(tmp_path, undisturbed)
+    starts = free_folder(tmp_path) / "postProcessing" / "loads"
+    assert {path.name for path in starts.iterdir()} == {"0", "6"}
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("set-up", "FOAM FATAL ERROR: / Unknown solver type GAMMG"),
+        ("file", "FOAM FATAL IO ERROR: / error in IOstream"),
+        ("kill", "pimpleFoam ended with signal 9"),
+    ],
+)
+def test_fault_of_the_machine_leaves_no_result_and_is_tried_again(
+    fault: str,
+    words: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    undisturbed: xr.Dataset,
+) -> None:
+    monkeypatch.setenv("STAND_IN_FAULT", fault)
+    with pytest.raises(SolverError, match=words) as raised:
+        run(tmp_path)
+    assert str(free_folder(tmp_path) / "log.pimpleFoam") in str(raised.value)
+    assert list(tmp_path.rglob("*.nc")) == []
+    monkeypatch.delenv("STAND_IN_FAULT")
+    run(tmp_path)
+    assert_same_history(tmp_path, undisturbed)
+
+
+def test_steps_that_are_missing_in_a_history_are_not_passed_over(tmp_path: Path) -> None:
+    run(tmp_path)
+    folder = free_folder(tmp_path)
+    loads = folder / "postProcessing" / "loads" / "0" / "coefficient.dat"
+    rows = loads.read_text().splitlines(keepends=True)
+    loads.write_text("".join(rows[:500] + rows[520:]))
+    with pytest.raises(SolverError, match=r"steps are missing between 9\.96 and 10\.38 c/V"):
+        read_section(folder)
+
+
+JOB = [sys.executable, str(ROOT / "tests" / "run_one_job.py")]
+
+
+def start_job(folder: Path, **environment: str) -> subprocess.Popen[str]:
+    cases = folder / "cases.json"
+    if not cases.exists():
+        write_cases(cases, {"k": CASE})
+    return subprocess.Popen(
+        [*JOB, str(folder)],
+        env={**os.environ, **environment},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_job_killed_at_random_moments_comes_to_the_undisturbed_result(
+    seed: int, tmp_path: Path, undisturbed: xr.Dataset
+) -> None:
+    """Steady flow, free run, half a row and half a state: nothing of it is taken for whole."""
+    moments, killed = random.Random(seed), 0
+    for _ in range(4):
+        job = start_job(tmp_path, STAND_IN_PACE="0.002")
+        assert job.stdout is not None
+        assert job.stdout.readline() == "begins\n"
+        time.sleep(moments.uniform(0.1, 2.0))
+        job.send_signal(signal.SIGKILL)
+        job.communicate()
+        killed += job.returncode == -signal.SIGKILL
+    assert killed >= 2
+    run(tmp_path)
+    assert_same_history(tmp_path, undisturbed)
+
+
+def test_solver_killed_at_random_moments_comes_to_the_undisturbed_result(
+    tmp_path: Path, undisturbed: xr.Dataset
+) -> None:
+    moments = random.Random(3)
+    for _ in range(3):
+        job = start_job(tmp_path, STAND_IN_PACE="0.002")
+        assert job.stdout is not None
+        assert job.stdout.readline() == "begins\n"
+        program = _program_of(job)
+        time.sleep(moments.uniform(0.0, 0.5))
+        os.kill(program, signal.SIGKILL)
+        said, _ = job.communicate()
+        assert job.returncode == 1
+        assert "ended with signal 9" in said
+        assert "Traceback" not in said
+    run(tmp_path)
+    assert_same_history(tmp_path, undisturbed)
+
+
+def _program_of(job: subprocess.Popen[str]) -> int:
+    """Return the process of the free run that a job has started, once it has."""
+    end = time.monotonic() + 30
+    while time.monotonic() < end:
+        for child in psutil.Process(job.pid).children():
+            if child.status() != psutil.STATUS_ZOMBIE and "pimpleFoam" in child.cmdline():
+                return child.pid
+        time.sleep(0.01)
+    raise AssertionError("no pimpleFoam was started")
+
+
+ON_A_SMALL_DISK = ["unshare", "--user", "--mount", "--map-root-user", "sh", "-c"]
+
+
+def _can_mount() -> bool:
+    mount = "mount -t tmpfs tmpfs /mnt"
+    return (
+        sys.platform == "linux"
+        and subprocess.run([*ON_A_SMALL_DISK, mount], capture_output=True, check=False).returncode
+        == 0
+    )
+
+
+@pytest.mark.skipif(not _can_mount(), reason="needs a user's own mounts (Linux)")
+@pytest.mark.parametrize("kilobytes", [30, 160, 240])
+def test_full_disk_is_told_and_nothing_half_written_counts(
+    kilobytes: int, tmp_path: Path, undisturbed: xr.Dataset
+) -> None:
+    """The disk fills at the set-up, between both runs, in the free run; then there is space."""
+    disk, kept = tmp_path / "disk", tmp_path / "kept"
+    disk.mkdir()
+    write_cases(tmp_path / "cases.json", {"k": CASE})
+    mount = f"mount -t tmpfs -o size={kilobytes}k tmpfs {disk} && cp {tmp_path}/cases.json {disk}"
+    job = f"{' '.join(JOB)} {disk}; status=$?; cp -r {disk} {kept}; exit $status"
+    ended = subprocess.run(
+        [*ON_A_SMALL_DISK, f"{mount} && {job}"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 1, ended.stdout
+    assert re.search("the disk .*full.*free some space and run again", ended.stdout)
+    assert "Traceback" not in ended.stdout
+    assert not list(kept.rglob("[!.]*.nc"))
+    run(kept)
+    assert_same_history(kept, undisturbed)
+
+
+def test_file_that_may_not_grow_leaves_no_result(tmp_path: Path, undisturbed: xr.Dataset) -> None:
+    """A limit on the size of files, as a quota: reached by the histories."""
+    write_cases(tmp_path / "cases.json", {"k": CASE})
+    ended = subprocess.run(
+        [*JOB, str(tmp_path)],
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (30_000, 30_000)),
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        check=False,
+    )
+    assert ended.returncode == 1
+    assert "File too large" in ended.stdout
+    assert not list(tmp_path.rglob("[!.]*.nc"))
+    run(tmp_path)
+    assert_same_history(tmp_path, undisturbed)

@@ -1,0 +1,36 @@
+"""Which results are those of failed cases."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from equisection.results.unsteady import Regime
+
+
+def failure_of(attributes: Mapping[str, Any]) -> str:
+    """Return why the case of a result has failed, from the result's attributes; else nothing."""
+    if attributes.get("regime") == Regime.FAILED:
+        return str(attributes.get("reason", "")) or "no reason is given"
+    return str(attributes.get("failure", ""))
+
+
+def warning_of(results: Mapping[str, Mapping[str, Any]], output: Path) -> str:
+    """Return what the person at the terminal is told of the failed cases of a job, in a line.
+
+    Parameters
+    ----------
+    results
+        Attributes of each result by the name of its case.
+    output
+        The job's output, in which they are.
+    """
+    failures = {name: failure_of(attributes) for name, attributes in results.items()}
+    failed = [f"{name}: {failure}" for name, failure in failures.items() if failure]
+    if not failed:
+        return ""
+    return (
+        f"{len(failed)} of {len(results)} in {output} failed, the other cases go on; to try again, "
+        f"delete that file and run again. {failed[0]}"
+    )
