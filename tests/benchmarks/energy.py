@@ -1,4 +1,4 @@
-"""Whether the work of the air on the section is the change of its mechanical energy, cycle by cycle.
+"""Whether the work of the air on the section is the change of its energy, cycle by cycle.
 
     python -m tests.benchmarks.energy [k* ...]
 
@@ -119,9 +119,7 @@ def compute(k_star: Sequence[float]) -> None:
     """Have the workflow bring cases and results."""
     targets = [str(path) for value in k_star for path in (case_file(value), result(value))]
     command = [sys.executable, "-m", "snakemake", "--cores", "all", "--quiet", "rules"]
-    subprocess.run(
-        [*command, "--configfile", "config/openfoam.yaml", "--", *targets], check=True
-    )
+    subprocess.run([*command, "--configfile", "config/openfoam.yaml", "--", *targets], check=True)
 
 
 if __name__ == "__main__":
