@@ -10,12 +10,14 @@ friction add up to. The files stay in `results/rigid-<mesh>`.
 import argparse
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import yaml
 
 from equisection.assemble import steady_case
 from equisection.cases import SteadyCase
 from equisection.config import load_config
+from equisection.results.surface import suction_side
 from equisection.solvers.openfoam.installation import find
 from equisection.solvers.openfoam.presets import PRESETS
 from equisection.solvers.openfoam.rigid import (
@@ -39,14 +41,18 @@ def section(incidence_deg: float) -> SteadyCase:
 
 
 def table(loads: dict[str, RigidLoads], incidence_deg: float) -> pd.DataFrame:
-    """Return the coefficients, their sums over the surface, and how far each is from the first."""
-    names = ["cl", "cm", "cd"]
+    """Return coefficients, their sums over the surface with the bubble, and differences (%).
+
+    Differences are those from the first line.
+    """
+    names, side = ["cl", "cm", "cd"], suction_side(incidence_deg)
     rows = {}
     for name, this in loads.items():
         drag, lift, moment = this.surface.loads(incidence_deg)
-        rows[name] = [this.lift, this.moment, this.drag]
-        rows[f"{name}, summed over the surface"] = [lift, moment, drag]
-    found = pd.DataFrame.from_dict(rows, orient="index", columns=names)
+        rows[name] = [this.lift, this.moment, this.drag, np.nan]
+        bubble = this.surface.reattachment(side)
+        rows[f"{name}, summed over the surface"] = [lift, moment, drag, bubble]
+    found = pd.DataFrame.from_dict(rows, orient="index", columns=[*names, "bubble"])
     first = found.iloc[0]
     for name in names:
         found[f"{name} off by %"] = 100 * (found[name] / first[name] - 1)
@@ -67,7 +73,7 @@ def main(mesh_name: str, incidence_deg: float) -> None:
     }
     print(f"{mesh_name}, {mesh.cells} cells, {incidence_deg:g} deg")
     print("; ".join(this.method for this in loads.values()))
-    print(table(loads, incidence_deg).to_string(float_format="%.4g"))
+    print(table(loads, incidence_deg).to_string(float_format="%.4g", na_rep=""))
 
 
 def _nothing(done: float, total: float) -> None:
