@@ -1,24 +1,27 @@
 """Whether steady solver and unsteady mean agree on the rigid section, where both can be had.
 
-    python -m tests.benchmarks.rigid [mesh] [incidence in deg]
+    python -m tests.benchmarks.rigid [mesh] [incidence in deg] [--outer-correctors N]
 
 The section of `config/openfoam.yaml` runs steadily, and goes on unsteadily from there as it does
-where the steady solver does not converge. Beside the coefficients stand those that pressure and
-friction add up to. The files stay in `results/rigid-<mesh>`.
+where the steady solver does not converge, or with other outer correctors. Beside the coefficients
+stand those that pressure and friction add up to. The files stay in `results/rigid-<mesh>`.
 """
 
 import argparse
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import yaml
 
 from equisection.assemble import steady_case
 from equisection.cases import SteadyCase
 from equisection.config import load_config
+from equisection.results.surface import suction_side
 from equisection.solvers.openfoam.installation import find
 from equisection.solvers.openfoam.presets import PRESETS
 from equisection.solvers.openfoam.rigid import (
+    OUTER_CORRECTORS,
     RigidLoads,
     mesh_of,
     run_steady,
@@ -39,21 +42,25 @@ def section(incidence_deg: float) -> SteadyCase:
 
 
 def table(loads: dict[str, RigidLoads], incidence_deg: float) -> pd.DataFrame:
-    """Return the coefficients, their sums over the surface, and how far each is from the first."""
-    names = ["cl", "cm", "cd"]
+    """Return coefficients, their sums over the surface with the bubble, and differences (%).
+
+    Differences are those from the first line.
+    """
+    names, side = ["cl", "cm", "cd"], suction_side(incidence_deg)
     rows = {}
     for name, this in loads.items():
         drag, lift, moment = this.surface.loads(incidence_deg)
-        rows[name] = [this.lift, this.moment, this.drag]
-        rows[f"{name}, summed over the surface"] = [lift, moment, drag]
-    found = pd.DataFrame.from_dict(rows, orient="index", columns=names)
+        rows[name] = [this.lift, this.moment, this.drag, np.nan]
+        bubble = this.surface.reattachment(side)
+        rows[f"{name}, summed over the surface"] = [lift, moment, drag, bubble]
+    found = pd.DataFrame.from_dict(rows, orient="index", columns=[*names, "bubble"])
     first = found.iloc[0]
     for name in names:
         found[f"{name} off by %"] = 100 * (found[name] / first[name] - 1)
     return found
 
 
-def main(mesh_name: str, incidence_deg: float) -> None:
+def main(mesh_name: str, incidence_deg: float, outer_correctors: int) -> None:
     """Run the section both ways and print the table."""
     case, preset = section(incidence_deg), PRESETS[mesh_name]
     mesh = mesh_of(case, preset.refinement, preset.spacing)
@@ -63,11 +70,16 @@ def main(mesh_name: str, incidence_deg: float) -> None:
         raise SystemExit(f"the steady solver does not converge at {incidence_deg:g} deg")
     loads = {
         "steady": steady_mean(find(), folder, history, mesh),
-        "unsteady": unsteady_mean(find(), folder, mesh, work, _nothing),
+        "unsteady": unsteady_mean(
+            find(), folder, mesh, work, _nothing, outer_correctors=outer_correctors
+        ),
     }
-    print(f"{mesh_name}, {mesh.cells} cells, {incidence_deg:g} deg")
+    print(
+        f"{mesh_name}, {mesh.cells} cells, {incidence_deg:g} deg, "
+        f"{outer_correctors} outer correctors"
+    )
     print("; ".join(this.method for this in loads.values()))
-    print(table(loads, incidence_deg).to_string(float_format="%.4g"))
+    print(table(loads, incidence_deg).to_string(float_format="%.4g", na_rep=""))
 
 
 def _nothing(done: float, total: float) -> None:
@@ -78,5 +90,6 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.rigid")
     parser.add_argument("mesh", nargs="?", default="medium", choices=sorted(PRESETS))
     parser.add_argument("incidence_deg", nargs="?", type=float, default=2.5)
+    parser.add_argument("--outer-correctors", type=int, default=OUTER_CORRECTORS)
     chosen = parser.parse_args()
-    main(chosen.mesh, chosen.incidence_deg)
+    main(chosen.mesh, chosen.incidence_deg, chosen.outer_correctors)

@@ -42,6 +42,8 @@ CONVERGED, WINDOW, FEWEST, MOST = 5e-4, 150, 300, 3000
 #: Time step, time left out, shortest and longest record of a rigid unsteady run (c/V), and the
 #: relative difference of the means of its halves at which they count as known.
 STEP, DISCARDED, SHORTEST, LONGEST, KNOWN = 0.01, 10.0, 40.0, 100.0, 0.01
+#: Outer correctors of a rigid unsteady run.
+OUTER_CORRECTORS = 1
 #: Steps of a rigid unsteady run from one sample of the surface data to the next.
 SAMPLED = 10
 
@@ -195,7 +197,13 @@ def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Me
 
 
 def unsteady_mean(
-    installation: Installation, source: Path, mesh: Mesh, work: Path, tell: Tell
+    installation: Installation,
+    source: Path,
+    mesh: Mesh,
+    work: Path,
+    tell: Tell,
+    *,
+    outer_correctors: int = OUTER_CORRECTORS,
 ) -> RigidLoads:
     """Return the mean loads of the flow that goes on unsteadily from a steady run.
 
@@ -212,7 +220,8 @@ def unsteady_mean(
     )
     entries = control("pimpleFoam", DISCARDED + LONGEST, STEP, DISCARDED + LONGEST)
     entries["functions"] |= averaging(DISCARDED, SAMPLED)
-    write_system(folder, entries, flow.schemes(steady=False), flow.solution(steady=False))
+    solution = flow.solution(steady=False, outer_correctors=outer_correctors)
+    write_system(folder, entries, flow.schemes(steady=False), solution)
     seen = Every(5.0)
 
     def known(time: float) -> bool:
