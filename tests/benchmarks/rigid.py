@@ -21,7 +21,6 @@ from equisection.results.surface import suction_side
 from equisection.solvers.openfoam.installation import find
 from equisection.solvers.openfoam.presets import PRESETS
 from equisection.solvers.openfoam.rigid import (
-    OUTER_CORRECTORS,
     RigidLoads,
     mesh_of,
     run_steady,
@@ -90,6 +89,6 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.rigid")
     parser.add_argument("mesh", nargs="?", default="medium", choices=sorted(PRESETS))
     parser.add_argument("incidence_deg", nargs="?", type=float, default=2.5)
-    parser.add_argument("--outer-correctors", type=int, default=OUTER_CORRECTORS)
+    parser.add_argument("--outer-correctors", type=int, default=3)
     chosen = parser.parse_args()
     main(chosen.mesh, chosen.incidence_deg, chosen.outer_correctors)

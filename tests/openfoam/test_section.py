@@ -36,7 +36,8 @@ def rigid(
     installation: Installation, work: Path, incidence_deg: float, refinement: float
 ) -> RigidLoads:
     case = STEADY.model_copy(update={"incidence_deg": incidence_deg})
-    return rigid_loads(installation, case, mesh_of(case, refinement), work, nothing)
+    mesh = mesh_of(case, refinement)
+    return rigid_loads(installation, case, mesh, work, nothing, outer_correctors=3)
 
 
 def free(duration: float, mass: float = 1.0) -> UnsteadyCase:
@@ -106,7 +107,7 @@ def test_mean_pressure_and_friction_add_up_to_the_mean_loads(
     monkeypatch.setattr("equisection.solvers.openfoam.rigid.MOST", 200)
     source, _, converged = run_steady(installation, case, mesh, tmp_path, nothing)
     assert not converged
-    loads = unsteady_mean(installation, source, mesh, tmp_path, nothing)
+    loads = unsteady_mean(installation, source, mesh, tmp_path, nothing, outer_correctors=3)
     drag, lift, moment = loads.surface.loads(10.0)
     assert drag == pytest.approx(loads.drag, rel=0.005)
     assert lift == pytest.approx(loads.lift, rel=0.005)

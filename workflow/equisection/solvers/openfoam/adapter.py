@@ -34,7 +34,7 @@ class Adapter:
     """OpenFOAM on meshes of one refinement; fulfils the solver protocol."""
 
     name = "openfoam"
-    version = "2"
+    version = "3"
     provides = frozenset({Capability.MESH, Capability.SURFACE})
 
     def __init__(self, mesh: str, outer_correctors: int) -> None:
@@ -99,7 +99,10 @@ class Adapter:
             _require_section(case)
             mesh = mesh_of(case, preset.refinement, preset.spacing)
             try:
-                loads = rigid_loads(installation, case, mesh, work / f"case{number}", tell)
+                place = work / f"case{number}"
+                loads = rigid_loads(
+                    installation, case, mesh, place, tell, outer_correctors=self._outer_correctors
+                )
                 results.append(_result(loads))
             except BlowUpError as error:
                 results.append(_no_value(str(error)))

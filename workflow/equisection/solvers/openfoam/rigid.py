@@ -41,11 +41,9 @@ logger = logging.getLogger(__name__)
 CONVERGED, WINDOW, FEWEST, MOST = 5e-4, 150, 300, 3000
 #: Time step, time left out, shortest and longest record of a rigid unsteady run (c/V), and the
 #: relative difference of the means of its halves at which they count as known.
-STEP, DISCARDED, SHORTEST, LONGEST, KNOWN = 0.01, 10.0, 40.0, 100.0, 0.01
-#: Outer correctors of a rigid unsteady run.
-OUTER_CORRECTORS = 1
+STEP, DISCARDED, SHORTEST, LONGEST, KNOWN = 0.02, 10.0, 40.0, 100.0, 0.01
 #: Steps of a rigid unsteady run from one sample of the surface data to the next.
-SAMPLED = 10
+SAMPLED = 5
 
 #: Called with what is done and what there is to do at most.
 Tell = Callable[[float, float], None]
@@ -166,9 +164,30 @@ def require_sound_mesh(log: Path) -> None:
 
 
 def rigid_loads(
-    installation: Installation, case: SteadyCase, mesh: Mesh, work: Path, tell: Tell
+    installation: Installation,
+    case: SteadyCase,
+    mesh: Mesh,
+    work: Path,
+    tell: Tell,
+    *,
+    outer_correctors: int,
 ) -> RigidLoads:
     """Return the loads of a rigid section.
+
+    Parameters
+    ----------
+    installation
+        OpenFOAM.
+    case
+        The case.
+    mesh
+        Its mesh.
+    work
+        Where its folders are.
+    tell
+        Told what is done.
+    outer_correctors
+        Iterations of the flow a time step, where it goes on unsteadily.
 
     Raises
     ------
@@ -179,7 +198,7 @@ def rigid_loads(
     if converged:
         return steady_mean(installation, folder, steady, mesh)
     logger.info("%g deg: the steady solver does not converge", case.incidence_deg)
-    return unsteady_mean(installation, folder, mesh, work, tell)
+    return unsteady_mean(installation, folder, mesh, work, tell, outer_correctors=outer_correctors)
 
 
 def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Mesh) -> RigidLoads:
@@ -203,9 +222,12 @@ def unsteady_mean(
     work: Path,
     tell: Tell,
     *,
-    outer_correctors: int = OUTER_CORRECTORS,
+    outer_correctors: int,
 ) -> RigidLoads:
     """Return the mean loads of the flow that goes on unsteadily from a steady run.
+
+    With too few outer correctors pressure and velocity are not one, and vortices are shed that
+    the flow does not have.
 
     Raises
     ------
