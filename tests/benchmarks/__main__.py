@@ -16,7 +16,7 @@ from rich.table import Table
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(variable, "1")
 
-from tests.benchmarks import default_run, large_sweep, many_cases, modes  # noqa: E402
+from tests.benchmarks import default_run, large_sweep, many_cases, modes, plate  # noqa: E402
 from tests.benchmarks.measure import Row  # noqa: E402
 
 BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
@@ -24,6 +24,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "many-cases": many_cases.rows,
     "large-sweep": large_sweep.rows,
     "default-run": default_run.rows,
+    "plate": plate.rows,
 }
 
 

@@ -29,6 +29,7 @@ from equisection.solvers.openfoam.case_folder import (
     emptied,
     is_ready,
     mark_ready,
+    states,
 )
 from equisection.solvers.openfoam.dictionaries import write_system
 from equisection.solvers.openfoam.free import STATE_INTERVAL
@@ -49,9 +50,15 @@ from equisection.solvers.openfoam.plate_history import (
 )
 from equisection.solvers.openfoam.plate_mesh import PlateMesh
 from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_control
-from equisection.solvers.openfoam.process import SILENCE, BlowUpError, Every, run_beside
+from equisection.solvers.openfoam.process import (
+    SILENCE,
+    BlowUpError,
+    Every,
+    run_beside,
+    run_program,
+)
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
-from equisection.solvers.openfoam.rigid import Tell
+from equisection.solvers.openfoam.rigid import Tell, require_sound_mesh
 from equisection.solvers.openfoam.spent import spent
 from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge, refused
 
@@ -202,15 +209,30 @@ class PlateRun:
             pipes.close()
 
     def _where(self) -> str:
-        """Return when and how far out the plate was."""
+        """Return when and how far out the plate was, and whether its mesh was sound until then."""
         if not self.history_file.exists() or not self.history().time.size:
             return ""
         history = self.history()
         twist, deflection = self.points.tip(history.position[-1])
         return (
-            f"; flow or mesh broke down at {history.time[-1]:.4g} c/V, the tip's twist "
-            f"{math.degrees(twist):.3g} deg and its deflection {deflection:.3g} c"
+            f"; at {history.time[-1]:.4g} c/V the tip's twist was {math.degrees(twist):.3g} deg, "
+            f"its deflection {deflection:.3g} c{self._mesh_before()}"
         )
+
+    def _mesh_before(self) -> str:
+        """Return whether the last mesh that was written is sound."""
+        last = states(parts(self.folder)[0])[-1].name
+        if float(last) == 0.0:
+            return ""
+        program, ranks = "checkMesh", len(parts(self.folder))
+        run_program(
+            self.installation, program, self.folder, arguments=("-latestTime",), ranks=ranks
+        )
+        try:
+            require_sound_mesh(self.folder / f"log.{program}")
+        except SolverError as error:
+            return f"; at {last} c/V {error}"
+        return f"; at {last} c/V the mesh was sound"
 
     def tip_motion(self, history: PlateHistory) -> Motion:
         """Return the motion of the tip."""
