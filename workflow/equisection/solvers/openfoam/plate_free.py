@@ -38,6 +38,7 @@ from equisection.solvers.openfoam.loads import BEYOND_REASON
 from equisection.solvers.openfoam.lumped_points import (
     Handed,
     LumpedPoints,
+    motion_schemes,
     motion_solvers,
     write_lumped_motion,
 )
@@ -174,7 +175,9 @@ class PlateRun:
         entries["libs"] = ['"liblumpedPointMotion.so"']
         solution = flow.solution(steady=False, outer_correctors=self.outer_correctors)
         solution["solvers"] |= motion_solvers()
-        write_system(self.folder, entries, flow.schemes(steady=False), solution)
+        schemes = flow.schemes(steady=False)
+        schemes["laplacianSchemes"] |= motion_schemes()
+        write_system(self.folder, entries, schemes, solution)
 
     def _last_common_state(self) -> float:
         """Return the time of the last state that is whole on all ranks; drop what is later."""
