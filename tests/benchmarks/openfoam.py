@@ -2,11 +2,9 @@
 
 One case of `config/openfoam.yaml` over its first :data:`DURATION`, as a job in a process of its own
 and bare: the same dictionaries, the programs started in sequence by a shell. Both are run in
-turn, alone and in pairs, so that a busy machine hits them alike. ``EQUISECTION_ROUNDS`` sets how
-often.
+turn, alone and in pairs, so that a busy machine hits them alike.
 """
 
-import os
 import re
 import shutil
 import statistics
@@ -28,7 +26,7 @@ from tests.workflow.project import ROOT
 
 #: c/V.
 DURATION = 10.0
-ROUNDS = int(os.environ.get("EQUISECTION_ROUNDS", "3"))
+ROUNDS = 3
 #: Seconds that the tests of the real solver may take.
 TESTS = 360.0
 BARE = """

@@ -74,6 +74,7 @@ def assert_same_history(folder: Path, undisturbed: xr.Dataset) -> None:
     [
         ("fatal", "pimpleFoam: FOAM FATAL ERROR: / Maximum number of iterations exceeded"),
         ("fpe", "pimpleFoam: floating-point exception"),
+        ("start", "pimpleFoam: floating-point exception"),
         ("nan", "the loads are beyond reason from time 7 on"),
         ("mesh", "the mesh is not sound: Max skewness = 9"),
     ],
