@@ -19,6 +19,7 @@ from tempfile import TemporaryDirectory
 from equisection.cases import UnsteadyCase, history_hash, write_cases
 from equisection.errors import SolverError
 from equisection.results.netcdf import read_dataset
+from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.installation import find
 from tests.benchmarks.early_verdict import KEPT, case_of
 from tests.benchmarks.measure import Row, limit, measured, processor_seconds
@@ -92,7 +93,8 @@ def _round() -> Round:
 
 def _case() -> UnsteadyCase:
     kept = case_of(read_dataset(KEPT / "2d" / "k10.nc"))
-    return kept.model_copy(update={"duration": DURATION})
+    solver = kept.solver.model_copy(update={"version": Adapter.version})
+    return kept.model_copy(update={"duration": DURATION, "solver": solver})
 
 
 def _job(place: Path) -> list[str]:

@@ -26,11 +26,14 @@ from equisection.config.sections.openfoam import PREFIX_VARIABLE
 from equisection.errors import SolverError
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.job import run_cases
+from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.free import read_section
 
 STAND_IN = f"{sys.executable} {ROOT / 'tests' / 'openfoam_stand_in.py'}"
 SOLVER = SolverBlock(
-    name="openfoam", version="2", settings={"mesh": "coarse", "outer_correctors": 3}
+    name=Adapter.name,
+    version=Adapter.version,
+    settings={"mesh": "coarse", "outer_correctors": 3},
 )
 CASE = UNSTEADY.model_copy(
     update={"solver": SOLVER, "duration": 20.0, "time_step": 0.02, "output_interval": 0.1}
