@@ -98,6 +98,8 @@ class SectionRun:
         Iterations of flow, loads and motion a time step.
     work
         Where its folders are.
+    velocity_relaxation
+        Under-relaxation of the velocity in these iterations; 1 is none.
     """
 
     installation: Installation
@@ -105,6 +107,7 @@ class SectionRun:
     mesh: Mesh
     outer_correctors: int
     work: Path
+    velocity_relaxation: float = 1.0
 
     @property
     def folder(self) -> Path:
@@ -181,7 +184,11 @@ class SectionRun:
             self.folder,
             entries,
             flow.schemes(steady=False),
-            flow.solution(steady=False, outer_correctors=self.outer_correctors),
+            flow.solution(
+                steady=False,
+                outer_correctors=self.outer_correctors,
+                velocity_relaxation=self.velocity_relaxation,
+            ),
         )
 
 
