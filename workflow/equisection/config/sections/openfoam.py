@@ -9,7 +9,7 @@ from pydantic import Field
 
 from equisection.config.checks import Problem, check
 from equisection.config.sections.base import Section
-from equisection.config.values import WHOLE, Name
+from equisection.config.values import NUMBER, WHOLE, Name
 
 MeshName = Literal["coarse", "medium", "fine", "paper"]
 
@@ -29,6 +29,11 @@ class OpenFoam(Section):
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
         3, description="Iterations of flow, loads and motion in each time step (-)."
+    )
+    velocity_relaxation: Annotated[float, Field(gt=0, le=1, allow_inf_nan=False), NUMBER] = Field(
+        1.0,
+        description="Under-relaxation of the velocity in these iterations, for the free section "
+        "(-); 1 is none. With 0.9 and five of them they converge where the flow separates wholly.",
     )
     prefix: str = Field(
         "",

@@ -37,24 +37,37 @@ class Adapter:
     version = "3"
     provides = frozenset({Capability.MESH, Capability.SURFACE})
 
-    def __init__(self, mesh: str, outer_correctors: int) -> None:
+    def __init__(self, mesh: str, outer_correctors: int, velocity_relaxation: float = 1.0) -> None:
         self._mesh = mesh
         self._outer_correctors = outer_correctors
+        self._velocity_relaxation = velocity_relaxation
 
     @classmethod
     def from_config(cls, config: Config, resolution: str) -> Adapter:
         """Return the solver on the mesh of a resolution."""
         section = config.openfoam
-        return cls(section.meshes[resolution], section.outer_correctors)
+        return cls(
+            section.meshes[resolution], section.outer_correctors, section.velocity_relaxation
+        )
 
     @classmethod
     def from_settings(cls, settings: dict[str, Any]) -> Adapter:
         """Return the solver of a case."""
-        return cls(settings["mesh"], settings["outer_correctors"])
+        return cls(
+            settings["mesh"],
+            settings["outer_correctors"],
+            settings.get("velocity_relaxation", 1.0),
+        )
 
     def settings(self) -> dict[str, Any]:
-        """Return mesh and coupling; no path and no version of OpenFOAM, which decide nothing."""
-        return {"mesh": self._mesh, "outer_correctors": self._outer_correctors}
+        """Return mesh and coupling; no path and no version of OpenFOAM, which decide nothing.
+
+        Without a relaxation there is no word of it, as in the cases from before there was one.
+        """
+        settings = {"mesh": self._mesh, "outer_correctors": self._outer_correctors}
+        if self._velocity_relaxation == 1.0:
+            return settings
+        return {**settings, "velocity_relaxation": self._velocity_relaxation}
 
     def describe(self) -> str:
         """Return solver and resolution in words."""
@@ -129,7 +142,14 @@ class Adapter:
             _require_section(case)
             mesh = mesh_of(case, preset.refinement, preset.spacing)
             place = work / f"case{number}"
-            run = SectionRun(installation, case, mesh, self._outer_correctors, place)
+            run = SectionRun(
+                installation,
+                case,
+                mesh,
+                self._outer_correctors,
+                place,
+                self._velocity_relaxation,
+            )
             results.append(run.run(tell))
             done += case.duration
         return results

@@ -98,6 +98,8 @@ class SectionRun:
         Iterations of flow, loads and motion a time step.
     work
         Where its folders are.
+    velocity_relaxation
+        Under-relaxation of the velocity in these iterations; 1 is none.
     """
 
     installation: Installation
@@ -105,6 +107,7 @@ class SectionRun:
     mesh: Mesh
     outer_correctors: int
     work: Path
+    velocity_relaxation: float = 1.0
 
     @property
     def folder(self) -> Path:
@@ -146,8 +149,9 @@ class SectionRun:
             tell(time, case.duration)
             if not due.is_due(time):
                 return False
-            require_reasonable(read_loads(self.folder), self.folder)
-            history = read_section(self.folder).sampled(case.time_step, case.output_interval)
+            loads = read_loads(self.folder)
+            require_reasonable(loads, self.folder)
+            history = _section(self.folder, loads).sampled(case.time_step, case.output_interval)
             return is_decided(case, _tip(case.section, history))
 
         return decided
@@ -180,7 +184,11 @@ class SectionRun:
             self.folder,
             entries,
             flow.schemes(steady=False),
-            flow.solution(steady=False, outer_correctors=self.outer_correctors),
+            flow.solution(
+                steady=False,
+                outer_correctors=self.outer_correctors,
+                velocity_relaxation=self.velocity_relaxation,
+            ),
         )
 
 
@@ -192,7 +200,10 @@ def read_section(folder: Path) -> SectionHistory:
     SolverError
         A file is missing or of an unknown layout, or steps are missing in it.
     """
-    loads = read_loads(folder)
+    return _section(folder, read_loads(folder))
+
+
+def _section(folder: Path, loads: Loads) -> SectionHistory:
     loads = loads.first(reasonable(loads))
     motion = read_history(
         folder / "postProcessing" / MOTION,
@@ -204,10 +215,10 @@ def read_section(folder: Path) -> SectionHistory:
         _steps(loads.time), _steps(motion["Time"]), return_indices=True, assume_unique=True
     )
     _require_every_step(loads.time[one], folder)
-    deflection = motion["centreOfRotation"][other, 1]
+    deflection = motion["centreOfRotation"].reshape(-1, 3)[other, 1]
     return SectionHistory(
         time=loads.time[one],
-        twist=-motion["rotation"][other, 2],
+        twist=-motion["rotation"].reshape(-1, 3)[other, 2],
         deflection=deflection,
         lift=loads.lift[one],
         moment=_about_moving_centre(loads, one, deflection),
