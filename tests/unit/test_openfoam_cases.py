@@ -1,6 +1,8 @@
 """What is written into an OpenFOAM case, and what a kill may leave of one."""
 
 import math
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -120,6 +122,12 @@ def test_prefix_reaches_the_jobs_as_a_variable() -> None:
     assert config.solver_section.environment() == {"EQUISECTION_OPENFOAM": "openfoam2312"}
 
 
+def test_writing_a_case_imports_nothing_that_reads_results_of_openfoam() -> None:
+    """Importing foamlib takes longer than writing a case."""
+    code = "import sys, equisection.solvers.openfoam.adapter; sys.exit('foamlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
 def test_models_that_need_three_dimensions_are_refused() -> None:
     config = load_config(openfoam(sweep={"models": ["2d", "2d-corrected", "3d"]}))
     with pytest.raises(ConfigError) as raised:
@@ -150,6 +158,7 @@ def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
         "fig03-modes",
         "fig05-section-mesh",
         "fig06-section-polar",
+        "fig07-surface",
         "fig08-courant-number",
         "fig16-response",
         "fig17-hysteresis",
