@@ -119,9 +119,7 @@ def compute(k_star: Sequence[float]) -> None:
     """Have the workflow bring cases and results."""
     targets = [str(path) for value in k_star for path in (case_file(value), result(value))]
     command = [sys.executable, "-m", "snakemake", "--cores", "all", "--quiet", "rules"]
-    subprocess.run(
-        [*command, "--configfile", "config/openfoam.yaml", "--", *targets], check=True
-    )
+    subprocess.run([*command, "--configfile", "config/openfoam.yaml", "--", *targets], check=True)
 
 
 if __name__ == "__main__":

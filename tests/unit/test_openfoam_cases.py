@@ -176,6 +176,7 @@ def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
         "fig03-modes",
         "fig05-section-mesh",
         "fig06-section-polar",
+        "fig07-surface",
         "fig08-courant-number",
         "fig16-response",
         "fig17-hysteresis",
