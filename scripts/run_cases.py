@@ -11,12 +11,22 @@ from equisection.script import logged
 from equisection.solvers.job import run_cases
 
 
-def main(cases: Path, output: Path, store: Path, progress: Path, reuse: Path | None = None) -> None:
+def main(
+    cases: Path,
+    output: Path,
+    store: Path,
+    progress: Path,
+    reuse: Path | None = None,
+    *,
+    threads: int = 1,
+) -> None:
     """Run the cases; their results go to the folder of ``output``.
 
     ``output`` is the index of the results, or the result file of a single case.
     """
-    attributes = run_cases(read_cases(cases), output.parent, store, progress, reuse)
+    attributes = run_cases(
+        read_cases(cases), output.parent, store, progress, reuse, threads=threads
+    )
     if output.suffix == ".json":
         write_index(output, attributes)
     warning = warning_of(attributes, output)
@@ -33,4 +43,5 @@ if __name__ == "__main__":
             Path(snakemake.params.store),
             Path(snakemake.log[0]).with_suffix(".progress.json"),
             Path(snakemake.params.reuse) if snakemake.params.reuse else None,
+            threads=snakemake.threads,
         )

@@ -22,7 +22,7 @@ def main(cases: Path, time_step: float, store: Path, output: Path) -> None:
     dataset = mesh.to_dataset().assign_attrs(
         solver=solver.name,
         solver_version=solver.version,
-        solver_description=solver.describe(),
+        solver_description=solver.describe("2d"),
         resolution=case.resolution,
     )
     write_dataset(output, dataset)

@@ -1,6 +1,11 @@
 """A steady and an unsteady case to start from."""
 
+import math
+
+import numpy as np
+
 from equisection.cases import (
+    BeamModes,
     Criteria,
     Geometry,
     Medium,
@@ -9,6 +14,10 @@ from equisection.cases import (
     SteadyCase,
     UnsteadyCase,
 )
+from equisection.config.sections import Beam
+from equisection.structure.analytic import bending_modes, torsion_modes
+from equisection.structure.plate import Plate
+from equisection.structure.span import normalise
 
 GEOMETRY = Geometry(
     chord=0.1,
@@ -52,4 +61,33 @@ UNSTEADY = UnsteadyCase(
         settled_amplitude_deg=0.05, growing_amplitude_deg=6.0, steadiness=0.02, periods=5
     ),
     solver=SOLVER,
+)
+
+
+def beam_modes(stiffness: float = 1.0, mass: float = 1.0, modes: int = 2) -> BeamModes:
+    """Return the paper's plate in closed form (k* = 19.9 for stiffness 1) at 20 m/s."""
+    plate, span = Plate(**Beam().model_dump()), np.linspace(0.0, 1.0, 101)
+    to_reduced = 2 * math.pi * 0.1 / 20.0 * math.sqrt(stiffness / mass)
+    bending, bending_shape = bending_modes(plate, span, modes)
+    torsion, torsion_shape = torsion_modes(plate, span, modes)
+    return BeamModes(
+        span=tuple(span),
+        bending_frequency=tuple(to_reduced * bending),
+        bending_shape=tuple(map(tuple, normalise(bending_shape))),
+        torsion_frequency=tuple(to_reduced * torsion),
+        torsion_shape=tuple(map(tuple, normalise(torsion_shape))),
+        inertia=mass * plate.inertia_per_length / (0.5 * 1.18 * 0.1**4),
+        mass=mass * plate.mass_per_length / (0.5 * 1.18 * 0.1**2),
+    )
+
+
+STEADY_PLATE = STEADY.model_copy(update={"dimension": "3d"})
+UNSTEADY_PLATE = UNSTEADY.model_copy(
+    update={
+        "dimension": "3d",
+        "section": None,
+        "beam": beam_modes(6.44 / 19.91),
+        "time_step": 0.02,
+        "output_interval": 0.1,
+    }
 )

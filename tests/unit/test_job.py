@@ -36,13 +36,13 @@ class Adapter:
         self._factor = factor
 
     @classmethod
-    def from_settings(cls, settings: dict[str, Any]) -> "Adapter":
+    def from_settings(cls, settings: dict[str, Any], threads: int) -> "Adapter":
         return cls(settings["factor"])
 
     def settings(self) -> dict[str, Any]:
         return {"factor": self._factor}
 
-    def describe(self) -> str:
+    def describe(self, dimension: str) -> str:
         return f"stand-in with factor {self._factor:g}"
 
     def run_steady(

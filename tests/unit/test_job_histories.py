@@ -31,11 +31,11 @@ class Adapter:
     ran: list[tuple[Path, float]]
 
     @classmethod
-    def from_settings(cls, settings: dict[str, Any]) -> "Adapter":
+    def from_settings(cls, settings: dict[str, Any], threads: int) -> "Adapter":
         del settings
         return cls()
 
-    def describe(self) -> str:
+    def describe(self, dimension: str) -> str:
         return "stand-in"
 
     def run_unsteady(

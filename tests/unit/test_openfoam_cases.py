@@ -3,6 +3,7 @@
 import math
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -128,6 +129,14 @@ def test_writing_a_case_imports_nothing_that_reads_results_of_openfoam() -> None
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
+@pytest.fixture
+def sections_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A solver without cases of the beam."""
+    entry = replace(SOLVERS["openfoam"], dimensions=("2d",))
+    monkeypatch.setitem(SOLVERS, "openfoam", entry)
+
+
+@pytest.mark.usefixtures("sections_only")
 def test_models_that_need_three_dimensions_are_refused() -> None:
     config = load_config(openfoam(sweep={"models": ["2d", "2d-corrected", "3d"]}))
     with pytest.raises(ConfigError) as raised:
@@ -146,11 +155,37 @@ def test_given_beam_polar_allows_the_correction_and_its_figures_alone() -> None:
     assert {"fig13-lift-correction", "fig14-moment-correction"} <= set(figures)
     assert "fig10-spanwise-loads" not in figures
     assert plan.steady_dimensions(config) == ("2d",)
+
+
+@pytest.mark.usefixtures("sections_only")
+def test_given_beam_polar_does_not_make_cases_of_the_beam() -> None:
+    steady = {"beam_polar": "config/polars/paper_plate_3d.csv"}
     with_beam = load_config(openfoam(steady=steady, sweep={"models": ["2d-corrected", "3d"]}))
     with pytest.raises(ConfigError, match=r"sweep\.models\.1: '3d'.*has no 3D cases"):
         check_provided(with_beam)
 
 
+def test_plate_runs_on_its_ranks_and_the_section_on_one() -> None:
+    section = load_config(openfoam(openfoam={"ranks": 4})).solver_section
+    assert (section.threads("2d"), section.threads("3d")) == (1, 4)
+
+
+def test_ranks_are_no_part_of_a_case() -> None:
+    one, four = (
+        solver_from_config(load_config(openfoam(openfoam={"ranks": ranks})), "coarse")
+        for ranks in (1, 4)
+    )
+    assert one.settings() == four.settings()
+
+
+def test_run_with_the_plate_has_its_figures_and_table() -> None:
+    config = load_config(openfoam(sweep={"models": ["2d-corrected", "3d"]}))
+    check_provided(config)
+    assert plan.steady_dimensions(config) == ("2d", "3d")
+    assert {"fig10-spanwise-loads", "fig15-modal-contributions"} <= set(plan.figures(config))
+
+
+@pytest.mark.usefixtures("sections_only")
 def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
     config = load_config(openfoam())
     assert plan.figures(config) == [

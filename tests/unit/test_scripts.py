@@ -167,7 +167,7 @@ def test_mesh_of_a_case_is_not_taken_for_its_result(
     class Meshing:
         name, version = "made up", "1"
 
-        def describe(self) -> str:
+        def describe(self, dimension: str) -> str:
             return "made up"
 
         def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:

@@ -64,7 +64,7 @@ rule steady_case:
         f"{LOGS}/steady_{{dimension}}_{{angle}}.log",
     conda:
         ENVIRONMENT
-    threads: 1
+    threads: threads_of_steady
     resources:
         mem_mb=2000,
         runtime=240,

@@ -64,7 +64,7 @@ rule unsteady_case:
         f"{LOGS}/unsteady_{{model}}_{{case}}.log",
     conda:
         ENVIRONMENT
-    threads: 1
+    threads: threads_of_unsteady
     resources:
         mem_mb=2000,
         runtime=1440,

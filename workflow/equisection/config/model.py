@@ -52,7 +52,7 @@ class Config(Section):
     sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
     unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")
     embedded: Embedded = Field(Embedded(), description="The embedded solver.")
-    openfoam: OpenFoam = Field(OpenFoam(), description="OpenFOAM, in two dimensions.")
+    openfoam: OpenFoam = Field(OpenFoam(), description="OpenFOAM.")
 
     @model_validator(mode="after")
     def _agree(self, info: ValidationInfo) -> Config:

@@ -64,8 +64,9 @@ class Adapter:
         return cls(polar, section.strips, lags)
 
     @classmethod
-    def from_settings(cls, settings: dict[str, Any]) -> Adapter:
-        """Return the solver of a case."""
+    def from_settings(cls, settings: dict[str, Any], threads: int = 1) -> Adapter:
+        """Return the solver of a case, which runs in one thread."""
+        del threads
         data = settings["polar"]
         polar = SectionPolar(
             np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
@@ -88,8 +89,9 @@ class Adapter:
             "separation": lags,
         }
 
-    def describe(self) -> str:
-        """Return solver and resolution in words."""
+    def describe(self, dimension: str) -> str:
+        """Return solver and resolution in words; the beam's strips carry the section's polar."""
+        del dimension
         return f"embedded solver, polar {self._polar.label}"
 
     def run_steady(

@@ -33,6 +33,8 @@ def run_cases(
     store: Path,
     progress_file: Path,
     reuse: Path | None = None,
+    *,
+    threads: int = 1,
 ) -> dict[str, dict[str, Any]]:
     """Run the cases that the store does not have, and publish the results of all.
 
@@ -48,6 +50,8 @@ def run_cases(
         Where the job says how far it is.
     reuse
         Folder with results of earlier runs, which are taken into the store.
+    threads
+        Threads that the job has; they decide nothing.
 
     Returns
     -------
@@ -71,7 +75,7 @@ def run_cases(
     missing = [task for name, task in different.items() if known[name] is None]
     logger.info("%d cases, %d of them to be computed", len(tasks), len(missing))
     for group in _alike(missing):
-        known |= _compute(group, results, progress_file)
+        known |= _compute(group, results, progress_file, threads)
     for name, task in tasks.items():
         publish(results.result(task), folder / f"{name}.nc")
     return {name: known[task.hash] or {} for name, task in tasks.items()}
@@ -88,16 +92,17 @@ def _alike(tasks: list[Task]) -> list[list[Task]]:
 
 
 def _compute(
-    tasks: list[Task], store: ResultStore, progress_file: Path
+    tasks: list[Task], store: ResultStore, progress_file: Path, threads: int
 ) -> dict[str, dict[str, Any]]:
     """Run cases of one solver into the store; return the attributes of each result by hash."""
-    solver = solver_from_case(tasks[0].case.solver)
+    solver = solver_from_case(tasks[0].case.solver, threads)
     work = store.work(tasks[0])
     work.mkdir(parents=True, exist_ok=True)
     wall, cpu = time.perf_counter(), _cpu_seconds()
     unit = "cases" if isinstance(tasks[0].case, SteadyCase) else "c/V"
     hashes = [task.hash for task in tasks]
-    with JobProgress(progress_file, hashes, solver.describe(), unit) as progress:
+    description = solver.describe(tasks[0].case.dimension)
+    with JobProgress(progress_file, hashes, description, unit) as progress:
         results = _run(solver, [task.case for task in tasks], work, progress)
     if len(results) != len(tasks):
         raise SolverError(
@@ -112,7 +117,7 @@ def _compute(
         dataset = _dataset(task.case, result).assign_attrs(
             solver=solver.name,
             solver_version=solver.version,
-            solver_description=solver.describe(),
+            solver_description=solver.describe(task.case.dimension),
             resolution=task.case.resolution,
             batch_cases=len(tasks),
             **asdict(result.spent or shared),

@@ -41,8 +41,8 @@ class Solver(Protocol):
         """Return everything of the solver's set-up that decides a result, in builtin types."""
         ...
 
-    def describe(self) -> str:
-        """Return solver and resolution in words, as they stand in every figure."""
+    def describe(self, dimension: str) -> str:
+        """Return solver and resolution of its cases in words, as they stand in every figure."""
         ...
 
     def run_steady(

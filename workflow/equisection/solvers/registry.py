@@ -29,9 +29,7 @@ class Entry:
 SOLVERS: dict[str, Entry] = {
     "embedded": Entry("equisection.solvers.embedded", frozenset({Capability.BATCH})),
     "openfoam": Entry(
-        "equisection.solvers.openfoam.adapter",
-        frozenset({Capability.MESH, Capability.SURFACE}),
-        dimensions=("2d",),
+        "equisection.solvers.openfoam.adapter", frozenset({Capability.MESH, Capability.SURFACE})
     ),
 }
 
@@ -71,8 +69,8 @@ def solver_from_config(config: Config, resolution: str) -> Solver:
     return _adapter(config.solver).from_config(config, resolution)  # type: ignore[no-any-return]
 
 
-def solver_from_case(block: SolverBlock) -> Solver:
-    """Return the solver that a case asks for.
+def solver_from_case(block: SolverBlock, threads: int = 1) -> Solver:
+    """Return the solver that a case asks for, to run on some threads.
 
     Raises
     ------
@@ -83,7 +81,7 @@ def solver_from_case(block: SolverBlock) -> Solver:
         raise CaseFileError(
             f"solver '{block.name}' is not known; allowed are {', '.join(sorted(SOLVERS))}"
         )
-    solver: Solver = _adapter(block.name).from_settings(block.settings)
+    solver: Solver = _adapter(block.name).from_settings(block.settings, threads)
     if solver.version != block.version:
         raise CaseFileError(
             f"the case is for version {block.version} of solver '{block.name}', installed is "

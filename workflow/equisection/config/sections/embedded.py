@@ -60,6 +60,11 @@ class Embedded(Section):
         """Return the files that the solver reads."""
         return [path for path in self.polars.values() if path != FLAT_PLATE]
 
+    def threads(self, dimension: str) -> int:
+        """Return the threads of a job that runs cases of a dimension."""
+        del dimension
+        return 1
+
     def environment(self) -> dict[str, str]:
         """Return variables by which jobs find the solver on a machine."""
         return {}

@@ -20,12 +20,13 @@ LARGEST_TIME_STEP = 0.04
 
 
 class OpenFoam(Section):
-    """OpenFOAM, in two dimensions: k-omega SST, walls resolved, one core a case."""
+    """OpenFOAM: k-omega SST, walls resolved; the section on one core, the plate on several."""
 
     meshes: Annotated[dict[Name, MeshName], Field(min_length=1)] = Field(
         {"coarse": "coarse", "medium": "medium", "fine": "fine"},
-        description="Mesh of each resolution: `coarse` (about 1e4 cells), `medium` (2e4), `fine` "
-        "(6e4), which are similar, or `paper` (8e4), which has the paper's cell sizes.",
+        description="Mesh of each resolution: `coarse` (about 1e4 cells; 8e4 of the plate), "
+        "`medium` (2e4; 3e5), `fine` (6e4; 1e6), which are similar, or `paper` (8e4; 5e6), which "
+        "has the paper's cell sizes in the section's plane and its number of cells in 3D.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
         3, description="Iterations of flow, loads and motion in each time step (-)."
@@ -41,6 +42,16 @@ class OpenFoam(Section):
         "container; empty to use what is on the machine. It is the machine's and no part of a "
         f"case; the environment variable {PREFIX_VARIABLE} goes before it.",
     )
+
+    ranks: Annotated[int, Field(ge=1, le=4096), WHOLE] = Field(
+        1,
+        description="Ranks of MPI that a case of the plate runs on, each a thread of its job (-); "
+        "a case of the section runs on one. No part of a case.",
+    )
+
+    def threads(self, dimension: str) -> int:
+        """Return the threads of a job that runs a case of a dimension."""
+        return self.ranks if dimension == "3d" else 1
 
     def input_files(self) -> list[str]:
         """Return the files that the solver reads."""
@@ -58,6 +69,19 @@ def _follows_the_flow(solver: str, step: float) -> Iterator[Problem]:
             "unsteady.time_step",
             step,
             f"allowed is up to {LARGEST_TIME_STEP:g} c/V with solver 'openfoam'",
+        )
+
+
+@check("solver", "flow.root_on_wall", "steady.beam_polar", "sweep.models")
+def _root_is_on_a_wall(
+    solver: str, root_on_wall: bool, beam_polar: str, models: tuple[str, ...]
+) -> Iterator[Problem]:
+    if solver == "openfoam" and not root_on_wall and ("3d" in models or not beam_polar):
+        yield Problem(
+            "flow.root_on_wall",
+            root_on_wall,
+            "allowed is true with solver 'openfoam', whose mesh of the plate has its root on a "
+            "wall; or give steady.beam_polar and leave out the model 3d",
         )
 
 

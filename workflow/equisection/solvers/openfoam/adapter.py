@@ -1,4 +1,4 @@
-"""OpenFOAM behind the solver protocol: one case at a time, on one core.
+"""OpenFOAM behind the solver protocol: one case at a time, the plate on several ranks.
 
 What runs a case is imported where it is called: writing a case file takes this module too, and
 none of that.
@@ -16,12 +16,12 @@ import numpy as np
 
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
-from equisection.errors import SolverError
 from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.openfoam.installation import find
+from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.process import BlowUpError
+from equisection.solvers.openfoam.settings import Settings
 from equisection.solvers.protocol import Capability, Progress
 
 if TYPE_CHECKING:
@@ -37,51 +37,42 @@ class Adapter:
     version = "3"
     provides = frozenset({Capability.MESH, Capability.SURFACE})
 
-    def __init__(self, mesh: str, outer_correctors: int, velocity_relaxation: float = 1.0) -> None:
-        self._mesh = mesh
-        self._outer_correctors = outer_correctors
-        self._velocity_relaxation = velocity_relaxation
+    def __init__(self, settings: Settings, ranks: int = 1) -> None:
+        self._settings = settings
+        self._ranks = ranks
 
     @classmethod
     def from_config(cls, config: Config, resolution: str) -> Adapter:
         """Return the solver on the mesh of a resolution."""
         section = config.openfoam
-        return cls(
+        settings = Settings(
             section.meshes[resolution], section.outer_correctors, section.velocity_relaxation
         )
+        return cls(settings, section.ranks)
 
     @classmethod
-    def from_settings(cls, settings: dict[str, Any]) -> Adapter:
-        """Return the solver of a case."""
-        return cls(
-            settings["mesh"],
-            settings["outer_correctors"],
-            settings.get("velocity_relaxation", 1.0),
-        )
+    def from_settings(cls, settings: dict[str, Any], threads: int = 1) -> Adapter:
+        """Return the solver of a case, to run on as many ranks as there are threads."""
+        return cls(Settings(**settings), threads)
 
     def settings(self) -> dict[str, Any]:
-        """Return mesh and coupling; no path and no version of OpenFOAM, which decide nothing.
+        """Return what decides a result, as it stands in a case."""
+        return self._settings.of_case()
 
-        Without a relaxation there is no word of it, as in the cases from before there was one.
-        """
-        settings = {"mesh": self._mesh, "outer_correctors": self._outer_correctors}
-        if self._velocity_relaxation == 1.0:
-            return settings
-        return {**settings, "velocity_relaxation": self._velocity_relaxation}
-
-    def describe(self) -> str:
+    def describe(self, dimension: str) -> str:
         """Return solver and resolution in words."""
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
-        cells = PRESETS[self._mesh].cells
-        return f"OpenFOAM {find().version()}, k-omega SST, {cells} cells ({self._mesh})"
+        preset = PRESETS[self._settings.mesh]
+        cells = preset.cells if dimension == "2d" else preset.plate_cells
+        return f"OpenFOAM {find().version()}, k-omega SST, {cells} cells ({self._settings.mesh})"
 
     @property
     def similar_cells(self) -> int | None:
         """Number of cells; none of a mesh that is not similar to the others."""
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
-        preset = PRESETS[self._mesh]
+        preset = PRESETS[self._settings.mesh]
         return preset.cells if preset.is_similar else None
 
     def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
@@ -90,18 +81,15 @@ class Adapter:
         from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.section_mesh import section_mesh  # noqa: PLC0415
 
-        preset = PRESETS[self._mesh]
+        preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
         return section_mesh(find(), case, mesh, time_step, work)
 
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
     ) -> list[SteadyResult]:
-        """Run rigid sections, each in a folder of its own."""
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.rigid import mesh_of, rigid_loads  # noqa: PLC0415
-
-        installation, preset = find(), PRESETS[self._mesh]
+        """Run rigid sections and plates, each in a folder of its own."""
+        installation = find()
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         results = []
         for number, case in enumerate(cases):
@@ -109,27 +97,39 @@ class Adapter:
             def tell(done: float, total: float, before: int = number) -> None:
                 progress(before + done / total, len(cases))
 
-            _require_section(case)
-            mesh = mesh_of(case, preset.refinement, preset.spacing)
+            run = self._rigid_section if case.dimension == "2d" else self._rigid_plate
             try:
-                place = work / f"case{number}"
-                loads = rigid_loads(
-                    installation, case, mesh, place, tell, outer_correctors=self._outer_correctors
-                )
-                results.append(_result(loads))
+                results.append(run(installation, case, work / f"case{number}", tell))
             except BlowUpError as error:
                 results.append(_no_value(str(error)))
         return results
 
+    def _rigid_section(
+        self, installation: Installation, case: SteadyCase, place: Path, tell: Progress
+    ) -> SteadyResult:
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.rigid import mesh_of, rigid_loads  # noqa: PLC0415
+
+        preset = PRESETS[self._settings.mesh]
+        mesh = mesh_of(case, preset.refinement, preset.spacing)
+        correctors = self._settings.outer_correctors
+        loads = rigid_loads(installation, case, mesh, place, tell, outer_correctors=correctors)
+        return _result(loads)
+
+    def _rigid_plate(
+        self, installation: Installation, case: SteadyCase, place: Path, tell: Progress
+    ) -> SteadyResult:
+        from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+
+        mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
+        return PlateFlow(installation, case, mesh, self._ranks, place).result(tell)
+
     def run_unsteady(
         self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
     ) -> list[UnsteadyResult]:
-        """Release sections one after the other, each until its verdict is in."""
-        from equisection.solvers.openfoam.free import SectionRun  # noqa: PLC0415
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
-
-        installation, preset = find(), PRESETS[self._mesh]
+        """Release sections and plates one after the other, each until its verdict is in."""
+        installation = find()
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         total = sum(case.duration for case in cases)
         results = []
@@ -139,30 +139,36 @@ class Adapter:
             def tell(now: float, end: float, before: float = done) -> None:
                 progress(before + now, total)
 
-            _require_section(case)
-            mesh = mesh_of(case, preset.refinement, preset.spacing)
-            place = work / f"case{number}"
-            run = SectionRun(
-                installation,
-                case,
-                mesh,
-                self._outer_correctors,
-                place,
-                self._velocity_relaxation,
-            )
-            results.append(run.run(tell))
+            run = self._free_section if case.dimension == "2d" else self._free_plate
+            results.append(run(installation, case, work / f"case{number}", tell))
             done += case.duration
         return results
 
+    def _free_section(
+        self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
+    ) -> UnsteadyResult:
+        from equisection.solvers.openfoam.free import SectionRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
+
+        preset = PRESETS[self._settings.mesh]
+        mesh = mesh_of(case, preset.refinement, preset.spacing)
+        correctors, relaxation = self._settings.outer_correctors, self._settings.velocity_relaxation
+        return SectionRun(installation, case, mesh, correctors, place, relaxation).run(tell)
+
+    def _free_plate(
+        self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
+    ) -> UnsteadyResult:
+        from equisection.solvers.openfoam.plate_free import PlateRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.plate_rigid import plate_mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+
+        mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
+        correctors, ranks = self._settings.outer_correctors, self._ranks
+        return PlateRun(installation, case, mesh, correctors, ranks, place).run(tell)
+
 
 _NOTHING = np.empty(0)
-
-
-def _require_section(case: SteadyCase | UnsteadyCase) -> None:
-    if case.dimension != "2d":
-        raise SolverError(
-            f"solver 'openfoam' has no {case.dimension} cases; allowed are models of dimension 2d"
-        )
 
 
 def _result(loads: RigidLoads) -> SteadyResult:

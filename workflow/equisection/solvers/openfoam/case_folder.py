@@ -52,6 +52,13 @@ def drop_broken_states(folder: Path) -> float:
     return 0.0
 
 
+def drop_states_after(folder: Path, time: float) -> None:
+    """Remove states later than a time."""
+    for state in states(folder):
+        if float(state.name) > time:
+            shutil.rmtree(state)
+
+
 def drop_histories_after(folder: Path, time: float) -> None:
     """Remove histories of starts later than the one that comes, which go by their order."""
     for path in folder.glob("postProcessing/*/*"):

@@ -7,6 +7,7 @@ and initial values are those of a uniform stream of speed 1 with a turbulence of
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +24,12 @@ def reynolds_number(geometry: Geometry, medium: Medium) -> float:
     return medium.density * medium.speed * geometry.chord / medium.dynamic_viscosity
 
 
-def write_flow(folder: Path, reynolds: float) -> None:
-    """Write ``constant`` and the fields at time 0."""
+#: The planes of one layer of cells, between which the flow is two-dimensional.
+IN_THE_PLANE: Mapping[str, str] = {"sides": "empty"}
+
+
+def write_flow(folder: Path, reynolds: float, sides: Mapping[str, str] = IN_THE_PLANE) -> None:
+    """Write ``constant`` and the fields at time 0; ``sides`` are patches and types along z."""
     viscosity = 1.0 / reynolds
     energy = 1.5 * TURBULENCE_INTENSITY**2
     eddy_viscosity = VISCOSITY_RATIO * viscosity
@@ -61,7 +66,7 @@ def write_flow(folder: Path, reynolds: float) -> None:
         entries = {
             "dimensions": dimensions,
             "internalField": value,
-            "boundaryField": _boundary(name, value, on_plate),
+            "boundaryField": _boundary(name, value, on_plate, sides),
         }
         write_text(folder / "0" / name, dictionary(name, entries, kind))
 
@@ -72,7 +77,9 @@ _NO_SLIP = {"type": "movingWallVelocity", "value": "uniform (0 0 0)"}
 _NO_TURBULENCE = {"type": "fixedValue", "value": "uniform 1e-14"}
 
 
-def _boundary(name: str, value: str, on_plate: dict[str, str]) -> dict[str, Any]:
+def _boundary(
+    name: str, value: str, on_plate: dict[str, str], sides: Mapping[str, str]
+) -> dict[str, Any]:
     inlet: dict[str, str] = {"type": "fixedValue", "value": value}
     outlet: dict[str, str] = {"type": "inletOutlet", "inletValue": value, "value": value}
     if name == "p":
@@ -85,7 +92,7 @@ def _boundary(name: str, value: str, on_plate: dict[str, str]) -> dict[str, Any]
         "floor": {"type": "symmetryPlane"},
         "ceiling": {"type": "symmetryPlane"},
         PLATE: on_plate,
-        "sides": {"type": "empty"},
+        **{patch: {"type": kind} for patch, kind in sides.items()},
     }
 
 

@@ -30,6 +30,16 @@ _HOW = (
     f"installation, or name the command before its programs in {PREFIX_VARIABLE} or in "
     "openfoam.prefix"
 )
+#: Jobs share the cores of a machine, which Open MPI cannot know: each of them would bind its first
+#: rank to the first core, and a rank that waits would keep others from going on. In a container it
+#: runs as root.
+_OPEN_MPI = {
+    "OMPI_MCA_mpi_yield_when_idle": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none",
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+}
 _LAUNCHER = re.compile(r"openfoam-?v?\d{2,4}$")
 
 
@@ -51,13 +61,15 @@ class Installation:
     environment: Mapping[str, str] = field(default_factory=dict)
     found: str = ""
 
-    def command(self, program: str) -> list[str]:
-        """Return the command line of a program."""
-        return [*self.prefix, program]
+    def command(self, program: str, ranks: int = 1) -> list[str]:
+        """Return the command line of a program, on several ranks of MPI where there are more."""
+        if ranks == 1:
+            return [*self.prefix, program]
+        return [*self.prefix, "mpirun", "-np", str(ranks), program, "-parallel"]
 
     def variables(self) -> dict[str, str]:
-        """Return the environment of a program: one thread, no colours of a terminal."""
-        return {**os.environ, "OMP_NUM_THREADS": "1", **self.environment}
+        """Return the environment of a program: one thread a rank, ranks not bound to cores."""
+        return {**_OPEN_MPI, **os.environ, "OMP_NUM_THREADS": "1", **self.environment}
 
     def version(self) -> str:
         """Return the version that the programs say of themselves, for instance ``v1912``.

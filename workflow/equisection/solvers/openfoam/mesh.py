@@ -83,6 +83,15 @@ class Channel:
 
 
 @dataclass(frozen=True)
+class Layer:
+    """Blocks between two planes of vertices: number, cells along z, and how their sizes go."""
+
+    number: int = 0
+    cells: int = 1
+    grading: str = "1"
+
+
+@dataclass(frozen=True)
 class Mesh:
     """What ``blockMesh`` makes the mesh of.
 
@@ -149,24 +158,21 @@ class Mesh:
         vertices = [
             f"    ({x:.12g} {y:.12g} {z:g})" for z in (-0.5, 0.5) for x, y in points.reshape(-1, 2)
         ]
-        blocks = [self._block(points, i, j) for i, j in _blocks()]
+        around = list(blocks_around_plate())
+        blocks = [self.block(points, i, j, Layer()) for i, j in around]
         patches = [
-            _patch("inlet", "patch", [_face_x(0, j) for j in range(5)]),
-            _patch("outlet", "patch", [_face_x(5, j) for j in range(5)]),
-            _patch("floor", "symmetryPlane", [_face_y(i, 0) for i in range(5)]),
-            _patch("ceiling", "symmetryPlane", [_face_y(i, 5) for i in range(5)]),
-            _patch("plate", "wall", [_face_x(2, 2), _face_x(3, 2), _face_y(2, 2), _face_y(2, 3)]),
-            _patch("sides", "empty", [face for i, j in _blocks() for face in _sides(i, j)]),
+            patch("inlet", "patch", [face_x(0, j) for j in range(5)]),
+            patch("outlet", "patch", [face_x(5, j) for j in range(5)]),
+            patch("floor", "symmetryPlane", [face_y(i, 0) for i in range(5)]),
+            patch("ceiling", "symmetryPlane", [face_y(i, 5) for i in range(5)]),
+            patch("plate", "wall", [face_x(2, 2), face_x(3, 2), face_y(2, 2), face_y(2, 3)]),
+            patch("sides", "empty", [face_z(i, j, side) for i, j in around for side in (0, 1)]),
         ]
-        return (
-            "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class dictionary;\n"
-            "    object blockMeshDict;\n}\n\nscale 1;\n\n"
-            f"vertices\n(\n{_lines(vertices)}\n);\n\nblocks\n(\n{_lines(blocks)}\n);\n\n"
-            f"edges\n(\n);\n\nboundary\n(\n{_lines(patches)}\n);\n"
-        )
+        return block_mesh_text(vertices, blocks, patches)
 
-    def _block(self, points: NDArray[np.float64], i: int, j: int) -> str:
-        corners = [_vertex(*at) for at in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
+    def block(self, points: NDArray[np.float64], i: int, j: int, layer: Layer) -> str:
+        """Return the block of column i and row j in a layer of blocks."""
+        corners = [corner + 36 * layer.number for corner in _corners(i, j)]
         corners += [corner + 36 for corner in corners]
         along = [self.spacing.along(points, i, line) for line in (j, j + 1)]
         across = [self.spacing.across(points, line, j) for line in (i, i + 1)]
@@ -175,8 +181,8 @@ class Mesh:
         gradings += [across[0], across[1], across[1], across[0]]
         columns, rows = self.spacing.refined(self.refinement)
         return (
-            f"    hex ({' '.join(map(str, corners))}) ({columns[i]} {rows[j]} 1) "
-            f"edgeGrading ({' '.join([*gradings, '1', '1', '1', '1'])})"
+            f"    hex ({' '.join(map(str, corners))}) ({columns[i]} {rows[j]} {layer.cells}) "
+            f"edgeGrading ({' '.join([*gradings, *[layer.grading] * 4])})"
         )
 
 
@@ -237,7 +243,7 @@ def both_ends(ratio: float) -> str:
 SIMILAR: Spacing = Spacing(_COLUMNS, _ROWS, _along, _across)
 
 
-def _blocks() -> Iterator[tuple[int, int]]:
+def blocks_around_plate() -> Iterator[tuple[int, int]]:
     """Yield column and row of each block; the plate stands where one is left out."""
     return ((i, j) for i in range(5) for j in range(5) if (i, j) != (2, 2))
 
@@ -246,25 +252,43 @@ def _vertex(i: int, j: int) -> int:
     return 6 * i + j
 
 
-def _face(first: int, second: int) -> str:
+def _face(first: int, second: int, layer: int) -> str:
+    first, second = first + 36 * layer, second + 36 * layer
     return f"({first} {second} {second + 36} {first + 36})"
 
 
-def _face_x(line: int, j: int) -> str:
-    return _face(_vertex(line, j), _vertex(line, j + 1))
+def face_x(line: int, j: int, layer: int = 0) -> str:
+    """Return the face on a line of x in row j of a layer."""
+    return _face(_vertex(line, j), _vertex(line, j + 1), layer)
 
 
-def _face_y(i: int, line: int) -> str:
-    return _face(_vertex(i, line), _vertex(i + 1, line))
+def face_y(i: int, line: int, layer: int = 0) -> str:
+    """Return the face on a line of y in column i of a layer."""
+    return _face(_vertex(i, line), _vertex(i + 1, line), layer)
 
 
-def _sides(i: int, j: int) -> list[str]:
-    corners = [_vertex(*at) for at in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
-    return [f"({' '.join(str(corner + shift) for corner in corners)})" for shift in (0, 36)]
+def face_z(i: int, j: int, plane: int) -> str:
+    """Return the face of column i and row j in a plane of vertices."""
+    return f"({' '.join(str(corner + 36 * plane) for corner in _corners(i, j))})"
 
 
-def _patch(name: str, kind: str, faces: list[str]) -> str:
+def _corners(i: int, j: int) -> list[int]:
+    return [_vertex(*at) for at in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
+
+
+def patch(name: str, kind: str, faces: list[str]) -> str:
+    """Return a patch as blockMesh reads it."""
     return f"    {name}\n    {{\n        type {kind};\n        faces ({' '.join(faces)});\n    }}"
+
+
+def block_mesh_text(vertices: list[str], blocks: list[str], patches: list[str]) -> str:
+    """Return the text of ``blockMeshDict``."""
+    return (
+        "FoamFile\n{\n    version 2.0;\n    format ascii;\n    class dictionary;\n"
+        "    object blockMeshDict;\n}\n\nscale 1;\n\n"
+        f"vertices\n(\n{_lines(vertices)}\n);\n\nblocks\n(\n{_lines(blocks)}\n);\n\n"
+        f"edges\n(\n);\n\nboundary\n(\n{_lines(patches)}\n);\n"
+    )
 
 
 def _lines(parts: list[str]) -> str:

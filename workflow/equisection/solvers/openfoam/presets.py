@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from equisection.solvers.openfoam.mesh import SIMILAR, Spacing
 from equisection.solvers.openfoam.paper_spacing import PAPER
+from equisection.solvers.openfoam.plate_mesh import plate_cells
 
 
 @dataclass(frozen=True)
@@ -16,6 +17,7 @@ class Preset:
 
     refinement: float
     spacing: Spacing = SIMILAR
+    plate: float = 1.0  # refinement of the plate's mesh, whose spacing is that of a grid study
 
     @property
     def cells(self) -> int:
@@ -23,15 +25,20 @@ class Preset:
         return self.spacing.cells(self.refinement)
 
     @property
+    def plate_cells(self) -> int:
+        """Number of cells of the plate's mesh, with a gap between tip and wall."""
+        return plate_cells(SIMILAR, self.plate)
+
+    @property
     def is_similar(self) -> bool:
         """Whether it differs from the others alike by its refinement alone."""
         return self.spacing is SIMILAR
 
 
-#: About 1e4, 2e4 and 6e4 cells, and the paper's cell sizes.
+#: About 1e4, 2e4 and 6e4 cells, and the paper's cell sizes; of the plate 8e4, 3e5, 1e6 and 5e6.
 PRESETS: Mapping[str, Preset] = {
-    "coarse": Preset(1.0),
-    "medium": Preset(math.sqrt(2.0)),
-    "fine": Preset(math.sqrt(5.0)),
-    "paper": Preset(1.0, PAPER),
+    "coarse": Preset(1.0, plate=0.55),
+    "medium": Preset(math.sqrt(2.0), plate=0.85),
+    "fine": Preset(math.sqrt(5.0), plate=1.27),
+    "paper": Preset(1.0, PAPER, plate=2.2),
 }

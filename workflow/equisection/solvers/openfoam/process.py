@@ -34,6 +34,8 @@ _STEP_DONE = b"ExecutionTime = "
 
 #: Called with the latest time in the log; true ends the run at the end of a step.
 Watch = Callable[[float], bool]
+#: Called with what tells whether a program runs, and with what asks it to end.
+Serve = Callable[[Callable[[], bool], Callable[[], None]], None]
 
 
 class Every:
@@ -63,10 +65,12 @@ def run_program(
     *,
     silence: float = SILENCE,
     arguments: Sequence[str] = (),
+    ranks: int = 1,
 ) -> None:
     """Run a program in a case to its end, or until ``watch`` says so.
 
-    Its output goes to ``log.<program>`` in the case, behind what stands there.
+    On more than one rank the case is one that ``decomposePar`` has divided. The program's output
+    goes to ``log.<program>`` in the case, behind what stands there.
 
     Raises
     ------
@@ -75,13 +79,52 @@ def run_program(
     SolverError
         It could not start, ended with any other fault, or its log has been silent for too long.
     """
+
+    def follow(process: subprocess.Popen[bytes], log: Path, start: int) -> None:
+        _follow(process, log, start, watch, silence)
+
+    _run(installation, [*installation.command(program, ranks), *arguments], program, folder, follow)
+
+
+def run_beside(
+    installation: Installation, program: str, folder: Path, serve: Serve, *, ranks: int = 1
+) -> None:
+    """Run a program in a case, and what it exchanges data with beside it.
+
+    Parameters
+    ----------
+    serve
+        Called with what tells whether the program still runs, and how to end it at the end of a
+        step; it returns when the program has ended.
+
+    Raises
+    ------
+    BlowUpError
+        The program ended with a floating-point exception.
+    SolverError
+        It could not start or ended with a fault.
+    """
+
+    def follow(process: subprocess.Popen[bytes], log: Path, start: int) -> None:
+        del start
+        serve(lambda: process.poll() is None, (log.parent / STOP_FILE).touch)
+
+    _run(installation, installation.command(program, ranks), program, folder, follow)
+
+
+def _run(
+    installation: Installation,
+    command: Sequence[str],
+    program: str,
+    folder: Path,
+    follow: Callable[[subprocess.Popen[bytes], Path, int], None],
+) -> None:
     log = folder / f"log.{program}"
     stop = folder / STOP_FILE
     stop.unlink(missing_ok=True)
     start = log.stat().st_size if log.exists() else 0
-    command = [*installation.command(program), *arguments]
     with log.open("ab") as output, _started(installation, command, folder, output) as process:
-        _follow(process, log, start, watch, silence)
+        follow(process, log, start)
         status = process.wait()
     stop.unlink(missing_ok=True)
     if status != 0:

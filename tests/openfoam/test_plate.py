@@ -1,0 +1,248 @@
+"""The real solver around the plate on very coarse meshes: loads, coupling, resumption, faults.
+
+What is compared with numbers was measured with OpenFOAM v1912.
+"""
+
+import os
+import pickle
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.sample_cases import STEADY_PLATE, UNSTEADY_PLATE, beam_modes
+
+from equisection.cases import UnsteadyCase
+from equisection.errors import SolverError
+from equisection.solvers.openfoam import plate_free
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.loads import read_loads
+from equisection.solvers.openfoam.plate_free import PlateRun
+from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of
+
+#: Coarser than any preset, 13,192 cells.
+VERY_COARSE = 0.3
+
+
+def nothing(done: float, total: float) -> None:
+    del done, total
+
+
+def rigid(
+    installation: Installation, work: Path, incidence_deg: float = 2.5, ranks: int = 1
+) -> PlateFlow:
+    case = STEADY_PLATE.model_copy(update={"incidence_deg": incidence_deg})
+    return PlateFlow(installation, case, plate_mesh_of(case, VERY_COARSE), ranks, work)
+
+
+@pytest.fixture(scope="module")
+def steady(installation: Installation, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A rigid plate at 2.5 deg that has converged."""
+    work = tmp_path_factory.mktemp("steady")
+    flow = rigid(installation, work)
+    result = flow.result(nothing)
+    assert result.method.startswith("steady")
+    sizes = np.diff(flow.mesh.edges()) / flow.mesh.span
+    # the sections' loads add up to the whole, and fall off to the tip as lift does
+    assert result.section_lift @ sizes == pytest.approx(result.lift, rel=1e-3)
+    assert result.section_moment @ sizes == pytest.approx(result.moment, rel=1e-3)
+    assert result.section_lift[0] > result.lift > result.section_lift[-1]
+    return work
+
+
+def test_no_lift_and_no_moment_at_zero_incidence_on_two_ranks(
+    installation: Installation, tmp_path: Path
+) -> None:
+    result = rigid(installation, tmp_path, 0.0, ranks=2).result(nothing)
+    assert result.method.startswith("steady")
+    assert abs(result.lift) < 1e-3
+    assert abs(result.moment) < 5e-4
+    assert result.drag > 0.03
+
+
+def free(duration: float, k_star: float = 6.44, mass: float = 1.0) -> UnsteadyCase:
+    """Return a case with all of the structure scaled by a mass."""
+    modes = beam_modes(k_star / 19.91 * mass, mass)
+    return UNSTEADY_PLATE.model_copy(
+        update={"beam": modes, "duration": duration, "output_interval": 0.02}
+    )
+
+
+def run_of(installation: Installation, case: UnsteadyCase, work: Path, steady: Path) -> PlateRun:
+    """Return a run that starts from the rigid steady flow, which is the same for all."""
+    shutil.copytree(steady, work, dirs_exist_ok=True)
+    return PlateRun(installation, case, plate_mesh_of(case, VERY_COARSE), 1, 1, work)
+
+
+@pytest.fixture
+def short_interval(monkeypatch: pytest.MonkeyPatch) -> None:
+    """States are written often enough for a short run to be resumed."""
+    monkeypatch.setattr(plate_free, "STATE_INTERVAL", 0.2)
+
+
+@pytest.fixture(scope="module")
+def whole(
+    installation: Installation, steady: Path, tmp_path_factory: pytest.TempPathFactory
+) -> PlateRun:
+    """A run of 0.6 c/V without interruption."""
+    run = run_of(installation, free(0.6), tmp_path_factory.mktemp("whole"), steady)
+    run.run(nothing)
+    return run
+
+
+def test_loads_handed_over_are_those_that_openfoam_sums_up(whole: PlateRun) -> None:
+    """But for friction, which has little lift; c_m about the moving centre but little drag."""
+    history, loads = whole.history(), read_loads(whole.folder)
+    np.testing.assert_allclose(history.time[1:], loads.time[:-1], atol=1e-9)
+    assert history.lift[1:] == pytest.approx(loads.lift[:-1], rel=2e-3)
+    assert history.moment[1:] == pytest.approx(loads.moment[:-1], rel=5e-3)
+
+
+def test_modes_obey_their_equations_of_motion(whole: PlateRun) -> None:
+    """q'' + omega^2 q = p by central differences, and nothing moves before the release."""
+    history, step = whole.history(), whole.case.time_step
+    acceleration = np.diff(history.position, 2, axis=0) / step**2
+    expected = (history.load - whole.points.frequency**2 * history.position)[1:-1]
+    scale = np.abs(expected).max(axis=0)
+    np.testing.assert_array_less(np.abs(acceleration - expected), 0.05 * scale)
+    np.testing.assert_array_equal(history.position[0], 0.0)
+
+
+def test_result_holds_the_tip_and_its_modes(whole: PlateRun) -> None:
+    result = whole.run(nothing)  # it has ended, so that nothing runs
+    tip = result.bending_amplitudes.T @ whole.points.bending_at_tip
+    np.testing.assert_allclose(result.tip_deflection, tip)
+    np.testing.assert_allclose(result.incidence[0], np.radians(2.5))
+    assert result.tip_twist[-1] > 0 < result.tip_deflection[-1]
+
+
+@pytest.mark.usefixtures("short_interval")
+def test_run_that_was_killed_goes_on_without_a_jump(
+    installation: Installation, whole: PlateRun, steady: Path, tmp_path: Path
+) -> None:
+    """A kill after 0.5 c/V goes back to the state at 0.4 c/V, of flow and structure."""
+    interrupted = run_of(installation, whole.case, tmp_path, steady)
+
+    def stop_at(done: float, total: float) -> None:
+        del total
+        if done >= 0.5:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        interrupted.run(stop_at)
+    assert (interrupted.folder / "0.4").exists()
+    interrupted.run(nothing)
+
+    assert "Time = 0.42\n" in (interrupted.folder / "log.pimpleFoam").read_text()
+    one, other = whole.history(), interrupted.history()
+    np.testing.assert_allclose(one.time, other.time, atol=1e-9)
+    for name in ("position", "velocity", "lift", "moment"):
+        expected = getattr(one, name)
+        size = np.abs(expected).max(axis=0)
+        assert (np.abs(getattr(other, name) - expected) <= 5e-3 * size).all(), name
+
+
+def test_heavy_plate_swings_at_its_natural_frequency(
+    installation: Installation, steady: Path, tmp_path: Path
+) -> None:
+    """A hundred times the mass: the air drives, but hardly changes what the structure does."""
+    modes = beam_modes(150.0 / 19.91 * 100.0, 100.0)
+    period = 2 * np.pi / modes.torsion_frequency[0]
+    case = free(round(1.2 * period, 1), 150.0, 100.0)
+    run = run_of(installation, case, tmp_path, steady)
+    run.run(nothing)
+    history = run.history()
+    # from rest the first torsion mode is A (1 - cos(omega s)) under a constant load
+    twist = history.position[:, 0]
+    late = history.time > 0.2 * period
+    rate = history.velocity[late, 0]
+    before = np.flatnonzero(np.diff(np.sign(rate)) != 0)
+    part = rate[before] / (rate[before] - rate[before + 1])
+    turning = history.time[late][before] + part * case.time_step
+    assert turning[:2] == pytest.approx([period / 2, period], rel=0.01)
+    static = history.load[late, 0].mean() / modes.torsion_frequency[0] ** 2
+    assert twist.max() == pytest.approx(2 * static, rel=0.05)
+
+
+def test_solver_that_is_killed_is_told_with_its_signal(
+    installation: Installation, steady: Path, tmp_path: Path
+) -> None:
+    run = run_of(installation, free(2.0), tmp_path, steady)
+
+    def kill(done: float, total: float) -> None:
+        del total
+        if done >= 0.06:
+            os.kill(solver_of(run.folder), signal.SIGKILL)
+
+    with pytest.raises(SolverError, match="pimpleFoam ended with signal 9"):
+        run.run(kill)
+
+
+STRUCTURE = """
+import pickle, sys
+from pathlib import Path
+run = pickle.loads(Path(sys.argv[1]).read_bytes())
+run.run(lambda done, total: print(done, flush=True))
+"""
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_solver_ends_with_the_structure_that_is_killed(
+    installation: Installation, tmp_path: Path, ranks: int
+) -> None:
+    case = free(2.0)
+    mesh = plate_mesh_of(case, 0.2)
+    (tmp_path / "run").write_bytes(
+        pickle.dumps(PlateRun(installation, case, mesh, 1, ranks, tmp_path))
+    )
+    structure = subprocess.Popen(
+        [sys.executable, "-c", STRUCTURE, str(tmp_path / "run")], stdout=subprocess.PIPE, text=True
+    )
+    assert structure.stdout is not None
+    assert any(float(line) > 0.04 for line in structure.stdout)
+    solver = solver_of(tmp_path / "free")
+    assert Path(f"/proc/{solver}").exists()
+    structure.kill()
+    structure.wait()
+    wait_until(lambda: not Path(f"/proc/{solver}").exists())
+
+
+def test_plate_that_diverges_ends_before_it_meets_the_wall(
+    installation: Installation, steady: Path, tmp_path: Path
+) -> None:
+    """A twentieth of the mass and hardly any stiffness: the lift carries it to the ceiling."""
+    run = run_of(installation, free(20.0, k_star=0.5, mass=0.05), tmp_path, steady)
+    result = run.run(nothing)
+    assert result.verdict["regime"] in {"growing", "failed"}
+    assert re.search(r"c/V, the tip's twist .* deg and its deflection", result.verdict["reason"])
+
+
+def test_other_versions_are_refused(installation: Installation, tmp_path: Path) -> None:
+    later = LaterVersion(installation.prefix, installation.environment)
+    run = PlateRun(later, free(1.0), plate_mesh_of(free(1.0), VERY_COARSE), 1, 1, tmp_path)
+    with pytest.raises(SolverError, match=r"OpenFOAM v2312: .* v1912"):
+        run.run(nothing)
+
+
+class LaterVersion(Installation):
+    def version(self) -> str:
+        return "v2312"
+
+
+def solver_of(folder: Path) -> int:
+    """Return the process of the solver, as it says itself."""
+    said = (folder / "log.pimpleFoam").read_text()
+    return int(re.findall(r"^PID\s*: (\d+)", said, re.MULTILINE)[-1])
+
+
+def wait_until(condition: Callable[[], bool], seconds: float = 10.0) -> None:
+    end = time.monotonic() + seconds
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.1)

@@ -1,0 +1,90 @@
+"""The plate's lumped points: what is handed over either way, and its signs."""
+
+import numpy as np
+import pytest
+from tests.sample_cases import beam_modes
+
+from equisection.solvers.openfoam.lumped_points import Handed, LumpedPoints
+
+EDGES = np.linspace(0.0, 3.7, 75)
+POINTS = LumpedPoints.of(beam_modes(), EDGES)
+
+
+def handed(lift: np.ndarray, moment: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return forces and moments of c_l and c_m over the span, nothing on either end."""
+    size = 0.5 * np.concatenate([[0.0], np.diff(EDGES), [0.0]])
+    forces, moments = np.zeros((2, size.size, 3))
+    forces[:, 1] = size * lift
+    moments[:, 2] = -size * moment
+    return forces, moments
+
+
+def test_coefficients_are_those_of_uniform_loads() -> None:
+    lift, moment = POINTS.coefficients(*handed(np.array(0.3), np.array(0.06)))
+    assert (lift, moment) == (pytest.approx(0.3), pytest.approx(0.06))
+
+
+def test_generalised_inertia_is_that_of_the_uniform_beam() -> None:
+    modes = beam_modes()
+    # int f^2 = 1/2 of the torsion modes, int g^2 = 1/4 of the bending modes of a cantilever
+    expected = np.repeat([0.5 * modes.inertia / 2, 0.5 * modes.mass / 4], 2) * 3.7
+    np.testing.assert_allclose(POINTS.inertia, expected, rtol=1e-4)
+
+
+def test_static_twist_and_deflection_are_those_of_the_beam() -> None:
+    """A uniform load on the cantilever: m L^2/(2 G J) and q L^4/(8 E I), from 12 modes."""
+    modes = beam_modes(modes=12)
+    points = LumpedPoints.of(modes, EDGES)
+    position = points.modal_loads(*handed(np.array(0.3), np.array(0.06))) / points.frequency**2
+    twist, deflection = points.tip(position)
+    # GJ/(q c^4), EI/(q c^4) of the paper's plate at 20 m/s
+    dynamic_pressure, chord, thickness = 0.5 * 1.18 * 20.0**2, 0.1, 0.004
+    bending = 3.3e9 * chord * thickness**3 / 12 / (dynamic_pressure * chord**4)
+    torsion = 3.3e9 / (2 * 1.35) * chord * thickness**3 / 3 / (dynamic_pressure * chord**4)
+    assert twist == pytest.approx(0.06 * 3.7**2 / (2 * torsion), rel=5e-3)
+    assert deflection == pytest.approx(0.3 * 3.7**4 / (8 * bending), rel=2e-3)
+
+
+def test_nose_up_moment_twists_nose_up_and_is_a_rotation_about_minus_z() -> None:
+    position = POINTS.modal_loads(*handed(np.array(0.0), np.array(0.06)))
+    rows = POINTS.message(position).splitlines()
+    assert rows[0] == str(EDGES.size + 1)
+    tip = np.array(rows[-1].split(), dtype=float)
+    twist, deflection = POINTS.tip(position)
+    assert twist > 0
+    np.testing.assert_allclose(tip, [0, 0, 3.7, -twist, 0, 0], atol=1e-3 * twist)
+    assert deflection == 0.0
+
+
+def test_root_stays_where_it_is() -> None:
+    root = POINTS.message(np.ones(4)).splitlines()[1]
+    np.testing.assert_allclose([float(word) for word in root.split()], 0.0, atol=1e-12)
+
+
+MESSAGE = """########
+# Time index=12 value=0.24
+# size=2
+# columns (points) (forces) (moments)
+########
+0 0 0 0.1 0.2 0.3 0.01 0.02 0.03
+0 0 3.7 1e-05 -2 0 0 0 -0.5
+"""
+
+
+def test_plain_form_of_lumped_point_movement_is_read() -> None:
+    loads = Handed.read(MESSAGE)
+    assert loads.time == 0.24
+    np.testing.assert_array_equal(loads.forces, [[0.1, 0.2, 0.3], [1e-5, -2, 0]])
+    np.testing.assert_array_equal(loads.moments[:, 2], [0.03, -0.5])
+
+
+def test_other_forms_are_told_apart() -> None:
+    for message in ("", MESSAGE.replace("0.03", "x"), MESSAGE.replace(" 0 0 -0.5", "")):
+        with pytest.raises((ValueError, StopIteration)):
+            Handed.read(message)
+
+
+def test_drag_above_the_place_of_reference_turns_the_nose_up() -> None:
+    """About a point that is higher by w the same drag turns less nose up, by w F_x."""
+    loads = Handed.read(MESSAGE).about(np.array([0.5, 0.0]))
+    np.testing.assert_allclose(loads.moments[:, 2], [0.03 + 0.05, -0.5])

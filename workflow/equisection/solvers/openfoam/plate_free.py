@@ -1,0 +1,299 @@
+"""The free plate: flow and structure coupled in each time step, until the verdict is in.
+
+OpenFOAM moves the mesh and resolves the flow; the structure is solved here, on its modes
+(``motion.modal_response``), with loads and places exchanged over pipes. The run starts from the
+rigid steady flow and is resumed from its last whole state, if its folder has one.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from equisection.cases import UnsteadyCase
+from equisection.errors import SolverError
+from equisection.motion.modal_response import ModalStep, Staggered
+from equisection.results.unsteady import UnsteadyResult
+from equisection.solvers.openfoam import flow
+from equisection.solvers.openfoam.case_folder import (
+    drop_broken_states,
+    drop_histories_after,
+    drop_states_after,
+    emptied,
+    is_ready,
+    mark_ready,
+)
+from equisection.solvers.openfoam.dictionaries import write_system
+from equisection.solvers.openfoam.free import STATE_INTERVAL
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.loads import BEYOND_REASON
+from equisection.solvers.openfoam.lumped_points import (
+    Handed,
+    LumpedPoints,
+    motion_solvers,
+    write_lumped_motion,
+)
+from equisection.solvers.openfoam.pipes import Alive, Pipes, names
+from equisection.solvers.openfoam.plate_history import (
+    PlateHistory,
+    add_row,
+    keep_until,
+    read_plate,
+)
+from equisection.solvers.openfoam.plate_mesh import PlateMesh
+from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_control
+from equisection.solvers.openfoam.process import SILENCE, BlowUpError, Every, run_beside
+from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
+from equisection.solvers.openfoam.rigid import Tell
+from equisection.solvers.openfoam.spent import spent
+from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge, refused
+
+logger = logging.getLogger(__name__)
+
+#: The version whose ``lumpedPointMovement`` the dictionaries are written for.
+_VERSION = "v1912"
+#: Room that must be left between the plate and floor or ceiling (chords).
+_ROOM = 0.1
+
+
+@dataclass(frozen=True)
+class PlateRun:
+    """The run of one case.
+
+    Attributes
+    ----------
+    installation
+        OpenFOAM.
+    case
+        The case.
+    mesh
+        Its mesh.
+    outer_correctors
+        Iterations of flow, loads and motion a time step.
+    ranks
+        Ranks of MPI that a program runs on.
+    work
+        Where its folders are.
+    """
+
+    installation: Installation
+    case: UnsteadyCase
+    mesh: PlateMesh
+    outer_correctors: int
+    ranks: int
+    work: Path
+
+    @property
+    def folder(self) -> Path:
+        """Folder of the free run, beside that of the steady flow which it starts from."""
+        return self.work / "free"
+
+    @property
+    def history_file(self) -> Path:
+        """File of the structure's history."""
+        return self.folder / "structure.txt"
+
+    @cached_property
+    def points(self) -> LumpedPoints:
+        """The plate's modes at its lumped points."""
+        assert self.case.beam is not None
+        return LumpedPoints.of(self.case.beam, self.mesh.edges())
+
+    def history(self) -> PlateHistory:
+        """Return the history so far."""
+        return read_plate(self.history_file, self.points.frequency.size)
+
+    def run(self, tell: Tell) -> UnsteadyResult:
+        """Release the plate and follow it until its verdict is in.
+
+        Raises
+        ------
+        SolverError
+            A program failed, or the version of OpenFOAM is another. A flow or a mesh that broke
+            down, or a plate that comes to the wall, is a result: ``failed``, or ``growing`` if the
+            motion had grown beyond the bound before.
+        """
+        case, failure = self.case, ""
+        if self.installation.version() != _VERSION:
+            raise SolverError(
+                f"OpenFOAM {self.installation.version()}: the coupled plate is written for "
+                f"{_VERSION}, whose lumpedPointMovement reads other dictionaries than later ones; "
+                "run it there, or leave the model 3d out of sweep.models"
+            )
+        try:
+            if not is_ready(self.folder):
+                self._set_up(tell)
+            start = self._last_common_state()
+            if start < case.duration:
+                self._go_on(start, tell)
+        except BlowUpError as error:
+            failure = f"{error}{self._where()}"
+            if not is_ready(self.folder):
+                return refused(case.model_copy(update={"refusal": failure}))
+        return replace(self._result(failure), spent=spent(self.work))
+
+    def _set_up(self, tell: Tell) -> None:
+        """Make the folder of the free run from the rigid steady flow, converged or not."""
+        case = self.case
+
+        def nothing_yet(done: float, total: float) -> None:
+            del done, total
+            tell(0.0, case.duration)
+
+        rigid = PlateFlow(self.installation, case, self.mesh, self.ranks, self.work)
+        source, _, converged = rigid.steady(nothing_yet)
+        if not converged:
+            logger.info("the steady flow does not converge; the release is from its last state")
+        folder = emptied(self.folder)
+        copy_flow_of_all(source, folder)
+        write_lumped_motion(folder, self.points, names())
+        mark_ready(folder)
+
+    def _write_system(self) -> None:
+        """Write what controls the run; its end may differ from that of an earlier start."""
+        case = self.case
+        entries = plate_control(
+            "pimpleFoam", case.duration, case.time_step, STATE_INTERVAL, self.mesh.span
+        )
+        entries["libs"] = ['"liblumpedPointMotion.so"']
+        solution = flow.solution(steady=False, outer_correctors=self.outer_correctors)
+        solution["solvers"] |= motion_solvers()
+        write_system(self.folder, entries, flow.schemes(steady=False), solution)
+
+    def _last_common_state(self) -> float:
+        """Return the time of the last state that is whole on all ranks; drop what is later."""
+        start = min(drop_broken_states(part) for part in parts(self.folder))
+        for part in parts(self.folder):
+            drop_states_after(part, start)
+        drop_histories_after(self.folder, start)
+        return start
+
+    def _go_on(self, start: float, tell: Tell) -> None:
+        self._write_system()
+        # a case that was divided stays so, on however many ranks its job runs now
+        ranks = len(parts(self.folder))
+        if ranks != self.ranks:
+            logger.info("%d ranks: the run was begun on as many", ranks)
+        if start:
+            logger.info("goes on from %g c/V", start)
+        # the loads at the start are handed over anew in the first step
+        before = start - 0.5 * self.case.time_step
+        state = keep_until(self.history_file, before, self.points.frequency.size).state()
+        structure = Staggered(ModalStep(self.points.frequency, self.case.time_step), state)
+        pipes = Pipes(self.folder, SILENCE)
+        try:
+            run_beside(
+                self.installation,
+                "pimpleFoam",
+                self.folder,
+                _Exchange(self, structure, pipes, start, tell),
+                ranks=ranks,
+            )
+        finally:
+            pipes.close()
+
+    def _where(self) -> str:
+        """Return when and how far out the plate was."""
+        if not self.history_file.exists() or not self.history().time.size:
+            return ""
+        history = self.history()
+        twist, deflection = self.points.tip(history.position[-1])
+        return (
+            f"; flow or mesh broke down at {history.time[-1]:.4g} c/V, the tip's twist "
+            f"{math.degrees(twist):.3g} deg and its deflection {deflection:.3g} c"
+        )
+
+    def tip_motion(self, history: PlateHistory) -> Motion:
+        """Return the motion of the tip."""
+        return Motion(history.time, *self.points.tip(history.position))
+
+    def _result(self, failure: str) -> UnsteadyResult:
+        case = self.case
+        history = self.history().sampled(case.time_step, case.output_interval, case.duration)
+        tip = self.tip_motion(history)
+        torsion = self.points.torsion_modes
+        return UnsteadyResult(
+            time=history.time,
+            twist=tip.twist,
+            deflection=tip.deflection,
+            tip_twist=tip.twist,
+            tip_deflection=tip.deflection,
+            lift=history.lift,
+            moment=history.moment,
+            incidence=math.radians(case.incidence_deg) + tip.twist,
+            verdict=judge(case, tip, failure),
+            torsion_amplitudes=history.position[:, :torsion].T,
+            bending_amplitudes=history.position[:, torsion:].T,
+        )
+
+
+class _Exchange:
+    """The structure's side of a run, from its start or resumption to its end."""
+
+    def __init__(
+        self, run: PlateRun, structure: Staggered, pipes: Pipes, start: float, tell: Tell
+    ) -> None:
+        self._run, self._structure, self._pipes, self._tell = run, structure, pipes, tell
+        self._due = Every(LOOKS_EVERY, start)
+        self._place = structure.proposed_position
+        self._resumed = self._place is not None
+
+    def __call__(self, alive: Alive, end: Callable[[], None]) -> None:
+        """Serve the program until it has ended."""
+        with self._run.history_file.open("a", encoding="ascii") as stream:
+            while (message := self._pipes.receive(alive)) is not None:
+                handed = self._handed(message)
+                is_new_step = self._structure.is_new_step(handed.time)
+                loads = self._run.points.modal_loads(handed.forces, handed.moments)
+                self._require_reasonable(handed)
+                place = self._structure.turn(handed.time, loads)
+                if is_new_step:
+                    assert self._structure.state is not None
+                    coefficients = self._run.points.coefficients(handed.forces, handed.moments)
+                    add_row(stream, self._structure.state, *coefficients)
+                    if self._is_over(self._structure.state.time):
+                        end()
+                self._require_room(place, handed.time)
+                if not self._pipes.send(self._run.points.message(place), alive):
+                    break
+
+    def _handed(self, message: str) -> Handed:
+        try:
+            handed = Handed.read(message)
+        except (ValueError, StopIteration):
+            raise SolverError(
+                f"{self._run.folder}: what lumpedPointMovement handed over is not in its plain "
+                f"form: {message[:200]!r}"
+            ) from None
+        if self._resumed and self._place is not None:
+            handed = handed.about(self._run.points.deflection(self._place))
+        self._resumed = False
+        return handed
+
+    def _require_reasonable(self, handed: Handed) -> None:
+        coefficients = self._run.points.coefficients(handed.forces, handed.moments)
+        if not max(map(abs, coefficients)) < BEYOND_REASON:
+            raise BlowUpError(f"C_L {coefficients[0]:.3g}, C_M {coefficients[1]:.3g}")
+
+    def _require_room(self, place: np.ndarray, time: float) -> None:
+        twist, deflection = self._run.points.tip(place)
+        room = 0.5 * self._run.mesh.section.channel.height - abs(float(deflection))
+        room -= 0.5 * abs(math.sin(self._run.mesh.section.incidence + float(twist)))
+        if room < _ROOM:
+            raise BlowUpError(
+                f"the plate has come to within {room:.2g} c of floor or ceiling at {time:.4g} c/V"
+            )
+
+    def _is_over(self, time: float) -> bool:
+        self._tell(time, self._run.case.duration)
+        if not self._due.is_due(time):
+            return False
+        case = self._run.case
+        history = self._run.history().sampled(case.time_step, case.output_interval)
+        return is_decided(case, self._run.tip_motion(history))

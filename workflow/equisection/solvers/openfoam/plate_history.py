@@ -1,0 +1,88 @@
+"""What the structure of a coupled run has been through: a row a time step, in a text file.
+
+A row holds the whole state of the modes, so that the run can be taken up after any step, and the
+loads on the plate. It is in the file before OpenFOAM goes on to the next step.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.files import write_text
+from equisection.motion.modal_response import ModalState
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PlateHistory:
+    """Motion and loads of the plate over convective time.
+
+    Attributes
+    ----------
+    time
+        s (c/V), shape (n,).
+    position, velocity, load, earlier_load
+        Of the modes, shape (n, modes): amplitudes and their rates, loads over inertia at this time
+        and a step before.
+    lift, moment
+        C_L, and C_M about the moving mid-chords, shape (n,).
+    """
+
+    time: Floats
+    position: Floats
+    velocity: Floats
+    load: Floats
+    earlier_load: Floats
+    lift: Floats
+    moment: Floats
+
+    def sampled(self, step: float, interval: float, end: float = math.inf) -> PlateHistory:
+        """Return the samples up to an end at multiples of an interval, which is one of the step."""
+        kept = np.rint(self.time / step).astype(int) % round(interval / step) == 0
+        kept &= self.time < end + 0.5 * step
+        return PlateHistory(*(getattr(self, name)[kept] for name in self.__dataclass_fields__))
+
+    def state(self) -> ModalState | None:
+        """Return the last state of the modes; None if there is none."""
+        if not self.time.size:
+            return None
+        return ModalState(
+            float(self.time[-1]),
+            self.position[-1],
+            self.velocity[-1],
+            self.load[-1],
+            self.earlier_load[-1],
+        )
+
+
+def read_plate(path: Path, modes: int) -> PlateHistory:
+    """Return the history so far; a last row that is not whole is left out."""
+    text = path.read_text(encoding="ascii") if path.exists() else ""
+    rows = [line.split() for line in text.splitlines(keepends=True) if line.endswith("\n")]
+    values = np.array(rows, dtype=float).reshape(len(rows), 3 + 4 * modes)
+    position, velocity, load, earlier = np.split(values[:, 3:], 4, axis=1)
+    time, lift, moment = values[:, :3].T
+    return PlateHistory(time, position, velocity, load, earlier, lift, moment)
+
+
+def keep_until(path: Path, time: float, modes: int) -> PlateHistory:
+    """Drop rows later than a time, and return the rest."""
+    history = read_plate(path, modes)
+    lines = path.read_text(encoding="ascii").splitlines(keepends=True) if path.exists() else []
+    write_text(path, "".join(lines[: int((history.time <= time).sum())]))
+    return read_plate(path, modes)
+
+
+def add_row(stream: IO[str], state: ModalState, lift: float, moment: float) -> None:
+    """Add a row, and have it written."""
+    vectors = (state.position, state.velocity, state.load, state.earlier_load)
+    row = np.concatenate([[state.time, lift, moment], *vectors])
+    stream.write(" ".join(f"{value:.17g}" for value in row) + "\n")
+    stream.flush()

@@ -1,0 +1,222 @@
+"""The rigid plate in its channel: steady loads, or the mean of an unsteady run, and their span.
+
+The same criteria as for the section (``rigid``), with the means of shorter records: a step of the
+plate costs what eight of the section do.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.errors import SolverError
+from equisection.files import write_text
+from equisection.results.steady import SteadyResult
+from equisection.solvers.openfoam import flow
+from equisection.solvers.openfoam.case_folder import emptied, states
+from equisection.solvers.openfoam.dictionaries import (
+    LOADS,
+    Entries,
+    control,
+    dictionary,
+    write_system,
+)
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
+from equisection.solvers.openfoam.mesh import SIMILAR, Spacing
+from equisection.solvers.openfoam.plate_mesh import SIDE_WALLS, PlateMesh
+from equisection.solvers.openfoam.process import Every, run_program
+from equisection.solvers.openfoam.ranks import copy_flow_of_all, divide, parts
+from equisection.solvers.openfoam.rigid import (
+    KNOWN,
+    MOST,
+    WINDOW,
+    Tell,
+    has_converged,
+    make_mesh,
+    mesh_of,
+)
+from equisection.solvers.openfoam.span_loads import read_span_loads, surface_output
+from equisection.solvers.openfoam.spent import spent
+
+logger = logging.getLogger(__name__)
+
+#: Time step, time left out, shortest and longest record of a rigid unsteady run (c/V).
+STEP, DISCARDED, SHORTEST, LONGEST = 0.02, 10.0, 20.0, 60.0
+
+
+def plate_mesh_of(
+    case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = SIMILAR
+) -> PlateMesh:
+    """Return the mesh of a case of the plate.
+
+    Raises
+    ------
+    SolverError
+        The case has no channel, or the root does not stand on its wall.
+    """
+    section, geometry = mesh_of(case, refinement, spacing), case.geometry
+    if not geometry.root_on_wall:
+        raise SolverError(
+            "flow.root_on_wall: false: OpenFOAM's mesh of the plate has its root on the wall"
+        )
+    return PlateMesh(section, geometry.span, geometry.tip_gap or 0.0)
+
+
+@dataclass(frozen=True)
+class PlateFlow:
+    """The rigid plate of a case.
+
+    Attributes
+    ----------
+    installation
+        OpenFOAM.
+    case, mesh
+        The case and its mesh.
+    ranks
+        Ranks of MPI that a program runs on.
+    work
+        Where its folders are.
+    """
+
+    installation: Installation
+    case: SteadyCase | UnsteadyCase
+    mesh: PlateMesh
+    ranks: int
+    work: Path
+
+    def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
+        """Make the mesh and run the steady solver until it has converged, or for long enough.
+
+        Returns
+        -------
+        tuple
+            Folder of the run, its loads over the iterations, and whether it has converged.
+
+        Raises
+        ------
+        SolverError
+            A program failed, or the mesh is not sound.
+        """
+        folder, case = emptied(self.work / "steady"), self.case
+        write_text(folder / "system" / "blockMeshDict", self.mesh.block_mesh_dict())
+        flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium), SIDE_WALLS)
+        entries = plate_control("simpleFoam", MOST, 1, MOST, self.mesh.span)
+        entries["functions"] |= surface_output({"executeControl": "onEnd", "writeControl": "onEnd"})
+        write_system(folder, entries, flow.schemes(steady=True), flow.solution(steady=True))
+        make_mesh(self.installation, folder)
+        divide(self.installation, folder, self.ranks, self.mesh.layers)
+        seen = Every(50)
+
+        def converged(iteration: float) -> bool:
+            tell(iteration, MOST)
+            if not seen.is_due(iteration):
+                return False
+            loads = read_loads(folder)
+            require_reasonable(loads, folder)
+            return has_converged(loads)
+
+        run_program(self.installation, "simpleFoam", folder, converged, ranks=self.ranks)
+        loads = read_loads(folder)
+        require_reasonable(loads, folder)
+        return folder, loads, has_converged(loads)
+
+    def result(self, tell: Tell) -> SteadyResult:
+        """Return the loads of the rigid plate.
+
+        Raises
+        ------
+        SolverError
+            A program failed.
+        """
+        folder, steady, converged = self.steady(tell)
+        if converged:
+            record, mean = steady.last(WINDOW // 3), False
+            method = f"steady, {steady.time.size} iterations"
+        else:
+            logger.info("%g deg: the steady solver does not converge", self.case.incidence_deg)
+            folder, record = self._unsteady(folder, tell)
+            mean = True
+            method = (
+                f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
+                f"{100 * record.drift():.2g} % apart"
+            )
+        drag, lift, moment = record.means()
+        last = states(parts(folder)[0])[-1].name
+        span = read_span_loads(folder, last, self.mesh.edges(), mean=mean)
+        return SteadyResult(
+            drag,
+            lift,
+            moment,
+            span.span,
+            span.lift,
+            span.moment,
+            method,
+            spent=spent(self.work),
+        )
+
+    def _unsteady(self, source: Path, tell: Tell) -> tuple[Path, Loads]:
+        """Go on unsteadily from a steady run; return folder and record to be averaged."""
+        folder = emptied(self.work / "unsteady")
+        copy_flow_of_all(source, folder)
+        write_text(
+            folder / "constant" / "dynamicMeshDict",
+            dictionary("dynamicMeshDict", {"dynamicFvMesh": "staticFvMesh"}),
+        )
+        entries = plate_control(
+            "pimpleFoam", DISCARDED + LONGEST, STEP, DISCARDED + LONGEST, self.mesh.span
+        )
+        entries["functions"] |= surface_output(
+            {"executeControl": "timeStep", "writeControl": "onEnd"}
+        )
+        entries["functions"]["means"] = _means()
+        write_system(folder, entries, flow.schemes(steady=False), flow.solution(steady=False))
+        seen = Every(5.0)
+
+        def known(time: float) -> bool:
+            tell(MOST * time / (DISCARDED + LONGEST), MOST)
+            if time < DISCARDED + SHORTEST or not seen.is_due(time):
+                return False
+            loads = read_loads(folder)
+            require_reasonable(loads, folder)
+            return loads.since(DISCARDED).drift() <= KNOWN
+
+        run_program(self.installation, "pimpleFoam", folder, known, ranks=self.ranks)
+        loads = read_loads(folder)
+        require_reasonable(loads, folder)
+        return folder, loads.since(DISCARDED)
+
+
+def _means() -> Entries:
+    """Return the function object that averages the force on each face over the record."""
+    averaged = {"mean": True, "prime2Mean": False, "base": "time"}
+    return {
+        "type": "fieldAverage",
+        "libs": ['"libfieldFunctionObjects.so"'],
+        "timeStart": DISCARDED,
+        "writeControl": "onEnd",
+        "fields": f"( {' '.join(f'{name} {_inline(averaged)}' for name in _AVERAGED)} )",
+    }
+
+
+_AVERAGED = ('"surface:force"', '"surface:moment"')
+
+
+def _inline(entries: Entries) -> str:
+    words = " ".join(
+        f"{key} {('on' if value else 'off') if isinstance(value, bool) else value};"
+        for key, value in entries.items()
+    )
+    return f"{{ {words} }}"
+
+
+def plate_control(
+    application: str, end: float, step: float, write_every: float, span: float
+) -> dict[str, Any]:
+    """Return ``controlDict`` as for the section, with coefficients over the area L c (Eq. 22)."""
+    entries = control(application, end, step, write_every)
+    entries["functions"][LOADS]["Aref"] = span
+    return entries
