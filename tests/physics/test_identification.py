@@ -11,7 +11,9 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
+import yaml
 from scipy.optimize import brentq
 
 from equisection.aerodynamics.identification import identify_lags, load_misfit
@@ -226,6 +228,30 @@ def test_mean_loads_are_carried_by_the_springs(some_release):
     assert some_release.moment_coefficient[late].mean() == pytest.approx(twist, rel=0.02)
     deflection = some_release.flexural_stiffness * some_release.deflection[late].mean()
     assert some_release.lift_coefficient[late].mean() == pytest.approx(deflection, rel=0.02)
+
+
+def test_script_writes_lags_judgement_and_picture(load_script, tmp_path, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    identification = {"fitted_to": FITTED_TO, "judged_on": JUDGED_ON[-1:]}
+    load_script("identification").main(
+        Embedded(identification=identification),
+        "coarse",
+        style=ROOT / "envs" / "equisection.mplstyle",
+        lags_file=tmp_path / "lags.yaml",
+        judgement_file=tmp_path / "judgement.csv",
+        figures=[tmp_path / "judgement.png"],
+    )
+    lags = yaml.safe_load((tmp_path / "lags.yaml").read_text())["embedded"]["separation"]
+    configured = CONFIGURED.separation.model_dump()
+    assert lags == pytest.approx(configured, abs=0.01)
+    table = pd.read_csv(tmp_path / "judgement.csv")
+    assert table["use"].tolist() == ["fitted to", "fitted to", "judged on"]
+    assert table["release"].tolist() == ["2d/k5", "2d/k10", "2d-corrected/k21"]
+    judged = judge_release(release(JUDGED_ON[-1]), LOADS)
+    last = table.iloc[-1]
+    assert last["growth_rate"] == pytest.approx(judged.recorded.growth_rate, rel=1e-3)
+    assert last["growth_rate_modelled"] == pytest.approx(judged.modelled.growth_rate, rel=0.02)
+    assert (tmp_path / "judgement.png").stat().st_size > 0
 
 
 def test_what_is_no_release_of_a_section_is_refused_by_name(tmp_path):
