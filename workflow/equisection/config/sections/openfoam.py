@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -13,6 +13,10 @@ from equisection.config.values import NUMBER, WHOLE, Name
 
 MeshName = Literal["coarse", "medium", "fine", "paper"]
 
+#: A mesh that morphs around the section, and one above another that moves with it.
+MeshMotion = Literal["morph", "overset"]
+MORPH: MeshMotion = "morph"
+OVERSET: MeshMotion = "overset"
 #: Environment variable of the command before each program.
 PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
 #: The largest time step (c/V) that follows the flow over the plate.
@@ -35,6 +39,11 @@ class OpenFoam(Section):
         1.0,
         description="Under-relaxation of the velocity in these iterations, for the free section "
         "(-); 1 is none. With 0.9 and five of them they converge where the flow separates wholly.",
+    )
+    mesh_motion: MeshMotion = Field(
+        MORPH,
+        description="How the mesh follows the free section: `morph` deforms it, `overset` moves a "
+        "mesh around the plate as it is above one of the channel, for large deflection and twist.",
     )
     prefix: str = Field(
         "",
@@ -91,3 +100,14 @@ def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
         yield Problem(
             "flow.channel", channel, "allowed is a channel with solver 'openfoam', which meshes it"
         )
+
+
+@check("openfoam.mesh_motion", "openfoam.meshes")
+def _has_an_overset_mesh(motion: str, meshes: Mapping[str, str]) -> Iterator[Problem]:
+    for name, mesh in meshes.items():
+        if motion == OVERSET and mesh == "paper":
+            yield Problem(
+                f"openfoam.meshes.{name}",
+                mesh,
+                "allowed are coarse, medium, fine with openfoam.mesh_motion: overset",
+            )

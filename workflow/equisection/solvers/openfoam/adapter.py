@@ -16,6 +16,7 @@ import numpy as np
 
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
+from equisection.config.sections.openfoam import MORPH
 from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
@@ -46,7 +47,10 @@ class Adapter:
         """Return the solver on the mesh of a resolution."""
         section = config.openfoam
         settings = Settings(
-            section.meshes[resolution], section.outer_correctors, section.velocity_relaxation
+            section.meshes[resolution],
+            section.outer_correctors,
+            section.velocity_relaxation,
+            section.mesh_motion,
         )
         return cls(settings, section.ranks)
 
@@ -65,7 +69,10 @@ class Adapter:
 
         preset = PRESETS[self._settings.mesh]
         cells = preset.cells if dimension == "2d" else preset.plate_cells
-        return f"OpenFOAM {find().version()}, k-omega SST, {cells} cells ({self._settings.mesh})"
+        mesh = f"{cells} cells ({self._settings.mesh})"
+        if dimension == "2d" and self._settings.mesh_motion != MORPH:
+            mesh += ", the free section on overset meshes"
+        return f"OpenFOAM {find().version()}, k-omega SST, {mesh}"
 
     @property
     def similar_cells(self) -> int | None:
@@ -148,13 +155,15 @@ class Adapter:
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
     ) -> UnsteadyResult:
         from equisection.solvers.openfoam.free import SectionRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.overset import OversetRun  # noqa: PLC0415
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
         from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
         correctors, relaxation = self._settings.outer_correctors, self._settings.velocity_relaxation
-        return SectionRun(installation, case, mesh, correctors, place, relaxation).run(tell)
+        kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
+        return kind(installation, case, mesh, correctors, place, relaxation).run(tell)
 
     def _free_plate(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields
 from typing import Any
 
+from equisection.config.sections.openfoam import MORPH
+
 
 @dataclass(frozen=True)
 class Settings:
@@ -18,11 +20,14 @@ class Settings:
         Iterations of flow, loads and motion in each time step.
     velocity_relaxation
         Under-relaxation of the velocity in these iterations, for the free section; 1 is none.
+    mesh_motion
+        How the mesh follows the free section.
     """
 
     mesh: str
     outer_correctors: int
     velocity_relaxation: float = 1.0
+    mesh_motion: str = MORPH
 
     def of_case(self) -> dict[str, Any]:
         """Return what stands in a case: without what is as in cases from before there was a choice.
