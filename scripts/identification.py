@@ -8,7 +8,6 @@ import pandas as pd
 import yaml
 
 from equisection.aerodynamics.identification import identify_lags
-from equisection.aerodynamics.reference_history import read_reference_history
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.config.sections import Embedded
 from equisection.figures.identification import draw
@@ -16,8 +15,11 @@ from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.files import write_text, written_whole
 from equisection.motion.judgement import judge_release, judgement_table
+from equisection.results.reference_history import read_reference_history
 from equisection.script import logged
 from equisection.solvers.embedded import read_section_polar
+
+FITTED_TO, JUDGED_ON = "fitted to", "judged on"
 
 
 def main(
@@ -43,14 +45,15 @@ def main(
     logging.info("lags %s after %d evaluations", values, found.evaluations)
     write_text(lags_file, yaml.safe_dump({"embedded": {"separation": values}}))
     loads = UnsteadyLoads.from_polar(polar, lags)
-    releases = [("fitted to", history) for history in fitted_to]
-    releases += [("judged on", history) for history in judged_on]
+    releases = [(FITTED_TO, history) for history in fitted_to]
+    releases += [(JUDGED_ON, history) for history in judged_on]
     judgements = [(use, judge_release(history, loads)) for use, history in releases]
     table = pd.DataFrame(judgement_table(judgements))
     with written_whole(judgement_file) as aside:
         table.to_csv(aside, index=False, float_format="%.5g")
+    sources = [history.source for _, history in releases]
     with drawing_style(style):
-        save_figure(draw(releases, loads, polar.label), figures)
+        save_figure(draw(judgements, FITTED_TO, polar.label, sources), figures)
 
 
 if __name__ == "__main__":

@@ -83,7 +83,7 @@ def free() -> None:
         motion["twist"] += step * motion["rate"]
         motion["speed"] += step * (lift - 2 * softness * motion["lift"]) / 80
         motion["lift"] += step * motion["speed"]
-        if wrong and (FAULT == "set-up" or number * step >= WRONG_FROM):
+        if wrong and (FAULT in ("set-up", "start") or number * step >= WRONG_FROM):
             lift = go_wrong(lift)
         # the loads are about the centre at rest
         row(loads, now, f"0.05 {lift!r} {moment + 0.05 * motion['lift']!r}")
@@ -107,7 +107,7 @@ def go_wrong(lift: float) -> float:
     if FAULT == "file":
         say(FATAL.format(kind="IO ERROR", words='error in IOstream "U" for operation'))
         sys.exit(1)
-    if FAULT == "fpe":
+    if FAULT in ("fpe", "start"):
         os.kill(os.getpid(), signal.SIGFPE)
     if FAULT == "kill":
         os.kill(os.getpid(), signal.SIGKILL)

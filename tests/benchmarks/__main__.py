@@ -16,7 +16,15 @@ from rich.table import Table
 for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(variable, "1")
 
-from tests.benchmarks import default_run, large_sweep, many_cases, modes, plate  # noqa: E402
+from tests.benchmarks import (  # noqa: E402
+    default_run,
+    early_verdict,
+    large_sweep,
+    many_cases,
+    modes,
+    openfoam,
+    plate,
+)
 from tests.benchmarks.measure import Row  # noqa: E402
 
 BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
@@ -24,6 +32,8 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "many-cases": many_cases.rows,
     "large-sweep": large_sweep.rows,
     "default-run": default_run.rows,
+    "early-verdict": early_verdict.rows,
+    "openfoam": openfoam.rows,
     "plate": plate.rows,
 }
 

@@ -1,19 +1,17 @@
-"""Whether the work of the air on the section is the change of its energy, cycle by cycle.
+"""Whether the work of the air is the change of the section's mechanical energy, cycle by cycle.
 
-    python -m tests.benchmarks.energy [k* ...]
+    python -m tests.benchmarks.energy [result.nc ...]
 
 The section of Eq. 18 obeys I* theta'' + k* theta = c_m and m* w'' + k_w* w = c_l, so that
 
     d/ds 1/2 (I* theta'^2 + k* theta^2 + m* w'^2 + k_w* w^2) = c_m theta' + c_l w'
 
-with w in chords, s = tV/c and c_m about the moving centre. What is computed or kept of the run of
-`config/openfoam.yaml` is taken as it is, the rates from cubic splines through its samples.
+with w in chords, s = tV/c and c_m about the moving centre. The rates are those of cubic splines
+through the samples. Without results the kept ones of OpenFOAM at k* = 5 and 10 are taken.
 """
 
 import argparse
 import itertools
-import subprocess
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,12 +21,9 @@ import pandas as pd
 import xarray as xr
 from scipy.interpolate import CubicSpline
 
-from equisection.cases import SectionProperties, UnsteadyCase, read_cases
-from equisection.plan import case_name
+from equisection.cases import SectionProperties
 from equisection.results.netcdf import read_dataset
-
-RUN = Path("results") / "paper-plate-openfoam"
-K_STAR = (5.0, 10.0)
+from tests.benchmarks.early_verdict import KEPT, case_of
 
 
 @dataclass(frozen=True)
@@ -93,38 +88,22 @@ def cycles(section: SectionProperties, history: xr.Dataset) -> list[Cycle]:
     return found
 
 
-def table(k_star: Sequence[float]) -> pd.DataFrame:
-    """Return the cycles at some k*."""
+def table(paths: Sequence[Path]) -> pd.DataFrame:
+    """Return the cycles of some results."""
     rows = []
-    for value in k_star:
-        (case,) = read_cases(case_file(value)).values()
-        assert isinstance(case, UnsteadyCase)
+    for path in paths:
+        history = read_dataset(path)
+        case = case_of(history)
         assert case.section is not None
-        for cycle in cycles(case.section, read_dataset(result(value))):
-            rows.append({"k_star": value, **vars(cycle), "imbalance_%": 100 * cycle.imbalance})
+        for cycle in cycles(case.section, history):
+            rows.append(
+                {"k_star": case.k_star, **vars(cycle), "imbalance_%": 100 * cycle.imbalance}
+            )
     return pd.DataFrame(rows)
-
-
-def case_file(k_star: float) -> Path:
-    """Return where the case of a k* is."""
-    return RUN / "cases" / "unsteady" / "2d" / f"{case_name(k_star)}.json"
-
-
-def result(k_star: float) -> Path:
-    """Return where the result of a k* is."""
-    return RUN / "unsteady" / "2d" / f"{case_name(k_star)}.nc"
-
-
-def compute(k_star: Sequence[float]) -> None:
-    """Have the workflow bring cases and results."""
-    targets = [str(path) for value in k_star for path in (case_file(value), result(value))]
-    command = [sys.executable, "-m", "snakemake", "--cores", "all", "--quiet", "rules"]
-    subprocess.run([*command, "--configfile", "config/openfoam.yaml", "--", *targets], check=True)
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.energy")
-    parser.add_argument("k_star", nargs="*", type=float, default=K_STAR, help="(default: 5 10)")
-    chosen = parser.parse_args().k_star
-    compute(chosen)
-    print(table(chosen).to_string(index=False, float_format="%.3g"))
+    kept = [KEPT / "2d" / f"k{k_star}.nc" for k_star in (5, 10)]
+    parser.add_argument("results", nargs="*", type=Path, default=kept, metavar="result.nc")
+    print(table(parser.parse_args().results).to_string(index=False, float_format="%.3g"))

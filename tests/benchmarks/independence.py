@@ -1,4 +1,5 @@
-"""Whether time step and outer correctors of a run are fine enough, at a stable and an unstable k*.
+"""Whether time step and outer correctors of a run are fine enough, at a stable and an unstable k*,
+and whether it matters how the mesh moves.
 
     python -m tests.benchmarks.independence [k* ...]
 
@@ -27,43 +28,50 @@ K_STAR = (5.0, 10.0)
 
 @dataclass(frozen=True)
 class Variant:
-    """One choice of time step (c/V) and outer correctors."""
+    """One choice of time step (c/V), outer correctors, and motion of the mesh."""
 
     time_step: float
     outer_correctors: int
+    mesh_motion: str = "morph"
+
+    @property
+    def is_configured(self) -> bool:
+        """Whether it is what `config/openfoam.yaml` computes."""
+        return (self.time_step, self.outer_correctors, self.mesh_motion) == (0.02, 3, "morph")
 
     @property
     def run(self) -> str:
         """Name of its run."""
-        if self == CONFIGURED:
+        if self.is_configured:
             return "paper-plate-openfoam"
-        return f"independence-step{self.time_step:g}-outer{self.outer_correctors}"
+        name = f"independence-step{self.time_step:g}-outer{self.outer_correctors}"
+        return name if self.mesh_motion == "morph" else f"{name}-{self.mesh_motion}"
 
     def overrides(self, k_star: Sequence[float]) -> list[str]:
         """Return what the command line changes in the configuration."""
-        if self == CONFIGURED:
+        if self.is_configured:
             return []
         unsteady = {
             "duration": DURATION,
             "time_step": self.time_step,
             "output_interval": 5 * self.time_step,
         }
+        openfoam = {"outer_correctors": self.outer_correctors, "mesh_motion": self.mesh_motion}
         return [
             f"run={self.run}",
             f"sweep={json.dumps({'k_star': list(k_star), 'models': ['2d']})}",
             f"unsteady={json.dumps(unsteady)}",
-            f"openfoam={json.dumps({'outer_correctors': self.outer_correctors})}",
+            f"openfoam={json.dumps(openfoam)}",
         ]
 
 
-#: Those of `config/openfoam.yaml`.
-CONFIGURED = Variant(0.02, 3)
 VARIANTS = (
-    CONFIGURED,
+    Variant(0.02, 3),
     Variant(0.01, 3),
     Variant(0.04, 3),
     Variant(0.02, 2),
     Variant(0.02, 5),
+    Variant(0.04, 3, "overset"),
 )
 
 
@@ -83,8 +91,8 @@ def result(variant: Variant, k_star: float) -> Path:
     return Path("results") / variant.run / "unsteady" / "2d" / f"k{k_star:.6g}.nc"
 
 
-def growth_rate(history: xr.Dataset, periods: float = 3.0) -> float:
-    """Return the growth rate (V/c) of the twist at the end of a history.
+def oscillation(history: xr.Dataset, periods: float = 3.0) -> tuple[float, float]:
+    """Return growth rate (V/c) and frequency (f c/V) of the twist at the end of a history.
 
     Least squares of a growing oscillation about a constant over the last periods, so that it
     depends on no choice of peaks.
@@ -109,24 +117,30 @@ def growth_rate(history: xr.Dataset, periods: float = 3.0) -> float:
         ),
         key=lambda fit: fit.cost,
     )
-    return float(found.x[0])
+    return float(found.x[0]), abs(float(found.x[1])) / (2 * np.pi)
 
 
 def table(k_star: Sequence[float]) -> pd.DataFrame:
-    """Return growth rate (V/c) and last twist of each variant that has a result."""
+    """Return growth rate (V/c), frequency, last twist and cost of each variant with a result."""
     rows = []
     for value in k_star:
         for variant in VARIANTS:
             path = result(variant, value)
             if path.exists():
-                history = xr.load_dataset(path).sel(time=slice(0.0, DURATION))
+                whole = xr.load_dataset(path)
+                steps = whole.attrs["end_time"] / variant.time_step
+                history = whole.sel(time=slice(0.0, DURATION))
+                growth_rate, frequency = oscillation(history)
                 rows.append(
                     {
                         "k_star": value,
                         "time_step": variant.time_step,
                         "outer_correctors": variant.outer_correctors,
-                        "growth_rate": growth_rate(history),
+                        "mesh_motion": variant.mesh_motion,
+                        "growth_rate": growth_rate,
+                        "frequency": frequency,
                         "tip_twist_deg": np.degrees(history["tip_twist"].values[-1]),
+                        "cpu_seconds_a_step": whole.attrs["cpu_seconds"] / steps,
                     }
                 )
     return pd.DataFrame(rows)

@@ -44,7 +44,7 @@ def _seconds(number: int) -> tuple[float, float]:
 
 
 def _cases(number: int) -> dict[str, Case]:
-    polar = str(ROOT / "config" / "polars" / "plate_2d_10398.csv")
+    polar = str(ROOT / "config" / "polars" / "plate_2d_11136.csv")
     config = load_config({"embedded": {"polars": {"coarse": polar}}})
     solver = solver_from_config(config, "coarse")
     block = SolverBlock(name=solver.name, version=solver.version, settings=solver.settings())

@@ -53,7 +53,7 @@ def measured(
         The command failed; with what it said.
     """
     said = folder / "benchmark.log"
-    peak, start, before = 0, time.perf_counter(), _processor_seconds()
+    peak, start, before = 0, time.perf_counter(), processor_seconds()
     with said.open("w", encoding="utf-8") as log:
         process = psutil.Popen(
             command, cwd=folder, env=environment, stdout=log, stderr=subprocess.STDOUT
@@ -65,10 +65,11 @@ def measured(
     output = said.read_text(encoding="utf-8")
     if process.returncode != 0:
         raise RuntimeError(f"{' '.join(command)} ended with {process.returncode}:\n{output}")
-    return Cost(seconds, _processor_seconds() - before, peak / 1e9, output)
+    return Cost(seconds, processor_seconds() - before, peak / 1e9, output)
 
 
-def _processor_seconds() -> float:
+def processor_seconds() -> float:
+    """Return the processor time of all children that have ended."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
 

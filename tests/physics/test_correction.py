@@ -15,8 +15,8 @@ from equisection.errors import IncidenceOutOfRangeError, ReductionError
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"
-SECTION = read_polar(POLARS / "plate_2d_10398.csv")
-BEAM = read_polar(POLARS / "plate_3d_82520.csv")
+SECTION = read_polar(POLARS / "plate_2d_11136.csv")
+BEAM = read_polar(POLARS / "paper_plate_3d.csv")
 PLATE = CorrectionFactors(SECTION, BEAM)
 THIN_PLATE = SectionPolar.flat_plate(0.5)
 THETA_0 = np.radians(2.5)
@@ -99,7 +99,7 @@ def test_factor_is_continuous_through_zero_incidence(distance: float) -> None:
     left, middle, right = PLATE.moment_factor([-distance, 0.0, distance])
     assert middle == pytest.approx(SECTION.moment_slope() / BEAM.moment_slope(), rel=1e-12)
     assert left == pytest.approx(right, rel=1e-7)
-    assert abs(right - middle) < 10 * distance
+    assert abs(right - middle) < 20 * distance
 
 
 @given(st.floats(0, np.radians(10)))
@@ -132,7 +132,7 @@ def test_beam_coefficient_that_vanishes_alone_is_named() -> None:
 
 
 def test_incidence_beyond_either_polar_is_refused() -> None:
-    with pytest.raises(IncidenceOutOfRangeError, match="plate_3d_82520"):
+    with pytest.raises(IncidenceOutOfRangeError, match="paper_plate_3d"):
         PLATE.lift_factor(np.radians(11))
 
 

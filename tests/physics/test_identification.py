@@ -1,94 +1,204 @@
-"""The lags of the bubble: found again, recovered from synthetic data, judged on an unseen case.
+"""The lags of the bubble: found again, recovered from synthetic data, judged on unseen releases.
 
-``pytest -s tests/physics/test_identification.py`` prints the numbers of docs/embedded.md.
+``pytest -s tests/physics/test_identification.py`` prints what docs/embedded.md says of them.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
-import xarray as xr
+import yaml
+from scipy.optimize import brentq
 
 from equisection.aerodynamics.identification import identify_lags, load_misfit
 from equisection.aerodynamics.polar_file import read_polar
-from equisection.aerodynamics.reference_history import (
-    ReferenceHistory,
-    read_reference_history,
-    unexplained_damping,
-)
+from equisection.aerodynamics.reference_history import ReferenceHistory, unexplained_damping
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.config.sections import Embedded
 from equisection.errors import ResultFileError
 from equisection.motion.judgement import judge_release
-from equisection.motion.sections import SectionParameters, release_sections
+from equisection.motion.sections import (
+    SectionParameters,
+    release_sections,
+    section_system,
+)
+from equisection.motion.steady_states import least_stable_eigenvalue
+from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.results.reference_history import read_reference_history
 
 ROOT = Path(__file__).parents[2]
-PROTOTYPE = ROOT / "results/reference/prototype"
-POLAR = read_polar(ROOT / "config/polars/plate_2d_10398.csv")
+CONFIGURED = Embedded()
+FITTED_TO = CONFIGURED.identification.fitted_to
+JUDGED_ON = CONFIGURED.identification.judged_on
+POLAR = read_polar(ROOT / CONFIGURED.polars["coarse"])
 LOADS = UnsteadyLoads.from_polar(POLAR)
+INDEPENDENCE = "results/reference/independence-{}/unsteady/2d/k{}.nc"
 
 
-@pytest.fixture(scope="module")
-def release_k10() -> ReferenceHistory:
-    return read_reference_history(PROTOTYPE / "release_k10.nc")
+@cache
+def release(path: str) -> ReferenceHistory:
+    return read_reference_history(ROOT / path)
 
 
-@pytest.fixture(scope="module")
-def release_k5() -> ReferenceHistory:
-    return read_reference_history(PROTOTYPE / "release_k5.nc")
+@pytest.fixture
+def some_release() -> ReferenceHistory:
+    return release(FITTED_TO[-1])
 
 
-def test_identification_finds_the_default_lags_again(release_k10):
-    found = identify_lags(POLAR, [release_k10])
+def fitted() -> list[ReferenceHistory]:
+    return [release(path) for path in FITTED_TO]
+
+
+def test_identification_finds_the_default_lags_again():
+    found = identify_lags(POLAR, fitted())
     print(found)
     assert found.lags.relaxation == pytest.approx(IDENTIFIED_LAGS.relaxation, abs=0.02)
     assert found.lags.delay == pytest.approx(IDENTIFIED_LAGS.delay, abs=0.02)
     assert found.lags.lift_lag == pytest.approx(IDENTIFIED_LAGS.lift_lag, abs=0.02)
-    (misfit,) = found.misfits
-    assert misfit.lift_residual < 0.2
-    assert misfit.moment_residual < 0.33
 
 
-def test_the_lag_of_the_lift_pays_on_the_record_that_was_not_seen(release_k10, release_k5):
-    """Why there is a tau_3: it halves the misfit of c_l, also where it was not identified."""
+def test_lags_are_judged_on_releases_that_they_were_not_fitted_to():
+    assert len(FITTED_TO) == 2
+    assert len(JUDGED_ON) == 18
+    assert not set(FITTED_TO) & set(JUDGED_ON)
+
+
+@pytest.mark.parametrize("path", JUDGED_ON)
+def test_loads_of_the_releases_that_were_not_seen(path):
+    """What is left unexplained, of the standard deviation; most at the largest amplitudes."""
+    misfit = load_misfit(release(path), LOADS)
+    print(path, misfit)
+    assert misfit.moment_residual < 0.23
+    assert misfit.lift_residual < 0.37
+
+
+@pytest.mark.parametrize("path", JUDGED_ON)
+def test_motion_of_the_releases_that_were_not_seen(path):
+    """Growth, frequency and means; the amplitude is honestly low (docs/embedded.md)."""
+    judged = judge_release(release(path), LOADS)
+    print(path, judged)
+    recorded, modelled = judged.recorded, judged.modelled
+    assert modelled.growth_rate == pytest.approx(recorded.growth_rate, abs=0.008)
+    assert modelled.frequency == pytest.approx(recorded.frequency, rel=0.015)
+    assert modelled.mean_twist_deg == pytest.approx(recorded.mean_twist_deg, rel=0.12)
+    assert modelled.mean_deflection_chords == pytest.approx(
+        recorded.mean_deflection_chords, rel=0.03
+    )
+    if abs(recorded.growth_rate) > 0.005:  # nearer to zero the side is not told
+        assert judged.same_side_of_onset
+
+
+def test_the_lag_of_the_lift_pays_where_it_was_not_identified():
+    """Why there is a tau_3: less misfit of c_l up to k* = 10; beyond it is worth little."""
     without = UnsteadyLoads.from_polar(POLAR, replace(IDENTIFIED_LAGS, lift_lag=0.0))
-    for history in (release_k10, release_k5):
+    for path in JUDGED_ON:
+        history = release(path)
         old, new = load_misfit(history, without), load_misfit(history, LOADS)
-        print(history.k_star, "c_l residual", old.lift_residual, "->", new.lift_residual)
-        assert new.lift_residual < 0.55 * old.lift_residual
+        print(path, "c_l residual", old.lift_residual, "->", new.lift_residual)
+        assert new.lift_residual < (0.8 if history.k_star <= 10.0 else 1.1) * old.lift_residual
         assert new.moment_residual == pytest.approx(old.moment_residual)
 
 
-def test_lags_depend_little_on_where_the_record_starts(release_k10):
-    for start in (3.0, 10.0, 20.0):
-        lags = identify_lags(POLAR, [release_k10], start).lags
-        print(start, lags)
-        assert lags.relaxation == pytest.approx(IDENTIFIED_LAGS.relaxation, rel=0.2)
-        assert lags.delay == pytest.approx(IDENTIFIED_LAGS.delay, rel=0.3)
-        assert lags.lift_lag == pytest.approx(IDENTIFIED_LAGS.lift_lag, rel=0.2)
+@pytest.mark.parametrize("start", [3.0, 5.0, 10.0, 20.0])
+def test_lags_and_onset_depend_little_on_where_the_record_starts(start, some_release):
+    lags = identify_lags(POLAR, fitted(), start).lags
+    onset = onset_like(some_release, lags)
+    print(start, lags, "onset", onset)
+    assert lags.relaxation == pytest.approx(IDENTIFIED_LAGS.relaxation, rel=0.1)
+    assert lags.delay == pytest.approx(IDENTIFIED_LAGS.delay, rel=0.1)
+    assert lags.lift_lag == pytest.approx(IDENTIFIED_LAGS.lift_lag, rel=0.1)
+    assert onset == pytest.approx(onset_like(some_release, IDENTIFIED_LAGS), rel=0.1)
 
 
-def test_known_lags_are_recovered_from_a_release_of_the_model(release_k10):
-    truth = SeparationLags(relaxation=1.7, delay=0.6, lift_lag=0.4)
-    run = release_sections(
-        SectionParameters.from_ratios(8.0, 6.67, 9.12, 0.183),
-        UnsteadyLoads.from_polar(POLAR, truth),
-        math.radians(2.5),
-        80.0,
-        time_step=0.025,
-        output_interval=0.05,
+@pytest.mark.parametrize(
+    ("k_star", "onset"),
+    [(("5",), 7.05), (("10",), 9.52), (("6.44", "14"), 9.05), (("5.5", "8.5"), 8.22)],
+)
+def test_onset_from_other_releases(k_star, onset, some_release):
+    """How far the onset hangs on the choice of releases: docs/embedded.md."""
+    runs = [release(FITTED_TO[0].replace("k5", f"k{each}")) for each in k_star]
+    lags = identify_lags(POLAR, runs).lags
+    found = onset_like(some_release, lags)
+    print(k_star, lags, "onset", found)
+    assert found == pytest.approx(onset, rel=0.02)
+
+
+def onset_like(history: ReferenceHistory, lags: SeparationLags) -> float:
+    """Return the k* of no growth of the section of a release, stiffened as a whole."""
+    loads = UnsteadyLoads.from_polar(POLAR, lags)
+
+    def growth(k_star: float) -> float:
+        scale = k_star / history.k_star
+        section = SectionParameters.from_ratios(
+            scale * history.torsional_stiffness,
+            history.inertia,
+            history.mass / history.inertia,
+            history.flexural_stiffness / history.torsional_stiffness,
+        )
+        system = section_system(section, loads, history.incidence_rad)
+        return float(least_stable_eigenvalue(system)[0].real)
+
+    return float(brentq(growth, 4.0, 20.0, xtol=1e-3))
+
+
+@pytest.mark.parametrize("variant", ["step0.01-outer3", "step0.04-outer3", "step0.02-outer5"])
+def test_lags_depend_little_on_time_step_and_correctors_of_the_flow_solver(variant):
+    """Against those of the same first 45 c/V of the releases that they are fitted to."""
+    others = [release(INDEPENDENCE.format(variant, k_star)) for k_star in ("5", "10")]
+    end = others[0].time[-1]
+    beginnings = [first_part(history, end) for history in fitted()]
+    here, there = (identify_lags(POLAR, runs).lags for runs in (beginnings, others))
+    print(variant, here, there)
+    assert there.relaxation == pytest.approx(here.relaxation, rel=0.1)
+    assert there.delay == pytest.approx(here.delay, rel=0.1)
+    assert there.lift_lag == pytest.approx(here.lift_lag, rel=0.1)
+
+
+def first_part(history: ReferenceHistory, end: float) -> ReferenceHistory:
+    """Return a release until a time (c/V)."""
+    part = slice(0, int(np.searchsorted(history.time, end, "right")))
+    return replace(
+        history,
+        time=history.time[part],
+        twist=history.twist[part],
+        deflection=history.deflection[part],
+        lift_coefficient=history.lift_coefficient[part],
+        moment_coefficient=history.moment_coefficient[part],
     )
-    history = replace(
-        release_k10,
+
+
+def of_the_model(loads: UnsteadyLoads, k_star: float, like: ReferenceHistory) -> ReferenceHistory:
+    """Return a release of the model as if it had been recorded."""
+    parameters = SectionParameters.from_ratios(k_star, 6.67, 12.0, 0.23)
+    run = release_sections(
+        parameters, loads, math.radians(2.5), 80.0, time_step=0.025, output_interval=0.05
+    )
+    return replace(
+        like,
         time=run.time,
         twist=run.twist[:, 0],
         deflection=run.deflection[:, 0],
-        lift_coefficient=run.lift_coefficient[:, 0] - 0.01,  # offsets must not matter
-        moment_coefficient=run.moment_coefficient[:, 0] + 0.01,
+        lift_coefficient=run.lift_coefficient[:, 0],
+        moment_coefficient=run.moment_coefficient[:, 0],
+        torsional_stiffness=k_star,
+        inertia=6.67,
+    )
+
+
+def test_known_lags_are_recovered_from_a_release_of_the_model(some_release):
+    truth = SeparationLags(relaxation=1.7, delay=0.6, lift_lag=0.4)
+    run = of_the_model(UnsteadyLoads.from_polar(POLAR, truth), 8.0, some_release)
+    history = replace(  # offsets must not matter
+        run,
+        lift_coefficient=run.lift_coefficient - 0.01,
+        moment_coefficient=run.moment_coefficient + 0.01,
     )
     found = identify_lags(POLAR, [history])
     assert found.lags.relaxation == pytest.approx(truth.relaxation, rel=0.01)
@@ -98,85 +208,60 @@ def test_known_lags_are_recovered_from_a_release_of_the_model(release_k10):
     assert found.misfits[0].lift_offset == pytest.approx(-0.01, abs=1e-3)
 
 
-def test_the_release_that_was_not_seen(release_k5):
-    """k* = 5: growth, frequency, amplitude and deflection; the mean twist is honestly low."""
-    judged = judge_release(release_k5, LOADS)
-    print(judged)
-    assert judged.same_side_of_onset
-    assert judged.modelled.growth_rate == pytest.approx(judged.recorded.growth_rate, rel=0.1)
-    assert judged.modelled.frequency == pytest.approx(judged.recorded.frequency, rel=0.03)
-    assert judged.modelled.last_amplitude_deg == pytest.approx(
-        judged.recorded.last_amplitude_deg, rel=0.1
-    )
-    assert judged.modelled.mean_deflection_chords == pytest.approx(
-        judged.recorded.mean_deflection_chords, rel=0.05
-    )
-    # not good, and said so in docs/embedded.md: partly the moment of the steady polar
-    assert 0.1 < judged.recorded.mean_twist_deg - judged.modelled.mean_twist_deg < 0.3
+@pytest.mark.parametrize("path", [*FITTED_TO, *JUDGED_ON])
+def test_recorded_motion_is_what_the_recorded_moment_does(path):
+    """No damping from the coupling of flow and section: below 0.0008 V/c of growth."""
+    history = release(path)
+    growth = unexplained_damping(history, 20.0) / (2 * history.inertia)
+    print(path, "growth from unexplained damping", growth)
+    assert abs(growth) < 8e-4
 
 
-def test_the_release_that_was_seen_in_a_closed_loop(release_k10):
-    """Only its loads were fitted: growth and frequency of the motion are a consequence."""
-    judged = judge_release(release_k10, LOADS)
-    print(judged)
-    assert judged.same_side_of_onset
-    assert judged.modelled.frequency == pytest.approx(judged.recorded.frequency, rel=0.03)
-    assert judged.modelled.mean_deflection_chords == pytest.approx(
-        judged.recorded.mean_deflection_chords, rel=0.03
-    )
-    # 0.0109 recorded, 0.0065 modelled; the recorded moment accounts for about 0.005
-    assert 0.003 < judged.modelled.growth_rate < judged.recorded.growth_rate
-
-
-def test_steady_polar_and_unsteady_runs_differ_in_the_mean_moment(release_k10):
-    """An error of the steady polar, not of the lags: the section held rigid shows it as well."""
-    rigid = read_reference_history(PROTOTYPE / "rigid_2.5deg.nc")
-    offsets = [load_misfit(history, LOADS).moment_offset for history in (rigid, release_k10)]
-    print("moment offsets", offsets)
-    assert offsets == pytest.approx([0.012, 0.012], abs=0.001)
-
-
-def test_moment_about_the_moving_centre_carries_the_spring(release_k10):
-    late = release_k10.time > 40.0
-    spring = release_k10.k_star * release_k10.twist[late].mean()
-    assert release_k10.moment_coefficient[late].mean() == pytest.approx(spring, rel=0.02)
-    lift = release_k10.k_star * release_k10.stiffness_ratio * release_k10.deflection[late].mean()
-    assert release_k10.lift_coefficient[late].mean() == pytest.approx(lift, rel=0.02)
-
-
-def test_the_recorded_motion_has_damping_that_its_moment_does_not_explain(release_k10):
-    """A coupling error of the flow solver; d/(2 I*) = 0.006 of the recorded growth of 0.011."""
-    damping = unexplained_damping(release_k10, 20.0)
-    print("unexplained damping", damping, "growth", damping / (2 * release_k10.i_star))
-    assert 0.05 < damping < 0.11
-
-
-def test_unexplained_damping_of_the_embedded_solver_is_nil(release_k10):
-    run = release_sections(
-        SectionParameters.from_ratios(10.0, 6.67, 9.12, 0.183),
-        LOADS,
-        math.radians(2.5),
-        80.0,
-        output_interval=0.05,
-    )
-    own = replace(
-        release_k10,
-        time=run.time,
-        twist=run.twist[:, 0],
-        deflection=run.deflection[:, 0],
-        lift_coefficient=run.lift_coefficient[:, 0],
-        moment_coefficient=run.moment_coefficient[:, 0],
-    )
+def test_unexplained_damping_of_the_embedded_solver_is_nil(some_release):
+    own = of_the_model(LOADS, 8.0, some_release)
     assert abs(unexplained_damping(own, 20.0)) < 1e-3
 
 
-def test_a_history_that_lacks_something_is_refused_by_name(tmp_path):
-    path = tmp_path / "history.nc"
-    time = np.arange(5.0)
-    xr.Dataset(
-        {"twist": ("time", time), "cl": ("time", time)}, {"time": time}, {"incidence_deg": 2.5}
-    ).to_netcdf(path)
-    with pytest.raises(ResultFileError, match="deflection"):
-        read_reference_history(path)
-    with pytest.raises(ResultFileError, match="cannot be read"):
+def test_mean_loads_are_carried_by_the_springs(some_release):
+    late = some_release.time > 40.0
+    twist = some_release.torsional_stiffness * some_release.twist[late].mean()
+    assert some_release.moment_coefficient[late].mean() == pytest.approx(twist, rel=0.02)
+    deflection = some_release.flexural_stiffness * some_release.deflection[late].mean()
+    assert some_release.lift_coefficient[late].mean() == pytest.approx(deflection, rel=0.02)
+
+
+def test_script_writes_lags_judgement_and_picture(load_script, tmp_path, monkeypatch):
+    monkeypatch.chdir(ROOT)
+    identification = {"fitted_to": FITTED_TO, "judged_on": JUDGED_ON[-1:]}
+    load_script("identification").main(
+        Embedded(identification=identification),
+        "coarse",
+        style=ROOT / "envs" / "equisection.mplstyle",
+        lags_file=tmp_path / "lags.yaml",
+        judgement_file=tmp_path / "judgement.csv",
+        figures=[tmp_path / "judgement.png"],
+    )
+    lags = yaml.safe_load((tmp_path / "lags.yaml").read_text())["embedded"]["separation"]
+    configured = CONFIGURED.separation.model_dump()
+    assert lags == pytest.approx(configured, abs=0.01)
+    table = pd.read_csv(tmp_path / "judgement.csv")
+    assert table["use"].tolist() == ["fitted to", "fitted to", "judged on"]
+    assert table["release"].tolist() == ["2d/k5", "2d/k10", "2d-corrected/k21"]
+    judged = judge_release(release(JUDGED_ON[-1]), LOADS)
+    last = table.iloc[-1]
+    assert last["growth_rate"] == pytest.approx(judged.recorded.growth_rate, rel=1e-3)
+    assert last["growth_rate_modelled"] == pytest.approx(judged.modelled.growth_rate, rel=0.02)
+    assert (tmp_path / "judgement.png").stat().st_size > 0
+
+
+def test_what_is_no_release_of_a_section_is_refused_by_name(tmp_path):
+    kept = ROOT / "results/reference/paper-plate-openfoam"
+    with pytest.raises(ResultFileError, match=r"coarse_a5\.nc: .*no unsteady case of a section"):
+        read_reference_history(kept / "steady/2d/coarse_a5.nc")
+    without = read_dataset(kept / "unsteady/2d/k5.nc")
+    del without.attrs["case"]
+    write_dataset(tmp_path / "k5.nc", without)
+    with pytest.raises(ResultFileError, match=r"k5\.nc: its attribute 'case'"):
+        read_reference_history(tmp_path / "k5.nc")
+    with pytest.raises(ResultFileError, match=r"none\.nc: missing"):
         read_reference_history(tmp_path / "none.nc")

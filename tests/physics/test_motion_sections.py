@@ -33,7 +33,7 @@ from equisection.motion.steady_states import (
 from equisection.signals.cycles import find_cycles
 
 POLARS = Path(__file__).parents[2] / "config/polars"
-POLAR = read_polar(POLARS / "plate_2d_10398.csv")
+POLAR = read_polar(POLARS / "plate_2d_11136.csv")
 INCIDENCE = math.radians(2.5)
 INERTIA, MASS_RATIO, STIFFNESS_RATIO = 6.67, 9.12, 0.183  # the paper's plate, A_theta,w in both
 
@@ -151,14 +151,14 @@ def test_flutter_of_the_textbook_section():
 
 def test_steady_equilibrium_is_where_a_damped_section_ends():
     parameters = plate_sections([10.0, 21.0])
-    loads = measured(SeparationLags.none())
-    states, _ = equilibrium(section_system(parameters, loads, INCIDENCE))
-    history = release_sections(parameters, loads, INCIDENCE, 600.0, output_interval=1.0)
+    loads, incidence = measured(SeparationLags.none()), math.radians(1.0)
+    states, _ = equilibrium(section_system(parameters, loads, incidence))
+    history = release_sections(parameters, loads, incidence, 600.0, output_interval=1.0)
     np.testing.assert_allclose(history.twist[-1], states[:, 0], atol=1e-5)
     np.testing.assert_allclose(history.deflection[-1], states[:, 2], atol=1e-4)
     twist = states[:, 0]
     np.testing.assert_allclose(
-        parameters.torsional_stiffness * twist, POLAR.moment_coefficient(INCIDENCE + twist)
+        parameters.torsional_stiffness * twist, POLAR.moment_coefficient(incidence + twist)
     )
 
 
@@ -249,15 +249,23 @@ def test_a_monitor_stops_lanes_and_progress_is_told():
     np.testing.assert_allclose(history.twist[:, 2], free.twist[:, 0], rtol=0, atol=1e-13)
 
 
-def test_without_lag_of_the_bubble_nothing_flutters():
-    """From 1 to 5 deg; below k* of 4 the static equilibrium may be outside the polar."""
-    k_star = np.linspace(4.0, 40.0, 60)
-    for incidence_deg in (1.0, 2.0, 2.5, 3.0, 4.0, 5.0):
-        system = section_system(
-            plate_sections(k_star), measured(SeparationLags.none()), math.radians(incidence_deg)
-        )
-        growth = least_stable_eigenvalue(system).real
-        assert (growth < -0.01).all()
+def growth_rates(loads: UnsteadyLoads, incidence_deg: float, k_star: object) -> np.ndarray:
+    system = section_system(plate_sections(k_star), loads, math.radians(incidence_deg))
+    return least_stable_eigenvalue(system).real
+
+
+@pytest.mark.parametrize("incidence_deg", [1.0, 2.0, 2.5])
+def test_without_lag_of_the_bubble_nothing_flutters(incidence_deg):
+    """Below k* of 4 the static equilibrium may be outside the polar."""
+    growth = growth_rates(measured(SeparationLags.none()), incidence_deg, np.linspace(4, 40, 60))
+    assert (growth < 0.0).all()
+
+
+@pytest.mark.parametrize("incidence_deg", [3.0, 4.0, 5.0])
+def test_falling_moment_alone_makes_little_of_the_flutter(incidence_deg):
+    """A polar whose c_m falls has negative damping in quasi-steady flow too, at these angles."""
+    alone = growth_rates(measured(SeparationLags.none()), incidence_deg, 4.0)
+    assert alone < 0.2 * growth_rates(measured(), incidence_deg, 4.0)
 
 
 def test_stall_flutter_comes_from_the_polar_and_the_lags():
@@ -265,8 +273,8 @@ def test_stall_flutter_comes_from_the_polar_and_the_lags():
     history = release_sections(plate_sections([21.0, 6.44, 5.0]), measured(), INCIDENCE, 80.0)
     decaying, growing, fast = (cycle_amplitudes(history, lane) for lane in range(3))
     assert decaying[-1] < 0.75 * decaying[0]
-    assert growing[-1] > 3.0 * growing[len(growing) // 3]
-    assert fast[-1] > 5.0 * fast[len(fast) // 3]
+    assert growing[-1] > 1.5 * growing[len(growing) // 3]
+    assert fast[-1] > 3.0 * fast[len(fast) // 3]
 
 
 def test_growth_of_a_release_is_that_of_the_linearised_system():
@@ -283,17 +291,17 @@ def test_growth_of_a_release_is_that_of_the_linearised_system():
 
 
 def test_limit_cycles_just_below_the_onset():
-    """The polar's stall bounds the growth: at k* = 10 a limit cycle of 8.5 deg, steady to 2 %."""
+    """The polar's stall bounds the growth: at k* = 7 a limit cycle of 5.9 deg, steady to 2 %."""
     history = release_sections(
-        plate_sections(10.0), measured(), INCIDENCE, 1600.0, output_interval=0.2
+        plate_sections(7.0), measured(), INCIDENCE, 1600.0, output_interval=0.2
     )
     amplitudes = np.degrees(cycle_amplitudes(history, 0))
-    assert amplitudes[-1] == pytest.approx(8.5, rel=0.02)
+    assert amplitudes[-1] == pytest.approx(5.95, rel=0.02)
     np.testing.assert_allclose(amplitudes[-10:], amplitudes[-1], rtol=0.02)
 
 
 @pytest.mark.parametrize(
-    ("incidence_deg", "onset"), [(1.0, 4.3), (2.0, 9.6), (2.5, 13.3), (3.0, 21.4), (5.0, 19.2)]
+    ("incidence_deg", "onset"), [(1.0, 3.65), (2.0, 5.74), (2.5, 8.87), (3.0, 9.03), (5.0, 11.9)]
 )
 def test_onset_of_the_uncorrected_section(incidence_deg, onset):
     """Growth passes zero there: the table of docs/embedded.md."""
@@ -301,9 +309,9 @@ def test_onset_of_the_uncorrected_section(incidence_deg, onset):
 
 
 def test_onset_with_the_polar_of_the_whole_plate():
-    """The corrected section of docs/embedded.md."""
-    whole = UnsteadyLoads.from_polar(read_polar(POLARS / "plate_3d_82520.csv"))
-    assert section_onset(whole, 2.5) == pytest.approx(8.5, rel=0.01)
+    """The section with the loads of the paper's Table 1, docs/embedded.md."""
+    whole = UnsteadyLoads.from_polar(read_polar(POLARS / "paper_plate_3d.csv"))
+    assert section_onset(whole, 2.5) == pytest.approx(6.12, rel=0.01)
 
 
 def section_onset(loads: UnsteadyLoads, incidence_deg: float) -> float:

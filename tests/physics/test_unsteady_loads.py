@@ -19,7 +19,7 @@ from equisection.aerodynamics.unsteady_loads import (
     forced_loads,
 )
 
-POLAR_FILE = Path(__file__).parents[2] / "config/polars/plate_2d_10398.csv"
+POLAR_FILE = Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv"
 REDUCED_FREQUENCIES = (0.02, 0.1, 0.25, 0.5, 1.0)
 
 
@@ -143,7 +143,7 @@ def test_on_a_slow_ramp_the_bubble_is_behind_by_the_sum_of_its_lags():
 def test_the_lag_of_the_bubble_makes_the_moment_lead():
     """Im c_m/theta > 0 is work done on the pitching section: stall flutter's cause."""
     polar = read_polar(POLAR_FILE)
-    omega = 1.0
+    omega = 0.75  # of the release at k* = 5
     time = np.arange(0.0, 120.0, 0.02)
     motion = ForcedMotion(
         time, math.radians(3.0) + 1e-3 * np.cos(omega * time), np.zeros_like(time)

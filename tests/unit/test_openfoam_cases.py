@@ -1,6 +1,8 @@
 """What is written into an OpenFOAM case, and what a kill may leave of one."""
 
 import math
+import subprocess
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,7 +20,7 @@ from equisection.solvers.openfoam.case_folder import (
     drop_histories_after,
 )
 from equisection.solvers.openfoam.dictionaries import control, dictionary
-from equisection.solvers.openfoam.flow import reynolds_number, write_flow
+from equisection.solvers.openfoam.flow import reynolds_number, solution, write_flow
 from equisection.solvers.openfoam.free import read_section
 from equisection.solvers.openfoam.rigid import mesh_of, require_sound_mesh
 from equisection.solvers.openfoam.section_motion import write_motion
@@ -103,6 +105,15 @@ def test_settings_decide_results_and_know_no_machine() -> None:
     assert Adapter.from_settings(solver.settings()).settings() == solver.settings()
 
 
+def test_relaxation_is_in_the_case_where_there_is_one() -> None:
+    relaxed = openfoam(openfoam={"velocity_relaxation": 0.9})
+    settings = solver_from_config(load_config(relaxed), "coarse").settings()
+    assert settings == {"mesh": "coarse", "outer_correctors": 3, "velocity_relaxation": 0.9}
+    assert Adapter.from_settings(settings).settings() == settings
+    factors = solution(steady=False, velocity_relaxation=0.9)["relaxationFactors"]
+    assert factors == {"equations": {'"U.*"': 0.9, '"(k|omega).*"': 1}}
+
+
 def test_registry_says_what_the_adapter_provides() -> None:
     assert SOLVERS["openfoam"].provides == Adapter.provides
 
@@ -110,6 +121,12 @@ def test_registry_says_what_the_adapter_provides() -> None:
 def test_prefix_reaches_the_jobs_as_a_variable() -> None:
     config = load_config(openfoam(openfoam={"prefix": "openfoam2312"}))
     assert config.solver_section.environment() == {"EQUISECTION_OPENFOAM": "openfoam2312"}
+
+
+def test_writing_a_case_imports_nothing_that_reads_results_of_openfoam() -> None:
+    """Importing foamlib takes longer than writing a case."""
+    code = "import sys, equisection.solvers.openfoam.adapter; sys.exit('foamlib' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
 @pytest.fixture
@@ -191,6 +208,7 @@ def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
         ({"steady": {"resolution": "finest"}}, "steady.resolution: 'finest'"),
         ({"openfoam": {"meshes": {"a": "huge"}}}, "openfoam.meshes.a: 'huge'"),
         ({"openfoam": {"outer_correctors": 0}}, "openfoam.outer_correctors: 0"),
+        ({"openfoam": {"velocity_relaxation": 0}}, "openfoam.velocity_relaxation: 0"),
     ],
 )
 def test_what_the_solver_cannot_do_is_refused(changes: dict[str, Any], key: str) -> None:

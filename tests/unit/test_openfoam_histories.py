@@ -66,7 +66,13 @@ def test_row_that_is_not_whole_is_left_out(tmp_path: Path, last: str) -> None:
 
 def test_truncated_row_inside_is_an_error(tmp_path: Path) -> None:
     path = write(tmp_path, "0", "1 0 1 0\n2 0\n3 0 3 0\n")
-    with pytest.raises(SolverError, match="row 2 has 2 columns, its header 4"):
+    with pytest.raises(SolverError, match="row 2 has 2 columns, wanted are 4"):
+        read_table(path, ["Cl"])
+
+
+def test_row_without_numbers_is_an_error(tmp_path: Path) -> None:
+    path = write(tmp_path, "0", "1 0 1 0\n2 0 x 0\n3 0 3 0\n")
+    with pytest.raises(SolverError, match=r"holds no numbers .*'x'"):
         read_table(path, ["Cl"])
 
 

@@ -58,9 +58,9 @@ def test_kept_result_is_taken_and_others_are_computed(
     computed = []
 
     def compute(
-        tasks: list[Task], store: ResultStore, progress: Path
+        tasks: list[Task], store: ResultStore, progress: Path, threads: int
     ) -> dict[str, dict[str, object]]:
-        del progress
+        del progress, threads
         for task in tasks:
             computed.append(task.case)
             write(store.result(task), task.case)

@@ -20,7 +20,7 @@ def run_beyond_its_polar(tmp_path_factory: pytest.TempPathFactory) -> Project:
         sweep={"k_star": [0.5, 6.0, 40.0]},
     )
     project = Project.fresh(tmp_path_factory.mktemp("failed") / "project", config)
-    lines = (project.folder / "config" / "polars" / "plate_2d_10398.csv").read_text().splitlines()
+    lines = (project.folder / "config" / "polars" / "plate_2d_11136.csv").read_text().splitlines()
     end = next(number for number, line in enumerate(lines) if line.startswith("4,"))
     (project.folder / POLAR).write_text("\n".join(lines[:end]) + "\n")
     project.run()

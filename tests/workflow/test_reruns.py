@@ -37,7 +37,7 @@ def test_editing_the_package_without_changing_a_case_runs_no_solver(
 
 def test_touching_a_polar_file_runs_no_solver(section: Project) -> None:
     before = results_of_solver(section)
-    (section.folder / "config" / "polars" / "plate_2d_10398.csv").touch()
+    (section.folder / "config" / "polars" / "plate_2d_11136.csv").touch()
     assert not SOLVER_RULES & set(jobs_run(section.run(section.target(SUMMARY))))
     assert results_of_solver(section) == before
 
@@ -78,7 +78,7 @@ def test_another_time_step_computes_the_sweep_again(section: Project) -> None:
 
 
 def test_another_value_in_the_polar_computes_the_sweep_again(section: Project) -> None:
-    polar = section.folder / "config" / "polars" / "plate_2d_10398.csv"
+    polar = section.folder / "config" / "polars" / "plate_2d_11136.csv"
     text = polar.read_text()
     assert "\n3,0.49371," in text
     polar.write_text(text.replace("\n3,0.49371,", "\n3,0.45371,"))

@@ -20,6 +20,7 @@ examples:
   equisection status                     how far the runs in results/ are
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
+  equisection polar results/my-beam/steady/2d/coarse_a*.nc > my_section.csv
 """
 
 
@@ -33,6 +34,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if options.command == "folder":
             print(_folder(options.configfile))
+        elif options.command == "polar":
+            print(_polar(options.results), end="")
         elif options.command == "keep":
             _keep(options.run_folder, options.folder)
         else:
@@ -84,6 +87,19 @@ def _parser() -> argparse.ArgumentParser:
         "configure, as 'snakemake --configfile' reads them.",
     )
     folder.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
+    polar = commands.add_parser(
+        "polar",
+        help="a polar file from steady results",
+        description="Write the steady results of one solver on one mesh as the CSV file that the "
+        "keys 'embedded.polars' and 'steady.beam_polar' take, with how each value was obtained.",
+    )
+    polar.add_argument(
+        "results",
+        nargs="+",
+        type=Path,
+        metavar="RESULT",
+        help="files of results/<run>/steady/<dimension>/",
+    )
     keep = commands.add_parser(
         "keep",
         help="keep a run's results for other runs",
@@ -108,6 +124,13 @@ def _keep(run: Path, folder: Path | None) -> None:
     folder = folder or Path("results/reference") / run.resolve().name
     copies = keep_results(run, folder)
     print(f"{len(copies)} results of cases are kept in {folder}")
+
+
+def _polar(results: Sequence[Path]) -> str:
+    # Imported here, so that --help and --version come at once.
+    from equisection.results.polar_csv import polar_csv  # noqa: PLC0415
+
+    return polar_csv(results)
 
 
 def _folder(files: Sequence[Path]) -> Path:

@@ -1,9 +1,8 @@
 """Identification of the bubble's lags from the loads of a section that moves as recorded.
 
 The recorded twist and deflection drive the load model, and its c_l and c_m are compared with the
-recorded ones. Nothing is integrated in a closed loop: an error of the flow solver's coupling
-changes the motion, but not what the flow does under that motion, so it does not end in the
-lags.
+recorded ones. Nothing is integrated in a closed loop: what the motion then does (its growth, its
+frequency, its means) is a consequence, and can be judged.
 
 Least squares over all samples after ``start``, each coefficient in units of its own standard
 deviation. The means are left out: where the steady polar and the unsteady run differ at rest
@@ -78,7 +77,7 @@ def identify_lags(
     polar
         Steady polar of the same section, from the same flow solver and mesh.
     histories
-        Moving sections (one held rigid says nothing about lags).
+        Moving sections.
     start
         Convective times left out at the beginning of each history.
     """
@@ -90,7 +89,7 @@ def identify_lags(
         return np.concatenate(parts)
 
     found = least_squares(residuals, FIRST_GUESS, bounds=BOUNDS, x_scale=FIRST_GUESS)
-    sources = "; ".join(history.source for history in histories)
+    sources = "; ".join(history.name for history in histories)
     relaxation, delay, lift_lag = (float(value) for value in found.x)
     lags = SeparationLags(relaxation, delay, lift_lag, provenance=sources)
     loads = UnsteadyLoads(branches, lags)

@@ -9,10 +9,10 @@ Branches
     so that attached minus deficit is the measured polar at every incidence.
 State
     x is the incidence to which the bubble has adapted: the incidence whose steady bubble is the
-    one there is now. It follows the effective incidence alpha_E with the two lags of Goman and
-    Khrabrov (J. Aircraft 31(5), 1994),
+    one there is now. It follows the incidence of the leading edge alpha_S (``unsteady_loads``)
+    with the two lags of Goman and Khrabrov (J. Aircraft 31(5), 1994),
 
-        tau_1 x' + x = alpha_E - tau_2 alpha_E',
+        tau_1 x' + x = alpha_S - tau_2 alpha_S',
 
     who write x_0(alpha - tau_2 alpha') on the right, with a degree of attachment x_0 instead of
     the incidence that has it. Labelling the same bubble by its incidence needs no fitted
@@ -105,13 +105,13 @@ class Branches:
 
 
 IDENTIFIED_LAGS = SeparationLags(
-    relaxation=2.94,
-    delay=1.17,
-    lift_lag=0.85,
+    relaxation=2.66,
+    delay=0.65,
+    lift_lag=0.54,
     provenance=(
-        "identified from the loads of one free release of the plate (h = 0.04 c, sharp edges, "
-        "Re 1.27e5, theta_0 = 2.5 deg, k* = 10): OpenFOAM v1912, k-omega SST, 10398 cells, "
-        "polar of the same mesh; results/reference/prototype/release_k10.nc, "
+        "identified from the loads of two free releases of the plate (h = 0.04 c, sharp edges, "
+        "Re 1.27e5, theta_0 = 2.5 deg, k* = 5 and 10): OpenFOAM v1912, k-omega SST, 11136 cells, "
+        "polar of the same mesh; results/reference/paper-plate-openfoam/unsteady/2d, "
         "aerodynamics.identification.identify_lags"
     ),
 )

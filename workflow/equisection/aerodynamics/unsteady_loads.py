@@ -5,19 +5,26 @@ At each strip, with theta the twist, w the deflection in chords and ' = d/ds,
     alpha_34 = theta_0 + theta + theta'/4 - w' - alpha_i          incidence at 3/4 chord
     z_i'     = 2 b_i (alpha_34 - z_i),  i = 1, 2                   Wagner lag (``indicial``)
     alpha_E  = (1 - A_1 - A_2) alpha_34 + A_1 z_1 + A_2 z_2        effective incidence
-    tau_1 x' + x = alpha_E - tau_2 alpha_E'                        bubble (``separation``)
+    alpha_S  = alpha_E - theta'/4                                  incidence of the leading edge
+    tau_1 x' + x = alpha_S - tau_2 alpha_S'                        bubble (``separation``)
     tau_3 c' + c = a_l alpha_E - Delta_l(x)                        circulatory lift
     c_l = c + (pi/2) (theta' - w'')
-    c_m = a_m alpha_E - Delta_m(x) - (pi/8) theta' - (pi/64) theta''
+    c_m = a_m alpha_S - Delta_m(x) - (pi/64) theta''
 
 alpha_i is the incidence that the wake of a finite beam induces; zero for a section. The terms
-with pi are Theodorsen's apparent-mass and pitch-rate terms about mid-chord (NACA Report 496 with
-a = 0), those of a thin plate in free air. With a_l = 2 pi, a_m = pi/2, no deficit and no lag of
-the bubble this *is* Theodorsen's theory.
+with pi are Theodorsen's apparent-mass terms about mid-chord (NACA Report 496 with a = 0), those of
+a thin plate in free air.
 
-The derivative of alpha_E is not needed: with y' = (alpha_E - y)/tau_1,
+alpha_S is what the suction at the leading edge is proportional to: (sqrt 2/2)(2 C Q - b theta') of
+Garrick (NACA Report 567), the first coefficient A_0 of thin-airfoil theory. The flow separates at
+the sharp edge for its sake, so it and not alpha_E drives the bubble (Ramesh et al., J. Fluid Mech.
+751, 2014). The moment of a thin plate about mid-chord is that of its leading edge: Theodorsen's
+(pi/2) alpha_E - (pi/8) theta' is (pi/2) alpha_S, and here the polar's slope a_m stands for pi/2.
+With a_l = 2 pi, a_m = pi/2, no deficit and no lag of the bubble this *is* Theodorsen's theory.
 
-    x = (1 + tau_2/tau_1) y - (tau_2/tau_1) alpha_E.
+The derivative of alpha_S is not needed: with y' = (alpha_S - y)/tau_1,
+
+    x = (1 + tau_2/tau_1) y - (tau_2/tau_1) alpha_S.
 
 So all states are linear and the only non-linear functions are Delta_l(x) and Delta_m(x); the
 time loop makes use of that.
@@ -41,11 +48,12 @@ Floats = NDArray[np.float64]
 APPARENT_MASS = math.pi / 2
 """Lift against heave acceleration and with pitch rate: (pi/2) (theta' - w'')."""
 
-PITCH_DAMPING = math.pi / 8
-"""Moment against pitch rate: -(pi/8) theta'."""
-
 APPARENT_INERTIA = math.pi / 64
 """Moment against pitch acceleration: -(pi/64) theta''."""
+
+
+LEADING_EDGE_ARM = 0.25
+"""Incidence of the leading edge against pitch rate: alpha_S = alpha_E - theta'/4."""
 
 
 @dataclass(frozen=True)
@@ -123,20 +131,20 @@ def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads) -> LoadHistory:
     for amplitude, rate in zip(JONES_AMPLITUDES, LAG_RATES, strict=True):
         effective = effective + amplitude * follow(rear, rate, step)
     lags, branches = loads.lags, loads.branches
-    bubble = adapted_incidence(effective, lags, step)
+    leading = effective - LEADING_EDGE_ARM * pitch_rate
+    bubble = adapted_incidence(leading, lags, step)
     lift = branches.lift_slope * effective - branches.lift_deficit(bubble)
     if lags.lift_lag > 0.0:
         lift = follow(lift, 1.0 / lags.lift_lag, step)
-    moment = branches.moment_slope * effective - branches.moment_deficit(bubble)
+    moment = branches.moment_slope * leading - branches.moment_deficit(bubble)
     lift = lift + APPARENT_MASS * (pitch_rate - np.gradient(heave_rate, step))
-    moment = moment - PITCH_DAMPING * pitch_rate
     moment = moment - APPARENT_INERTIA * np.gradient(pitch_rate, step)
     return LoadHistory(lift, moment, effective)
 
 
-def adapted_incidence(effective: Floats, lags: SeparationLags, time_step: float) -> Floats:
-    """Incidence x (rad) to which the bubble has adapted under a history of alpha_E (rad)."""
+def adapted_incidence(leading: Floats, lags: SeparationLags, time_step: float) -> Floats:
+    """Incidence x (rad) to which the bubble has adapted under a history of alpha_S (rad)."""
     if lags.relaxation == 0.0:
-        return effective
-    follower = follow(effective, 1.0 / lags.relaxation, time_step)
-    return follower - (lags.delay / lags.relaxation) * (effective - follower)
+        return leading
+    follower = follow(leading, 1.0 / lags.relaxation, time_step)
+    return follower - (lags.delay / lags.relaxation) * (leading - follower)

@@ -1,14 +1,15 @@
-"""Judgement of the embedded solver on a release that its lags were not identified from."""
+"""Judgement of the embedded solver on releases, most of which its lags were not identified from."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import asdict, dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.aerodynamics.identification import LoadMisfit, load_misfit
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.motion.sections import SectionHistories, SectionParameters, release_sections
@@ -45,11 +46,25 @@ class ReleaseNumbers:
 
 @dataclass(frozen=True)
 class ReleaseJudgement:
-    """Numbers of the recorded release and of the model's, of the same duration."""
+    """What a release was recorded to do and what the model's does, in the same time.
 
+    Parameters
+    ----------
+    name
+        Model and case of the release.
+    k_star
+        k* of its beam.
+    recorded, modelled
+        Numbers of the recorded release and of the model's.
+    misfit
+        Loads of the model under the recorded motion.
+    """
+
+    name: str
     k_star: float
     recorded: ReleaseNumbers
     modelled: ReleaseNumbers
+    misfit: LoadMisfit
 
     @property
     def same_side_of_onset(self) -> bool:
@@ -59,8 +74,11 @@ class ReleaseJudgement:
 
 def release_of(history: ReferenceHistory, loads: UnsteadyLoads) -> SectionHistories:
     """Release the section of a history with the model, for as long as it was recorded."""
-    parameters = SectionParameters.from_ratios(
-        history.k_star, history.i_star, history.mass_ratio, history.stiffness_ratio
+    parameters = SectionParameters(
+        inertia=np.array([history.inertia]),
+        torsional_stiffness=np.array([history.torsional_stiffness]),
+        mass=np.array([history.mass]),
+        heave_stiffness=np.array([history.flexural_stiffness]),
     )
     return release_sections(parameters, loads, history.incidence_rad, float(history.time[-1]))
 
@@ -70,16 +88,18 @@ def judge_release(history: ReferenceHistory, loads: UnsteadyLoads) -> ReleaseJud
     run = release_of(history, loads)
     valid = slice(0, int(run.samples[0]))
     return ReleaseJudgement(
+        history.name,
         history.k_star,
         release_numbers(history.time, history.twist, history.deflection),
         release_numbers(run.time[valid], run.twist[valid, 0], run.deflection[valid, 0]),
+        load_misfit(history, loads),
     )
 
 
 def judgement_table(
     judgements: Sequence[tuple[str, ReleaseJudgement]],
 ) -> list[dict[str, str | float]]:
-    """Return a row for each release and quantity: what was recorded and what is modelled.
+    """Return a row for each release: every number as recorded and as modelled, and the misfits.
 
     Parameters
     ----------
@@ -89,13 +109,19 @@ def judgement_table(
     return [
         {
             "use": use,
+            "release": judgement.name,
             "k_star": judgement.k_star,
-            "quantity": quantity.name,
-            "recorded": getattr(judgement.recorded, quantity.name),
-            "modelled": getattr(judgement.modelled, quantity.name),
+            **{
+                f"{number.name}{suffix}": getattr(numbers, number.name)
+                for number in fields(ReleaseNumbers)
+                for suffix, numbers in (
+                    ("", judgement.recorded),
+                    ("_modelled", judgement.modelled),
+                )
+            },
+            **asdict(judgement.misfit),
         }
         for use, judgement in judgements
-        for quantity in fields(ReleaseNumbers)
     ]
 
 

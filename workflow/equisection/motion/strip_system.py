@@ -38,7 +38,7 @@ from equisection.aerodynamics.separation import SLOPE_HALF_STEP
 from equisection.aerodynamics.unsteady_loads import (
     APPARENT_INERTIA,
     APPARENT_MASS,
-    PITCH_DAMPING,
+    LEADING_EDGE_ARM,
     UnsteadyLoads,
 )
 
@@ -200,7 +200,7 @@ def assemble(
     rates[:, layout.deflection_rate] = deflection_acceleration
     for number, rate in enumerate(LAG_RATES):
         rates[:, layout.lag(number)] = rate * (rows.rear - unit[layout.lag(number)])
-    followed = ((loads.lags.relaxation, rows.effective), (loads.lags.lift_lag, rows.target))
+    followed = ((loads.lags.relaxation, rows.leading), (loads.lags.lift_lag, rows.target))
     for number, (lag, target) in enumerate(followed, start=2):
         rate = 1.0 / lag if lag > 0.0 else 1.0  # without lag the state is not read
         rates[:, layout.lag(number)] = rate * (target - unit[layout.lag(number)])
@@ -222,13 +222,14 @@ def assemble(
 class _StripRows:
     """Linear expressions in [Y | u | theta_0] at the strips, each of shape (S, columns).
 
-    ``rear`` is alpha_34, ``effective`` alpha_E, ``bubble`` x, ``target`` what the circulatory
-    lift c follows; ``lift`` and ``moment`` lack the terms with accelerations.
+    ``rear`` is alpha_34, ``effective`` alpha_E, ``leading`` alpha_S, ``bubble`` x, ``target`` what
+    the circulatory lift c follows; ``lift`` and ``moment`` lack the terms with accelerations.
     """
 
     columns: int
     rear: Floats
     effective: Floats
+    leading: Floats
     bubble: Floats
     target: Floats
     lift: Floats
@@ -258,15 +259,16 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
         geometric - structure.induction @ (slope * lagging - lift_deficit),
     )
     effective = IMMEDIATE_SHARE * rear + lagging
-    bubble = effective
+    leading = effective - LEADING_EDGE_ARM * twist_rate
+    bubble = leading
     if lags.relaxation > 0.0:
         follower = unit[layout.lag(2)]
-        bubble = follower - (lags.delay / lags.relaxation) * (effective - follower)
+        bubble = follower - (lags.delay / lags.relaxation) * (leading - follower)
     target = slope * effective - lift_deficit
     circulatory = unit[layout.lag(3)] if lags.lift_lag > 0.0 else target
     lift = circulatory + APPARENT_MASS * twist_rate
-    moment = loads.branches.moment_slope * effective - moment_deficit - PITCH_DAMPING * twist_rate
-    return _StripRows(columns, rear, effective, bubble, target, lift, moment)
+    moment = loads.branches.moment_slope * leading - moment_deficit
+    return _StripRows(columns, rear, effective, leading, bubble, target, lift, moment)
 
 
 def _accelerations(

@@ -16,23 +16,33 @@ FLAT_PLATE = "flat-plate"
 
 
 class Separation(Section):
-    """Lags of the separation bubble (c/V); the defaults are identified from CFD histories."""
+    """Lags of the separation bubble (c/V); the defaults are identified from CFD releases."""
 
-    relaxation: NotNegative = Field(2.94, description="tau_1 of the bubble (c/V).")
-    delay: Number = Field(1.17, description="tau_2 of the bubble (c/V); 0 where `relaxation` is 0.")
-    lift_lag: NotNegative = Field(0.85, description="tau_3 of the lift behind the bubble (c/V).")
+    relaxation: NotNegative = Field(2.66, description="tau_1 of the bubble (c/V).")
+    delay: Number = Field(0.65, description="tau_2 of the bubble (c/V); 0 where `relaxation` is 0.")
+    lift_lag: NotNegative = Field(0.54, description="tau_3 of the lift behind the bubble (c/V).")
+
+
+#: The sweep that is kept, and the k* of its section that the lags are fitted to.
+_KEPT = "results/reference/paper-plate-openfoam/unsteady"
+_FITTED_TO = ("5", "10")
+_K_STAR = ("4", "4.5", "5", "5.5", "6.44", "7.5", "8.5", "10", "14", "21")
 
 
 class Identification(Section):
-    """CFD histories behind the lags; `snakemake identification` identifies them again."""
+    """CFD releases behind the lags; `snakemake identification` identifies them again."""
 
     fitted_to: Annotated[tuple[str, ...], Field(min_length=1)] = Field(
-        ("results/reference/prototype/release_k10.nc",),
-        description="Releases of the section that the lags are fitted to (NetCDF files).",
+        tuple(f"{_KEPT}/2d/k{k_star}.nc" for k_star in _FITTED_TO),
+        description="Releases of the section that the lags are fitted to: results of unsteady "
+        "cases (NetCDF files).",
     )
     judged_on: tuple[str, ...] = Field(
-        ("results/reference/prototype/release_k5.nc",),
-        description="Releases that the fitted model is judged on and never sees (NetCDF files).",
+        (
+            *(f"{_KEPT}/2d/k{k_star}.nc" for k_star in _K_STAR if k_star not in _FITTED_TO),
+            *(f"{_KEPT}/2d-corrected/k{k_star}.nc" for k_star in _K_STAR),
+        ),
+        description="Releases that the fitted model is judged on and never sees (the same).",
     )
 
 
@@ -40,7 +50,7 @@ class Embedded(Section):
     """The embedded solver."""
 
     polars: Annotated[dict[Name, Annotated[str, Field(min_length=1)]], Field(min_length=1)] = Field(
-        {"coarse": "config/polars/plate_2d_10398.csv"},
+        {"coarse": "config/polars/plate_2d_11136.csv"},
         description="Section polar of each resolution: a CSV file (`incidence_deg,cl,cm,cd`; "
         "path from the working directory) or `flat-plate` for the thin analytic plate.",
     )

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from equisection.config.checks import Problem, check
 from equisection.config.sections.base import Section
-from equisection.config.values import WHOLE, Name
+from equisection.config.values import NUMBER, WHOLE, Name
 
 MeshName = Literal["coarse", "medium", "fine", "paper"]
 
+#: A mesh that morphs around the section, and one above another that moves with it.
+MeshMotion = Literal["morph", "overset"]
+MORPH: MeshMotion = "morph"
+OVERSET: MeshMotion = "overset"
 #: Environment variable of the command before each program.
 PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
 #: The largest time step (c/V) that follows the flow over the plate.
@@ -30,6 +34,17 @@ class OpenFoam(Section):
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
         3, description="Iterations of flow, loads and motion in each time step (-)."
+    )
+    velocity_relaxation: Annotated[float, Field(gt=0, le=1, allow_inf_nan=False), NUMBER] = Field(
+        1.0,
+        description="Under-relaxation of the velocity in these iterations, for the free section "
+        "and plate (-); 1 is none. With 0.9 and five of them they converge where the flow "
+        "separates wholly.",
+    )
+    mesh_motion: MeshMotion = Field(
+        MORPH,
+        description="How the mesh follows the free section: `morph` deforms it, `overset` moves a "
+        "mesh around the plate as it is above one of the channel, for large deflection and twist.",
     )
     prefix: str = Field(
         "",
@@ -86,3 +101,14 @@ def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
         yield Problem(
             "flow.channel", channel, "allowed is a channel with solver 'openfoam', which meshes it"
         )
+
+
+@check("openfoam.mesh_motion", "openfoam.meshes")
+def _has_an_overset_mesh(motion: str, meshes: Mapping[str, str]) -> Iterator[Problem]:
+    for name, mesh in meshes.items():
+        if motion == OVERSET and mesh == "paper":
+            yield Problem(
+                f"openfoam.meshes.{name}",
+                mesh,
+                "allowed are coarse, medium, fine with openfoam.mesh_motion: overset",
+            )

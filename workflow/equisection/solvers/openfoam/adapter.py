@@ -16,11 +16,13 @@ import numpy as np
 
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
+from equisection.config.sections.openfoam import MORPH
 from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.process import BlowUpError
+from equisection.solvers.openfoam.settings import Settings
 from equisection.solvers.protocol import Capability, Progress
 
 if TYPE_CHECKING:
@@ -36,40 +38,48 @@ class Adapter:
     version = "3"
     provides = frozenset({Capability.MESH, Capability.SURFACE})
 
-    def __init__(self, mesh: str, outer_correctors: int, ranks: int = 1) -> None:
-        self._mesh = mesh
-        self._outer_correctors = outer_correctors
+    def __init__(self, settings: Settings, ranks: int = 1) -> None:
+        self._settings = settings
         self._ranks = ranks
 
     @classmethod
     def from_config(cls, config: Config, resolution: str) -> Adapter:
         """Return the solver on the mesh of a resolution."""
         section = config.openfoam
-        return cls(section.meshes[resolution], section.outer_correctors, section.ranks)
+        settings = Settings(
+            section.meshes[resolution],
+            section.outer_correctors,
+            section.velocity_relaxation,
+            section.mesh_motion,
+        )
+        return cls(settings, section.ranks)
 
     @classmethod
     def from_settings(cls, settings: dict[str, Any], threads: int = 1) -> Adapter:
         """Return the solver of a case, to run on as many ranks as there are threads."""
-        return cls(settings["mesh"], settings["outer_correctors"], threads)
+        return cls(Settings(**settings), threads)
 
     def settings(self) -> dict[str, Any]:
-        """Return mesh and coupling; no path, version or number of ranks, which decide nothing."""
-        return {"mesh": self._mesh, "outer_correctors": self._outer_correctors}
+        """Return what decides a result, as it stands in a case."""
+        return self._settings.of_case()
 
     def describe(self, dimension: str) -> str:
         """Return solver and resolution in words."""
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
-        preset = PRESETS[self._mesh]
+        preset = PRESETS[self._settings.mesh]
         cells = preset.cells if dimension == "2d" else preset.plate_cells
-        return f"OpenFOAM {find().version()}, k-omega SST, {cells} cells ({self._mesh})"
+        mesh = f"{cells} cells ({self._settings.mesh})"
+        if dimension == "2d" and self._settings.mesh_motion != MORPH:
+            mesh += ", the free section on overset meshes"
+        return f"OpenFOAM {find().version()}, k-omega SST, {mesh}"
 
     @property
     def similar_cells(self) -> int | None:
         """Number of cells; none of a mesh that is not similar to the others."""
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
-        preset = PRESETS[self._mesh]
+        preset = PRESETS[self._settings.mesh]
         return preset.cells if preset.is_similar else None
 
     def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
@@ -78,7 +88,7 @@ class Adapter:
         from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.section_mesh import section_mesh  # noqa: PLC0415
 
-        preset = PRESETS[self._mesh]
+        preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
         return section_mesh(find(), case, mesh, time_step, work)
 
@@ -107,11 +117,10 @@ class Adapter:
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
         from equisection.solvers.openfoam.rigid import mesh_of, rigid_loads  # noqa: PLC0415
 
-        preset = PRESETS[self._mesh]
+        preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
-        loads = rigid_loads(
-            installation, case, mesh, place, tell, outer_correctors=self._outer_correctors
-        )
+        correctors = self._settings.outer_correctors
+        loads = rigid_loads(installation, case, mesh, place, tell, outer_correctors=correctors)
         return _result(loads)
 
     def _rigid_plate(
@@ -120,8 +129,8 @@ class Adapter:
         from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
-        mesh = plate_mesh_of(case, PRESETS[self._mesh].plate)
-        correctors, ranks = self._outer_correctors, self._ranks
+        mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
+        correctors, ranks = self._settings.outer_correctors, self._ranks
         return PlateFlow(installation, case, mesh, correctors, ranks, place).result(tell)
 
     def run_unsteady(
@@ -147,12 +156,15 @@ class Adapter:
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
     ) -> UnsteadyResult:
         from equisection.solvers.openfoam.free import SectionRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.overset import OversetRun  # noqa: PLC0415
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
         from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
 
-        preset = PRESETS[self._mesh]
+        preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
-        return SectionRun(installation, case, mesh, self._outer_correctors, place).run(tell)
+        correctors, relaxation = self._settings.outer_correctors, self._settings.velocity_relaxation
+        kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
+        return kind(installation, case, mesh, correctors, place, relaxation).run(tell)
 
     def _free_plate(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
@@ -161,9 +173,10 @@ class Adapter:
         from equisection.solvers.openfoam.plate_rigid import plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
-        mesh = plate_mesh_of(case, PRESETS[self._mesh].plate)
-        correctors, ranks = self._outer_correctors, self._ranks
-        return PlateRun(installation, case, mesh, correctors, ranks, place).run(tell)
+        mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
+        correctors, relaxation = self._settings.outer_correctors, self._settings.velocity_relaxation
+        run = PlateRun(installation, case, mesh, correctors, self._ranks, place, relaxation)
+        return run.run(tell)
 
 
 _NOTHING = np.empty(0)

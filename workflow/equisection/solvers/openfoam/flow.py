@@ -120,15 +120,20 @@ def schemes(*, steady: bool) -> dict[str, Any]:
     }
 
 
-def solution(*, steady: bool, outer_correctors: int = 1) -> dict[str, Any]:
+def solution(
+    *, steady: bool, outer_correctors: int = 1, velocity_relaxation: float = 1.0
+) -> dict[str, Any]:
     """Return ``fvSolution``.
 
     Parameters
     ----------
     steady
-        Whether the flow is steady: SIMPLEC, under-relaxed; else PIMPLE, not relaxed.
+        Whether the flow is steady: SIMPLEC, under-relaxed; else PIMPLE.
     outer_correctors
         Iterations of flow, loads and motion a time step.
+    velocity_relaxation
+        Under-relaxation of the velocity in each of them, the last too: it converges what comes
+        before, where the last alone would undo it.
     """
     pressure = {
         "solver": "GAMG",
@@ -165,5 +170,5 @@ def solution(*, steady: bool, outer_correctors: int = 1) -> dict[str, Any]:
             "correctPhi": False,
             "turbOnFinalIterOnly": True,
         },
-        "relaxationFactors": {"equations": {'".*"': 1}},
+        "relaxationFactors": {"equations": {'"U.*"': velocity_relaxation, '"(k|omega).*"': 1}},
     }

@@ -8,8 +8,10 @@ from __future__ import annotations
 import json
 import logging
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +20,7 @@ from equisection.cases import SectionProperties, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.unsteady import UnsteadyResult
+from equisection.solvers import verdicts
 from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.case_folder import (
     copy_flow,
@@ -28,15 +31,20 @@ from equisection.solvers.openfoam.case_folder import (
     mark_ready,
 )
 from equisection.solvers.openfoam.dictionaries import control, write_system
-from equisection.solvers.openfoam.histories import read_history
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import Loads, read_loads, reasonable, require_reasonable
 from equisection.solvers.openfoam.mesh import Mesh
+from equisection.solvers.openfoam.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.rigid import WINDOW, Tell, run_steady
-from equisection.solvers.openfoam.section_motion import MOTION, motion_output, write_motion
+from equisection.solvers.openfoam.section_motion import (
+    Motion,
+    motion_output,
+    read_motion,
+    write_motion,
+)
 from equisection.solvers.openfoam.spent import spent
-from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge, refused
+from equisection.solvers.verdicts import LOOKS_EVERY, is_decided, judge, refused
 
 logger = logging.getLogger(__name__)
 
@@ -98,6 +106,8 @@ class SectionRun:
         Iterations of flow, loads and motion a time step.
     work
         Where its folders are.
+    velocity_relaxation
+        Under-relaxation of the velocity in these iterations; 1 is none.
     """
 
     installation: Installation
@@ -105,11 +115,39 @@ class SectionRun:
     mesh: Mesh
     outer_correctors: int
     work: Path
+    velocity_relaxation: float = 1.0
 
     @property
     def folder(self) -> Path:
         """Folder of the free run, beside that of the steady flow which it starts from."""
         return self.work / "free"
+
+    def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
+        """Make the rigid steady flow, as :func:`~.rigid.run_steady` does."""
+        return run_steady(self.installation, self.case, self.mesh, self.work, tell)
+
+    def write_motion(self, folder: Path) -> None:
+        """Write what moves section and mesh."""
+        assert self.case.section is not None
+        write_motion(folder, self.case.section, self.mesh.channel.height)
+
+    def write_system(self, folder: Path) -> None:
+        """Write what controls the run; its end may differ from that of an earlier start."""
+        entries = control("pimpleFoam", self.case.duration, self.case.time_step, STATE_INTERVAL)
+        entries["functions"] |= motion_output()
+        write_system(folder, entries, flow.schemes(steady=False), self.solution())
+
+    def solution(self) -> dict[str, Any]:
+        """Return ``fvSolution``."""
+        return flow.solution(
+            steady=False,
+            outer_correctors=self.outer_correctors,
+            velocity_relaxation=self.velocity_relaxation,
+        )
+
+    def history(self, loads: Loads | None = None) -> SectionHistory:
+        """Return the history so far, with loads that are read already; see :func:`read_section`."""
+        return read_section(self.folder, loads)
 
     def run(self, tell: Tell) -> UnsteadyResult:
         """Release the section and follow it until its verdict is in.
@@ -130,14 +168,44 @@ class SectionRun:
             if start:
                 logger.info("goes on from %g c/V", start)
             if start < case.duration:
-                self._write_system()
+                self.write_system(self.folder)
                 run_program(self.installation, "pimpleFoam", self.folder, self._watch(start, tell))
                 require_reasonable(read_loads(self.folder), self.folder)
         except BlowUpError as error:
             failure = str(error)
             if not is_ready(self.folder):
                 return refused(case.model_copy(update={"refusal": failure}))
-        return replace(_result(case, self.folder, failure), spent=spent(self.work))
+        so_far = self.history()
+        if failure and so_far.time.size:
+            failure = f"{failure}; {self._where(so_far)}"
+        result = _result(case, self.folder, so_far, failure)
+        return replace(result, spent=spent(self.work))
+
+    def _where(self, so_far: SectionHistory) -> str:
+        """Return where the section was when the flow blew up, and what the mesh has to do with it.
+
+        The last loads that are reasonable may be those of the step before.
+        """
+        twist, deflection = float(so_far.twist[-1]), float(so_far.deflection[-1])
+        where = (
+            f"after {so_far.time[-1]:g} c/V, at a twist of {math.degrees(twist):.3g} deg and a "
+            f"deflection of {deflection:.3g} c"
+        )
+        try:
+            fault = self.mesh_fault(twist, deflection)
+        except SolverError as error:
+            # the run has its result, whatever becomes of the search for its cause
+            logger.warning("the mesh at its end was not checked: %s", error)
+            return where
+        return f"{where}, where {fault}" if fault else where
+
+    def mesh_fault(self, twist: float, deflection: float) -> str:
+        """Return what is wrong with the mesh at a twist (rad) and a deflection (chords), if so."""
+        mesh = MorphingMesh(self.installation, self.folder, self.mesh.channel.height)
+        faults = mesh.along(twist, deflection, 1, self.work / "moved")[-1].faults
+        if not faults:
+            return ""
+        return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
 
     def _watch(self, start: float, tell: Tell) -> Watch:
         case, due = self.case, Every(LOOKS_EVERY, start)
@@ -146,8 +214,9 @@ class SectionRun:
             tell(time, case.duration)
             if not due.is_due(time):
                 return False
-            require_reasonable(read_loads(self.folder), self.folder)
-            history = read_section(self.folder).sampled(case.time_step, case.output_interval)
+            loads = read_loads(self.folder)
+            require_reasonable(loads, self.folder)
+            history = self.history(loads).sampled(case.time_step, case.output_interval)
             return is_decided(case, _tip(case.section, history))
 
         return decided
@@ -161,53 +230,50 @@ class SectionRun:
             del done, total
             tell(0.0, case.duration)
 
-        steady = run_steady(self.installation, case, self.mesh, self.work, nothing_yet)
-        source, loads, converged = steady
+        source, loads, converged = self.steady(nothing_yet)
         if not converged:
             logger.info("the steady flow does not converge; the release is from its last state")
         folder = emptied(self.folder)
         copy_flow(source, folder)
-        write_motion(folder, case.section, self.mesh.channel.height)
+        self.write_motion(folder)
         _, lift, moment = loads.last(WINDOW // 3).means()
         write_text(folder / _AT_RELEASE, json.dumps({"lift": lift, "moment": moment}))
         mark_ready(folder)
 
-    def _write_system(self) -> None:
-        """Write what controls the run; its end may differ from that of an earlier start."""
-        entries = control("pimpleFoam", self.case.duration, self.case.time_step, STATE_INTERVAL)
-        entries["functions"] |= motion_output()
-        write_system(
-            self.folder,
-            entries,
-            flow.schemes(steady=False),
-            flow.solution(steady=False, outer_correctors=self.outer_correctors),
-        )
 
-
-def read_section(folder: Path) -> SectionHistory:
+def read_section(
+    folder: Path,
+    loads: Loads | None = None,
+    motion_of: Callable[[Path], Motion] = read_motion,
+) -> SectionHistory:
     """Return the history of a free run so far.
+
+    Parameters
+    ----------
+    folder
+        Folder of the run.
+    loads
+        Its loads, if they are read already.
+    motion_of
+        Reads its motion from where it stands.
 
     Raises
     ------
     SolverError
         A file is missing or of an unknown layout, or steps are missing in it.
     """
-    loads = read_loads(folder)
+    loads = read_loads(folder) if loads is None else loads
     loads = loads.first(reasonable(loads))
-    motion = read_history(
-        folder / "postProcessing" / MOTION,
-        "sixDoFRigidBodyState.dat",
-        ["centreOfRotation", "rotation"],
-    )
+    motion = motion_of(folder)
     # either file may have a row that the other does not have yet
     _, one, other = np.intersect1d(
-        _steps(loads.time), _steps(motion["Time"]), return_indices=True, assume_unique=True
+        _steps(loads.time), _steps(motion.time), return_indices=True, assume_unique=True
     )
     _require_every_step(loads.time[one], folder)
-    deflection = motion["centreOfRotation"][other, 1]
+    deflection = motion.deflection[other]
     return SectionHistory(
         time=loads.time[one],
-        twist=-motion["rotation"][other, 2],
+        twist=motion.twist[other],
         deflection=deflection,
         lift=loads.lift[one],
         moment=_about_moving_centre(loads, one, deflection),
@@ -238,9 +304,9 @@ def _about_moving_centre(loads: Loads, rows: NDArray[np.intp], deflection: Float
     return loads.moment[rows] - deflection * loads.drag[rows]
 
 
-def _tip(section: SectionProperties | None, history: SectionHistory) -> Motion:
+def _tip(section: SectionProperties | None, history: SectionHistory) -> verdicts.Motion:
     assert section is not None
-    return Motion(
+    return verdicts.Motion(
         history.time,
         history.twist / section.twist_recovery,
         history.deflection / section.deflection_recovery,
@@ -260,8 +326,10 @@ def _from_release(folder: Path, history: SectionHistory, case: UnsteadyCase) -> 
     )
 
 
-def _result(case: UnsteadyCase, folder: Path, failure: str) -> UnsteadyResult:
-    history = _from_release(folder, read_section(folder), case)
+def _result(
+    case: UnsteadyCase, folder: Path, so_far: SectionHistory, failure: str
+) -> UnsteadyResult:
+    history = _from_release(folder, so_far, case)
     tip = _tip(case.section, history)
     return UnsteadyResult(
         time=history.time,

@@ -17,6 +17,7 @@ from equisection.errors import SolverError
 
 Floats = NDArray[np.float64]
 
+_WITHOUT_PARENTHESES = str.maketrans("()", "  ")
 _TOKEN = re.compile(r"\([^()]*\)|[^\s()]+")
 #: Relative distance within which two times are the same.
 _SAME = 1e-9
@@ -92,32 +93,38 @@ def read_table(path: Path, columns: Sequence[str]) -> dict[str, Floats]:
     rows = [line for line in lines if line.strip() and not line.startswith("#")]
     if rows and not text.endswith("\n"):
         rows.pop()
-    values: dict[str, list[list[float]]] = {name: [] for name in ("Time", *columns)}
-    places = {name: header.index(name) for name in values}
-    for number, row in enumerate(rows):
-        tokens = _TOKEN.findall(row)
-        if len(tokens) != len(header):
-            if number == len(rows) - 1:
-                break
-            raise SolverError(
-                f"{path}: row {number + 1} has {len(tokens)} columns, its header {len(header)}; "
-                "delete the case's folder in the store and run again"
-            )
-        try:
-            numbers = {
-                name: [float(word) for word in tokens[place].strip("()").split()]
-                for name, place in places.items()
-            }
-        except ValueError:
-            raise SolverError(f"{path}: row {number + 1} holds no numbers: {row[:80]!r}") from None
-        for name, vector in numbers.items():
-            values[name].append(vector)
-    return {name: _array(vectors) for name, vectors in values.items()}
+    if rows and len(_TOKEN.findall(rows[0])) != len(header):
+        _require_last(path, 0, rows, len(_TOKEN.findall(rows[0])), len(header))
+        rows = []
+    if not rows:
+        return {name: np.empty(0) for name in ("Time", *columns)}
+    # a vector in parentheses is as many words as it has components
+    widths = [len(token.strip("()").split()) for token in _TOKEN.findall(rows[0])]
+    words = [row.translate(_WITHOUT_PARENTHESES).split() for row in rows]
+    for number, row in enumerate(words):
+        if len(row) != sum(widths):
+            _require_last(path, number, rows, len(row), sum(widths))
+            words.pop()
+    try:
+        table = np.array(words, dtype=float)
+    except ValueError as error:
+        raise SolverError(f"{path}: a row holds no numbers ({error})") from None
+    ends = np.cumsum(widths)
+    found = {}
+    for name in ("Time", *columns):
+        place = header.index(name)
+        part = table[:, ends[place] - widths[place] : ends[place]]
+        found[name] = part[:, 0] if widths[place] == 1 else part
+    return found
 
 
-def _array(vectors: list[list[float]]) -> Floats:
-    array = np.array(vectors, dtype=float).reshape(len(vectors), -1)
-    return array[:, 0] if array.shape[1] == 1 else array
+def _require_last(path: Path, number: int, rows: Sequence[str], found: int, wanted: int) -> None:
+    """Let a row that is cut short pass where it is the last."""
+    if number < len(rows) - 1:
+        raise SolverError(
+            f"{path}: row {number + 1} has {found} columns, wanted are {wanted}; "
+            "delete the case's folder in the store and run again"
+        )
 
 
 def _header(path: Path, lines: Sequence[str], wanted: Sequence[str]) -> list[str]:

@@ -89,6 +89,8 @@ class PlateRun:
         Ranks of MPI that a program runs on.
     work
         Where its folders are.
+    velocity_relaxation
+        Under-relaxation of the velocity in these iterations.
     """
 
     installation: Installation
@@ -97,6 +99,7 @@ class PlateRun:
     outer_correctors: int
     ranks: int
     work: Path
+    velocity_relaxation: float = 1.0
 
     @property
     def folder(self) -> Path:
@@ -173,7 +176,11 @@ class PlateRun:
             "pimpleFoam", case.duration, case.time_step, STATE_INTERVAL, self.mesh.span
         )
         entries["libs"] = ['"liblumpedPointMotion.so"']
-        solution = flow.solution(steady=False, outer_correctors=self.outer_correctors)
+        solution = flow.solution(
+            steady=False,
+            outer_correctors=self.outer_correctors,
+            velocity_relaxation=self.velocity_relaxation,
+        )
         solution["solvers"] |= motion_solvers()
         schemes = flow.schemes(steady=False)
         schemes["laplacianSchemes"] |= motion_schemes()

@@ -110,6 +110,13 @@ def run_steady(
         flow.solution(steady=True),
     )
     make_mesh(installation, folder)
+    return iterate(installation, "simpleFoam", folder, tell)
+
+
+def iterate(
+    installation: Installation, program: str, folder: Path, tell: Tell
+) -> tuple[Path, Loads, bool]:
+    """Run a steady solver until it has converged, or for long enough; see :func:`run_steady`."""
     seen = Every(50)
 
     def converged(iteration: float) -> bool:
@@ -120,7 +127,7 @@ def run_steady(
         require_reasonable(loads, folder)
         return has_converged(loads)
 
-    run_program(installation, "simpleFoam", folder, converged)
+    run_program(installation, program, folder, converged)
     loads = read_loads(folder)
     require_reasonable(loads, folder)
     return folder, loads, has_converged(loads)

@@ -9,12 +9,18 @@ the loads and the springs at what is known of the new position.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from equisection.cases import SectionProperties
 from equisection.files import write_text
-from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
+from equisection.solvers.openfoam.dictionaries import PLATE, Entries, dictionary
+from equisection.solvers.openfoam.histories import read_history
 
 #: Name of the function object of the motion.
 MOTION = "motion"
@@ -23,12 +29,41 @@ MOTION = "motion"
 _RIGID_WITHIN, _STILL_BEYOND, _STILL_PART = 0.3, 1.5, 0.75
 
 
+@dataclass(frozen=True)
+class Motion:
+    """Time (c/V), twist (rad), nose up, and deflection (chords), upwards, shape (n,)."""
+
+    time: NDArray[np.float64]
+    twist: NDArray[np.float64]
+    deflection: NDArray[np.float64]
+
+
 def write_motion(folder: Path, section: SectionProperties, channel_height: float) -> None:
-    """Write ``constant/dynamicMeshDict``: the section, released from rest with slack springs."""
+    """Write ``constant/dynamicMeshDict``: the section, and the mesh that morphs around it."""
+    entries = morphing(section, channel_height)
+    write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", entries))
+    write_displacement(folder)
+
+
+def morphing(section: SectionProperties, channel_height: float) -> dict[str, Any]:
+    """Return the section, and the mesh that morphs around it up to near the channel's walls."""
     still = min(_STILL_BEYOND, _STILL_PART * channel_height / 2)
-    body = {
+    return {
+        "dynamicFvMesh": "dynamicMotionSolverFvMesh",
+        "motionSolverLibs": ['"libsixDoFRigidBodyMotion.so"'],
+        "motionSolver": "sixDoFRigidBodyMotion",
+        "sixDoFRigidBodyMotionCoeffs": rigid_body(section, min(_RIGID_WITHIN, 0.4 * still), still),
+    }
+
+
+def rigid_body(section: SectionProperties, rigid_within: float, still: float) -> dict[str, Any]:
+    """Return the section, released from rest with slack springs.
+
+    Up to the first distance (chords) the mesh moves with it, beyond the second it stands.
+    """
+    return {
         "patches": [PLATE],
-        "innerDistance": min(_RIGID_WITHIN, 0.4 * still),
+        "innerDistance": rigid_within,
         "outerDistance": still,
         "mass": section.mass / 2,
         "centreOfMass": (0, 0, 0),
@@ -69,17 +104,10 @@ def write_motion(folder: Path, section: SectionProperties, channel_height: float
             },
         },
     }
-    entries = {
-        "dynamicFvMesh": "dynamicMotionSolverFvMesh",
-        "motionSolverLibs": ['"libsixDoFRigidBodyMotion.so"'],
-        "motionSolver": "sixDoFRigidBodyMotion",
-        "sixDoFRigidBodyMotionCoeffs": body,
-    }
-    write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", entries))
-    write_text(folder / "0" / "pointDisplacement", _point_displacement())
 
 
-def _point_displacement() -> str:
+def write_displacement(folder: Path, further: Mapping[str, Entries] | None = None) -> None:
+    """Write the field ``pointDisplacement`` at time 0, with patches beyond those of the channel."""
     at_rest = {"type": "fixedValue", "value": "uniform (0 0 0)"}
     mirror = {"type": "symmetryPlane"}
     entries = {
@@ -92,9 +120,11 @@ def _point_displacement() -> str:
             "ceiling": mirror,
             PLATE: {"type": "calculated"},
             "sides": {"type": "empty"},
+            **(further or {}),
         },
     }
-    return dictionary("pointDisplacement", entries, "pointVectorField")
+    text = dictionary("pointDisplacement", entries, "pointVectorField")
+    write_text(folder / "0" / "pointDisplacement", text)
 
 
 def motion_output() -> dict[str, Any]:
@@ -108,3 +138,23 @@ def motion_output() -> dict[str, Any]:
             "writeInterval": 1,
         }
     }
+
+
+def read_motion(folder: Path) -> Motion:
+    """Return the motion of a run so far, from what its function object wrote.
+
+    Raises
+    ------
+    SolverError
+        There is none, or its file has an unknown layout.
+    """
+    motion = read_history(
+        folder / "postProcessing" / MOTION,
+        "sixDoFRigidBodyState.dat",
+        ["centreOfRotation", "rotation"],
+    )
+    return Motion(
+        motion["Time"],
+        -motion["rotation"].reshape(-1, 3)[:, 2],
+        motion["centreOfRotation"].reshape(-1, 3)[:, 1],
+    )

@@ -1,0 +1,157 @@
+"""The two meshes that lie above each other, what moves one of them, and its motion in the log."""
+
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.sample_cases import UNSTEADY
+
+from equisection.config import load_config
+from equisection.errors import ConfigError, SolverError
+from equisection.solvers.openfoam.adapter import Adapter
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.mesh import Channel
+from equisection.solvers.openfoam.overset import OversetRun, read_motion
+from equisection.solvers.openfoam.overset_mesh import OversetMesh
+from equisection.solvers.openfoam.rigid import mesh_of
+from equisection.solvers.registry import solver_from_config
+
+CHANNEL = Channel(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
+
+
+def meshes(incidence_deg: float = 2.5, refinement: float = 1.0) -> OversetMesh:
+    return OversetMesh(CHANNEL, math.radians(incidence_deg), refinement)
+
+
+def run_in(folder: Path) -> OversetRun:
+    return OversetRun(Installation(), UNSTEADY, mesh_of(UNSTEADY, 1.0), 3, folder)
+
+
+def vertices(text: str) -> np.ndarray:
+    block = text[text.index("vertices") : text.index("blocks")]
+    found = re.findall(r"\((\S+) (\S+) -0\.5\)", block)
+    return np.array(found, dtype=float)
+
+
+@pytest.mark.parametrize("refinement", [0.6, 1.0, math.sqrt(2.0)])
+def test_blocks_hold_the_cells_that_are_counted_background_first(refinement: float) -> None:
+    wanted = meshes(refinement=refinement)
+    counts = re.findall(r"hex \([\d ]+\) \((\d+) (\d+) 1\)", wanted.block_mesh_dict())
+    cells = [int(nx) * int(ny) for nx, ny in counts]
+    assert len(cells) == 17
+    assert sum(cells[:9]) == wanted.background_cells
+    assert sum(cells[9:]) == wanted.component_cells
+
+
+def test_refinement_divides_the_cells_of_both_alike() -> None:
+    coarse, fine = meshes(), meshes(refinement=2.0)
+    assert fine.background_cells == 4 * coarse.background_cells
+    assert fine.component_cells == 4 * coarse.component_cells
+
+
+def test_background_fills_the_channel_and_the_component_is_turned_with_the_plate() -> None:
+    points = vertices(meshes(10.0).block_mesh_dict())
+    background, component = points[:16], points[16:]
+    assert (background[:, 0].min(), background[:, 0].max()) == (-5.0, 15.0)
+    assert (background[:, 1].min(), background[:, 1].max()) == (-2.0, 2.0)
+    level = vertices(meshes(0.0).block_mesh_dict())[16:]
+    angle = math.radians(10.0)
+    turn = np.array([[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]])
+    np.testing.assert_allclose(component, level @ turn, atol=1e-9)
+
+
+def test_reach_is_that_of_the_corner_of_the_component() -> None:
+    assert meshes(0.0).reach(0.0, 0.3) == pytest.approx(0.75)
+    turned = 1.2 * math.sin(0.2) + 0.45 * math.cos(0.2)
+    assert meshes(0.0).reach(0.2, 0.0) == pytest.approx(turned)
+    # nose up the trailing end is down, and a deflection upwards takes it away from the floor
+    assert meshes(0.0).reach(0.2, -0.5) == pytest.approx(turned + 0.5)
+
+
+def test_short_channel_is_refused() -> None:
+    short = OversetMesh(Channel(0.04, 4.0, 1.0, 15.0), 0.0, 1.0)
+    with pytest.raises(SolverError, match=r"flow\.channel: .* from -1\.2 c to 2\.4 c"):
+        short.block_mesh_dict()
+
+
+def test_moving_section_is_that_of_the_morphing_mesh(tmp_path: Path) -> None:
+    run = run_in(tmp_path)
+    run.write_motion(tmp_path)
+    run.write_system(tmp_path)
+    text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
+    for line in ("mass 40;", "momentOfInertia (1 1 3.35);", "stiffness 0.45;", "stiffness 3.22;"):
+        assert line in text
+    # the motion is read from the log, to which it is written only if asked for
+    assert "report yes;" in text
+    assert "nOuterCorrectors 3;" in (tmp_path / "system" / "fvSolution").read_text()
+    # GAMG ends with a fault on meshes that overlap
+    assert "GAMG" not in (tmp_path / "system" / "fvSolution").read_text()
+
+
+STEP = """
+Time = {time}
+
+6-DoF rigid body motion
+    Centre of rotation: (0 {early} 0)
+    Orientation: (1 0 0 -0 1 0 0 0 1)
+PIMPLE: iteration 2
+6-DoF rigid body motion
+    Centre of rotation: (0 {late} 0)
+    Centre of mass: (0 9 0)
+    Orientation: (0.8 0.6 0 -0.6 0.8 0 0 0 1)
+"""
+
+
+def log(folder: Path, *steps: tuple[float, float]) -> None:
+    text = "".join(STEP.format(time=time, early=late / 2, late=late) for time, late in steps)
+    (folder / "log.pimpleFoam").write_text(text)
+
+
+def test_motion_is_that_of_the_last_iteration_of_a_step(tmp_path: Path) -> None:
+    log(tmp_path, (0.02, 0.1), (0.04, 0.2))
+    motion = read_motion(tmp_path)
+    np.testing.assert_allclose(motion.time, [0.02, 0.04])
+    np.testing.assert_allclose(motion.deflection, [0.1, 0.2])
+    # turned by asin(0.6) about -z, which is nose up
+    np.testing.assert_allclose(motion.twist, math.asin(0.6))
+
+
+def test_steps_that_a_resumption_repeats_count_once(tmp_path: Path) -> None:
+    log(tmp_path, (1.98, 0.1), (2.0, 0.2), (2.02, 0.3), (2.04, 0.4), (2.02, 0.31))
+    motion = read_motion(tmp_path)
+    np.testing.assert_allclose(motion.time, [1.98, 2.0, 2.02])
+    np.testing.assert_allclose(motion.deflection, [0.1, 0.2, 0.31])
+
+
+def test_log_that_is_missing_or_without_motion_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(SolverError, match=r"log\.pimpleFoam: no motion"):
+        read_motion(tmp_path)
+    (tmp_path / "log.pimpleFoam").write_text("Time = 0.02\n")
+    with pytest.raises(SolverError, match=r"log\.pimpleFoam: no motion"):
+        read_motion(tmp_path)
+
+
+def openfoam(**section: Any) -> dict[str, Any]:
+    return {
+        "solver": "openfoam",
+        "sweep": {"models": ["2d"]},
+        "unsteady": {"time_step": 0.01},
+        "openfoam": section,
+    }
+
+
+def test_mesh_motion_is_part_of_a_case_only_where_it_is_not_morph() -> None:
+    """Kept results stand under the hashes of settings without it."""
+    morph = solver_from_config(load_config(openfoam(mesh_motion="morph")), "coarse").settings()
+    assert morph == {"mesh": "coarse", "outer_correctors": 3}
+    overset = solver_from_config(load_config(openfoam(mesh_motion="overset")), "coarse").settings()
+    assert overset == {**morph, "mesh_motion": "overset"}
+    assert Adapter.from_settings(overset).settings() == overset
+
+
+def test_papers_mesh_has_no_overset() -> None:
+    with pytest.raises(ConfigError, match=r"openfoam\.meshes\.a: 'paper': allowed are coarse"):
+        load_config(openfoam(meshes={"coarse": "coarse", "a": "paper"}, mesh_motion="overset"))

@@ -1,0 +1,73 @@
+"""The command `equisection polar`: a polar file from steady results."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.conftest import ROOT
+
+from equisection.aerodynamics.polar_file import read_polar
+from equisection.command_line import main
+from equisection.errors import ResultFileError
+from equisection.results.netcdf import write_dataset
+from equisection.results.polar_csv import polar_csv
+from equisection.results.steady import SteadyResult
+
+NOTHING = np.empty(0)
+
+
+def result(
+    folder: Path, incidence_deg: float, name: str = "", failure: str = "", mesh: str = "coarse"
+) -> Path:
+    """Write a steady result with a lift of a tenth of the incidence (deg)."""
+    value = np.nan if failure else incidence_deg / 10
+    made = SteadyResult(0.04, value, value / 8, NOTHING, NOTHING, NOTHING, "steady, 7", failure)
+    path = folder / f"{name or f'coarse_a{incidence_deg:g}'}.nc"
+    dataset = made.to_dataset().assign_attrs(
+        incidence_deg=incidence_deg, solver_description=f"made up ({mesh})"
+    )
+    write_dataset(path, dataset)
+    return path
+
+
+def test_polar_of_the_default_is_that_of_the_results_that_are_kept(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    kept = sorted((ROOT / "results/reference/paper-plate-openfoam/steady/2d").glob("coarse_a*.nc"))
+    assert main(["polar", *map(str, kept)]) == 0
+    written = (ROOT / "config/polars/plate_2d_11136.csv").read_text(encoding="utf-8")
+    assert capsys.readouterr().out == written
+
+
+def test_polar_is_read_back_in_order_without_what_failed(tmp_path: Path) -> None:
+    angles = (10.0, 0.0, 2.5, 5.0)
+    paths = [result(tmp_path, angle) for angle in angles]
+    text = polar_csv([*paths, result(tmp_path, 12.0, failure="the flow blew up")])
+    assert "# Left out: 12 deg, the flow blew up" in text
+    file = tmp_path / "polar.csv"
+    file.write_text(text, encoding="utf-8")
+    polar = read_polar(file, symmetric=False)
+    assert np.degrees(polar.incidence) == pytest.approx([0, 2.5, 5, 10])
+    assert polar.lift == pytest.approx([0, 0.25, 0.5, 1.0])
+    assert polar.moment == pytest.approx(polar.lift / 8)
+
+
+def test_results_that_make_no_polar_are_refused_by_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    one = result(tmp_path, 1.0)
+    fine = result(tmp_path, 2.0, "fine_a2", mesh="fine")
+    again = result(tmp_path, 1.0, "again")
+    unsteady = ROOT / "results/reference/paper-plate-openfoam/unsteady/2d/k5.nc"
+    for other, words in (
+        (fine, r"fine_a2\.nc.*made up \(fine\).*one mesh"),
+        (again, "of the same incidence"),
+        (unsteady, r"k5\.nc: no result of a steady case"),
+        (tmp_path / "none.nc", r"none\.nc: missing"),
+    ):
+        with pytest.raises(ResultFileError, match=words):
+            polar_csv([one, other])
+    assert main(["polar", str(one), str(fine)]) == 1
+    assert capsys.readouterr().err.startswith("error: ")

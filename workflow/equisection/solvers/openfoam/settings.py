@@ -1,0 +1,41 @@
+"""What decides a result of OpenFOAM beside the case's own physics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any
+
+from equisection.config.sections.openfoam import MORPH
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Mesh and coupling; no path, version or number of ranks, which decide nothing.
+
+    Attributes
+    ----------
+    mesh
+        Name of the mesh.
+    outer_correctors
+        Iterations of flow, loads and motion in each time step.
+    velocity_relaxation
+        Under-relaxation of the velocity in these iterations, for the free section; 1 is none.
+    mesh_motion
+        How the mesh follows the free section.
+    """
+
+    mesh: str
+    outer_correctors: int
+    velocity_relaxation: float = 1.0
+    mesh_motion: str = MORPH
+
+    def of_case(self) -> dict[str, Any]:
+        """Return what stands in a case: without what is as in cases from before there was a choice.
+
+        So a new choice leaves the hash of every case that does not take it.
+        """
+        return {
+            field.name: getattr(self, field.name)
+            for field in fields(self)
+            if getattr(self, field.name) != field.default
+        }
