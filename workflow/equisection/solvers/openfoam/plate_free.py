@@ -235,11 +235,13 @@ class PlateRun:
         if float(last) == 0.0:
             return ""
         program, ranks = "checkMesh", len(parts(self.folder))
+        log = self.folder / f"log.{program}"
+        log.unlink(missing_ok=True)  # what was said before is of another mesh
         run_program(
             self.installation, program, self.folder, arguments=("-latestTime",), ranks=ranks
         )
         try:
-            require_sound_mesh(self.folder / f"log.{program}")
+            require_sound_mesh(log)
         except SolverError as error:
             return f"; at {last} c/V {error}"
         return f"; at {last} c/V the mesh was sound"
