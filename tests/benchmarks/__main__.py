@@ -23,6 +23,7 @@ from tests.benchmarks import (  # noqa: E402
     many_cases,
     modes,
     openfoam,
+    plate,
 )
 from tests.benchmarks.measure import Row  # noqa: E402
 
@@ -33,6 +34,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
     "openfoam": openfoam.rows,
+    "plate": plate.rows,
 }
 
 

@@ -88,3 +88,30 @@ def test_drag_above_the_place_of_reference_turns_the_nose_up() -> None:
     """About a point that is higher by w the same drag turns less nose up, by w F_x."""
     loads = Handed.read(MESSAGE).about(np.array([0.5, 0.0]))
     np.testing.assert_allclose(loads.moments[:, 2], [0.03 + 0.05, -0.5])
+
+
+def test_mesh_that_asks_twice_is_told_apart_from_another_iteration() -> None:
+    """The second time the moments are about the points' new places; the forces are the same."""
+    first = Handed.read(MESSAGE)
+    again = first.about(np.array([0.1, 0.2]))
+    assert again.is_again(first)
+    assert not first.is_again(None)
+    assert not Handed(first.time + 0.02, first.forces, first.moments).is_again(first)
+    assert not Handed(first.time, 1.01 * first.forces, first.moments).is_again(first)
+
+
+def test_last_layer_moves_without_a_slope() -> None:
+    """What the mesh's points at its edges follow, linearly between the lumped points."""
+    at_edges = np.interp(EDGES, POINTS.locations, POINTS.bending[0])
+    assert at_edges[-1] == at_edges[-2]
+    assert at_edges[-2] > at_edges[-3]
+    exact = at_edges[-2] + np.diff(EDGES)[-1] * 1.3765 / 3.7
+    assert exact == pytest.approx(1.0, rel=1e-3)
+
+
+def test_loads_do_their_work_on_the_surface_as_it_moves() -> None:
+    """Uniform loads on a surface that is linear between the edges of the layers."""
+    work = POINTS.modal_loads(*handed(np.array(1.0), np.array(1.0))) * POINTS.inertia
+    shapes = np.concatenate([POINTS.torsion, POINTS.bending])
+    at_edges = np.array([np.interp(EDGES, POINTS.locations, shape) for shape in shapes])
+    assert work == pytest.approx(0.5 * np.trapezoid(at_edges, EDGES, axis=1))

@@ -38,7 +38,8 @@ class OpenFoam(Section):
     velocity_relaxation: Annotated[float, Field(gt=0, le=1, allow_inf_nan=False), NUMBER] = Field(
         1.0,
         description="Under-relaxation of the velocity in these iterations, for the free section "
-        "(-); 1 is none. With 0.9 and five of them they converge where the flow separates wholly.",
+        "and plate (-); 1 is none. With 0.9 and five of them they converge where the flow "
+        "separates wholly.",
     )
     mesh_motion: MeshMotion = Field(
         MORPH,

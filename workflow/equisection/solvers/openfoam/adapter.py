@@ -130,7 +130,8 @@ class Adapter:
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
-        return PlateFlow(installation, case, mesh, self._ranks, place).result(tell)
+        correctors, ranks = self._settings.outer_correctors, self._ranks
+        return PlateFlow(installation, case, mesh, correctors, ranks, place).result(tell)
 
     def run_unsteady(
         self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
@@ -173,8 +174,9 @@ class Adapter:
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
-        correctors, ranks = self._settings.outer_correctors, self._ranks
-        return PlateRun(installation, case, mesh, correctors, ranks, place).run(tell)
+        correctors, relaxation = self._settings.outer_correctors, self._settings.velocity_relaxation
+        run = PlateRun(installation, case, mesh, correctors, self._ranks, place, relaxation)
+        return run.run(tell)
 
 
 _NOTHING = np.empty(0)

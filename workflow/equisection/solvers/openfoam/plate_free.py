@@ -13,6 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
+from typing import IO
 
 import numpy as np
 
@@ -28,6 +29,7 @@ from equisection.solvers.openfoam.case_folder import (
     emptied,
     is_ready,
     mark_ready,
+    states,
 )
 from equisection.solvers.openfoam.dictionaries import write_system
 from equisection.solvers.openfoam.free import STATE_INTERVAL
@@ -36,6 +38,7 @@ from equisection.solvers.openfoam.loads import BEYOND_REASON
 from equisection.solvers.openfoam.lumped_points import (
     Handed,
     LumpedPoints,
+    motion_schemes,
     motion_solvers,
     write_lumped_motion,
 )
@@ -48,9 +51,15 @@ from equisection.solvers.openfoam.plate_history import (
 )
 from equisection.solvers.openfoam.plate_mesh import PlateMesh
 from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_control
-from equisection.solvers.openfoam.process import SILENCE, BlowUpError, Every, run_beside
+from equisection.solvers.openfoam.process import (
+    SILENCE,
+    BlowUpError,
+    Every,
+    run_beside,
+    run_program,
+)
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
-from equisection.solvers.openfoam.rigid import Tell
+from equisection.solvers.openfoam.rigid import Tell, require_sound_mesh
 from equisection.solvers.openfoam.spent import spent
 from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge, refused
 
@@ -80,6 +89,8 @@ class PlateRun:
         Ranks of MPI that a program runs on.
     work
         Where its folders are.
+    velocity_relaxation
+        Under-relaxation of the velocity in these iterations.
     """
 
     installation: Installation
@@ -88,6 +99,7 @@ class PlateRun:
     outer_correctors: int
     ranks: int
     work: Path
+    velocity_relaxation: float = 1.0
 
     @property
     def folder(self) -> Path:
@@ -146,7 +158,9 @@ class PlateRun:
             del done, total
             tell(0.0, case.duration)
 
-        rigid = PlateFlow(self.installation, case, self.mesh, self.ranks, self.work)
+        rigid = PlateFlow(
+            self.installation, case, self.mesh, self.outer_correctors, self.ranks, self.work
+        )
         source, _, converged = rigid.steady(nothing_yet)
         if not converged:
             logger.info("the steady flow does not converge; the release is from its last state")
@@ -162,9 +176,15 @@ class PlateRun:
             "pimpleFoam", case.duration, case.time_step, STATE_INTERVAL, self.mesh.span
         )
         entries["libs"] = ['"liblumpedPointMotion.so"']
-        solution = flow.solution(steady=False, outer_correctors=self.outer_correctors)
+        solution = flow.solution(
+            steady=False,
+            outer_correctors=self.outer_correctors,
+            velocity_relaxation=self.velocity_relaxation,
+        )
         solution["solvers"] |= motion_solvers()
-        write_system(self.folder, entries, flow.schemes(steady=False), solution)
+        schemes = flow.schemes(steady=False)
+        schemes["laplacianSchemes"] |= motion_schemes()
+        write_system(self.folder, entries, schemes, solution)
 
     def _last_common_state(self) -> float:
         """Return the time of the last state that is whole on all ranks; drop what is later."""
@@ -199,15 +219,30 @@ class PlateRun:
             pipes.close()
 
     def _where(self) -> str:
-        """Return when and how far out the plate was."""
+        """Return when and how far out the plate was, and whether its mesh was sound until then."""
         if not self.history_file.exists() or not self.history().time.size:
             return ""
         history = self.history()
         twist, deflection = self.points.tip(history.position[-1])
         return (
-            f"; flow or mesh broke down at {history.time[-1]:.4g} c/V, the tip's twist "
-            f"{math.degrees(twist):.3g} deg and its deflection {deflection:.3g} c"
+            f"; at {history.time[-1]:.4g} c/V the tip's twist was {math.degrees(twist):.3g} deg, "
+            f"its deflection {deflection:.3g} c{self._mesh_before()}"
         )
+
+    def _mesh_before(self) -> str:
+        """Return whether the last mesh that was written is sound."""
+        last = states(parts(self.folder)[0])[-1].name
+        if float(last) == 0.0:
+            return ""
+        program, ranks = "checkMesh", len(parts(self.folder))
+        run_program(
+            self.installation, program, self.folder, arguments=("-latestTime",), ranks=ranks
+        )
+        try:
+            require_sound_mesh(self.folder / f"log.{program}")
+        except SolverError as error:
+            return f"; at {last} c/V {error}"
+        return f"; at {last} c/V the mesh was sound"
 
     def tip_motion(self, history: PlateHistory) -> Motion:
         """Return the motion of the tip."""
@@ -241,27 +276,36 @@ class _Exchange:
     ) -> None:
         self._run, self._structure, self._pipes, self._tell = run, structure, pipes, tell
         self._due = Every(LOOKS_EVERY, start)
-        self._place = structure.proposed_position
-        self._resumed = self._place is not None
+        self._resumed = structure.proposed_position
+        self._last: Handed | None = None
+        self._answer = ""
 
     def __call__(self, alive: Alive, end: Callable[[], None]) -> None:
         """Serve the program until it has ended."""
         with self._run.history_file.open("a", encoding="ascii") as stream:
             while (message := self._pipes.receive(alive)) is not None:
                 handed = self._handed(message)
-                is_new_step = self._structure.is_new_step(handed.time)
-                loads = self._run.points.modal_loads(handed.forces, handed.moments)
-                self._require_reasonable(handed)
-                place = self._structure.turn(handed.time, loads)
-                if is_new_step:
-                    assert self._structure.state is not None
-                    coefficients = self._run.points.coefficients(handed.forces, handed.moments)
-                    add_row(stream, self._structure.state, *coefficients)
-                    if self._is_over(self._structure.state.time):
-                        end()
-                self._require_room(place, handed.time)
-                if not self._pipes.send(self._run.points.message(place), alive):
+                if not handed.is_again(self._last):
+                    self._last = handed
+                    self._answer = self._answer_to(handed, stream, end)
+                if not self._pipes.send(self._answer, alive):
                     break
+
+    def _answer_to(self, handed: Handed, stream: IO[str], end: Callable[[], None]) -> str:
+        """Return the places of the points under loads that are new."""
+        points, structure = self._run.points, self._structure
+        coefficients = points.coefficients(handed.forces, handed.moments)
+        if not max(map(abs, coefficients)) < BEYOND_REASON:
+            raise BlowUpError(f"C_L {coefficients[0]:.3g}, C_M {coefficients[1]:.3g}")
+        is_new_step = structure.is_new_step(handed.time)
+        place = structure.turn(handed.time, points.modal_loads(handed.forces, handed.moments))
+        if is_new_step:
+            assert structure.state is not None
+            add_row(stream, structure.state, *coefficients)
+            if self._is_over(structure.state.time):
+                end()
+        self._require_room(place, handed.time)
+        return points.message(place)
 
     def _handed(self, message: str) -> Handed:
         try:
@@ -271,15 +315,10 @@ class _Exchange:
                 f"{self._run.folder}: what lumpedPointMovement handed over is not in its plain "
                 f"form: {message[:200]!r}"
             ) from None
-        if self._resumed and self._place is not None:
-            handed = handed.about(self._run.points.deflection(self._place))
-        self._resumed = False
+        if self._resumed is not None:
+            handed = handed.about(self._run.points.deflection(self._resumed))
+            self._resumed = None
         return handed
-
-    def _require_reasonable(self, handed: Handed) -> None:
-        coefficients = self._run.points.coefficients(handed.forces, handed.moments)
-        if not max(map(abs, coefficients)) < BEYOND_REASON:
-            raise BlowUpError(f"C_L {coefficients[0]:.3g}, C_M {coefficients[1]:.3g}")
 
     def _require_room(self, place: np.ndarray, time: float) -> None:
         twist, deflection = self._run.points.tip(place)
