@@ -17,7 +17,7 @@ def run_beyond_its_polar(tmp_path_factory: pytest.TempPathFactory) -> Project:
     config = small(
         embedded={"polars": {"short": POLAR}},
         steady={"resolution": "short", "incidence_deg": [0.0, 1.0, 2.0, 2.5, 3.0, 5.0]},
-        sweep={"k_star": [0.5, 6.0, 40.0]},
+        sweep={"k_star": [1.0, 6.0, 40.0]},
     )
     project = Project.fresh(tmp_path_factory.mktemp("failed") / "project", config)
     lines = (project.folder / "config" / "polars" / "plate_2d_11136.csv").read_text().splitlines()
@@ -35,7 +35,7 @@ def summary(run_beyond_its_polar: Project) -> pd.DataFrame:
 
 @pytest.mark.parametrize("model", ["2d", "2d-corrected", "3d"])
 def test_case_beyond_its_polar_has_failed_and_says_why(model: str, summary: pd.DataFrame) -> None:
-    row = summary.loc[model, 0.5]
+    row = summary.loc[model, 1.0]
     assert row["regime"] == "failed"
     assert "polar" in row["reason"]
     assert pd.isna(row["mean_twist_deg"])
