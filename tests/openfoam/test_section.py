@@ -14,7 +14,7 @@ from scipy.optimize import minimize_scalar
 from tests.sample_cases import STEADY, UNSTEADY
 
 from equisection.cases import SectionProperties, UnsteadyCase
-from equisection.solvers.openfoam.free import SectionRun, read_section
+from equisection.solvers.openfoam.free import SectionRun
 from equisection.solvers.openfoam.histories import read_history
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.rigid import (
@@ -24,6 +24,7 @@ from equisection.solvers.openfoam.rigid import (
     run_steady,
     unsteady_mean,
 )
+from equisection.solvers.openfoam.section_history import read_section
 
 #: Coarser than any preset, about 4,000 cells: for what does not depend on the mesh.
 VERY_COARSE = 0.6

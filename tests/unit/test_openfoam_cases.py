@@ -21,8 +21,8 @@ from equisection.solvers.openfoam.case_folder import (
 )
 from equisection.solvers.openfoam.dictionaries import control, dictionary
 from equisection.solvers.openfoam.flow import reynolds_number, solution, write_flow
-from equisection.solvers.openfoam.free import read_section
 from equisection.solvers.openfoam.rigid import mesh_of, require_sound_mesh
+from equisection.solvers.openfoam.section_history import read_section
 from equisection.solvers.openfoam.section_motion import write_motion
 from equisection.solvers.registry import SOLVERS, check_provided, solver_from_config
 

@@ -27,7 +27,7 @@ from equisection.errors import SolverError
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.job import run_cases
 from equisection.solvers.openfoam.adapter import Adapter
-from equisection.solvers.openfoam.free import read_section
+from equisection.solvers.openfoam.section_history import read_section
 
 STAND_IN = f"{sys.executable} {ROOT / 'tests' / 'openfoam_stand_in.py'}"
 SOLVER = SolverBlock(

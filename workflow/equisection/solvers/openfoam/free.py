@@ -8,13 +8,11 @@ from __future__ import annotations
 import json
 import logging
 import math
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from equisection.cases import SectionProperties, UnsteadyCase
 from equisection.errors import SolverError
@@ -32,17 +30,13 @@ from equisection.solvers.openfoam.case_folder import (
 )
 from equisection.solvers.openfoam.dictionaries import control, write_system
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.loads import Loads, read_loads, reasonable, require_reasonable
+from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
 from equisection.solvers.openfoam.mesh import Mesh
 from equisection.solvers.openfoam.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.rigid import WINDOW, Tell, run_steady
-from equisection.solvers.openfoam.section_motion import (
-    Motion,
-    motion_output,
-    read_motion,
-    write_motion,
-)
+from equisection.solvers.openfoam.section_history import SectionHistory, read_section
+from equisection.solvers.openfoam.section_motion import motion_output, write_motion
 from equisection.solvers.openfoam.spent import spent
 from equisection.solvers.verdicts import LOOKS_EVERY, is_decided, judge, refused
 
@@ -52,42 +46,6 @@ logger = logging.getLogger(__name__)
 STATE_INTERVAL = 2.0
 #: Loads of the rigid section at the release, beside the run that starts from them.
 _AT_RELEASE = "release.json"
-
-Floats = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class SectionHistory:
-    """Motion and loads of the section over convective time, shape (n,).
-
-    Attributes
-    ----------
-    time
-        s (c/V).
-    twist, deflection
-        Nose up (rad); up (chords).
-    lift, moment
-        c_l, and c_m about the moving mid-chord.
-    """
-
-    time: Floats
-    twist: Floats
-    deflection: Floats
-    lift: Floats
-    moment: Floats
-
-    def sampled(self, step: float, interval: float, end: float = math.inf) -> SectionHistory:
-        """Return the samples up to an end at multiples of an interval, which is one of the step."""
-        every = round(interval / step)
-        kept = np.rint(self.time / step).astype(int) % every == 0
-        kept &= self.time < end + 0.5 * step
-        return SectionHistory(
-            self.time[kept],
-            self.twist[kept],
-            self.deflection[kept],
-            self.lift[kept],
-            self.moment[kept],
-        )
 
 
 @dataclass(frozen=True)
@@ -239,69 +197,6 @@ class SectionRun:
         _, lift, moment = loads.last(WINDOW // 3).means()
         write_text(folder / _AT_RELEASE, json.dumps({"lift": lift, "moment": moment}))
         mark_ready(folder)
-
-
-def read_section(
-    folder: Path,
-    loads: Loads | None = None,
-    motion_of: Callable[[Path], Motion] = read_motion,
-) -> SectionHistory:
-    """Return the history of a free run so far.
-
-    Parameters
-    ----------
-    folder
-        Folder of the run.
-    loads
-        Its loads, if they are read already.
-    motion_of
-        Reads its motion from where it stands.
-
-    Raises
-    ------
-    SolverError
-        A file is missing or of an unknown layout, or steps are missing in it.
-    """
-    loads = read_loads(folder) if loads is None else loads
-    loads = loads.first(reasonable(loads))
-    motion = motion_of(folder)
-    # either file may have a row that the other does not have yet
-    _, one, other = np.intersect1d(
-        _steps(loads.time), _steps(motion.time), return_indices=True, assume_unique=True
-    )
-    _require_every_step(loads.time[one], folder)
-    deflection = motion.deflection[other]
-    return SectionHistory(
-        time=loads.time[one],
-        twist=motion.twist[other],
-        deflection=deflection,
-        lift=loads.lift[one],
-        moment=_about_moving_centre(loads, one, deflection),
-    )
-
-
-def _steps(time: Floats) -> NDArray[np.int64]:
-    """Return times as whole numbers, by which two files agree."""
-    return np.rint(time * 1e7).astype(np.int64)
-
-
-def _require_every_step(time: Floats, folder: Path) -> None:
-    """Refuse a history that a full disk, or a hand, has left with a gap."""
-    steps = np.diff(_steps(time))
-    if steps.size and steps.max() > 1.5 * np.median(steps):
-        gap = int(steps.argmax())
-        raise SolverError(
-            f"{folder / 'postProcessing'}: steps are missing between {time[gap]:g} and "
-            f"{time[gap + 1]:g} c/V; delete {folder} and run again"
-        )
-
-
-def _about_moving_centre(loads: Loads, rows: NDArray[np.intp], deflection: Floats) -> Floats:
-    """Return c_m about mid-chord at w/c from that about the centre at rest.
-
-    c_m(w) = c_m(0) - (w/c) c_d: drag above the centre at rest turns the nose up about that.
-    """
-    return loads.moment[rows] - deflection * loads.drag[rows]
 
 
 def _tip(section: SectionProperties | None, history: SectionHistory) -> verdicts.Motion:
