@@ -27,7 +27,7 @@ from equisection.solvers.openfoam.loads import read_loads
 from equisection.solvers.openfoam.plate_free import PlateRun
 from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of
 
-#: Coarser than any preset, 13,192 cells.
+#: Coarser than any preset, 15,128 cells.
 VERY_COARSE = 0.3
 
 

@@ -27,7 +27,7 @@ def plate_mesh(refinement: float = 0.55, gap: float = 0.3) -> PlateMesh:
 )
 def test_presets_have_about_as_many_cells_as_they_are_to_have(name: str, cells: float) -> None:
     preset = PRESETS[name]
-    assert preset.plate_cells == pytest.approx(cells, rel=0.05)
+    assert preset.plate_cells == pytest.approx(cells, rel=0.07)
     assert plate_mesh(preset.plate).cells == preset.plate_cells
 
 
@@ -35,10 +35,12 @@ def test_layers_along_the_plate_grow_evenly_from_the_tip_to_the_root() -> None:
     edges = plate_mesh().edges()
     sizes = np.diff(edges)
     assert (edges[0], edges[-1]) == (0.0, pytest.approx(3.7))
-    np.testing.assert_allclose(sizes[:-1] / sizes[1:], (sizes[0] / sizes[-1]) ** (1 / 17))
-    assert sizes[-1] < 0.1 < sizes[0]
+    even = (sizes[0] / sizes[-1]) ** (1 / (sizes.size - 1))
+    np.testing.assert_allclose(sizes[:-1] / sizes[1:], even)
+    assert sizes[-1] < 0.12
+    assert sizes[0] > 0.2
     # across the gap the layers go on in the size of those at the tip
-    assert sizes[-1] == pytest.approx(0.3 / 5, rel=0.6)
+    assert sizes[-1] == pytest.approx(0.3 / 4, rel=0.6)
 
 
 def test_refined_mesh_is_similar() -> None:

@@ -21,6 +21,7 @@ import itertools
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,7 @@ _COLUMNS, _ROWS = (8, 20, 56, 30, 22), (6, 32, 10, 32, 6)
 #: First cells of the coarse mesh (chords): at the walls, at the plate's edges along it, ahead of
 #: and behind these, and across the plate's thickness as a part of it.
 _AT_WALL, _AT_EDGE, _OFF_EDGE, _ACROSS = 3e-4, 2.5e-3, 1.2e-3, 0.04
+_AT_PLATE = 1e-3
 
 #: Points where the lines cross (6, 6, 2), block, and line of the other direction: the grading.
 Grading = Callable[[NDArray[np.float64], int, int], str]
@@ -219,7 +221,7 @@ def _along(points: NDArray[np.float64], i: int, line: int) -> str:
     return f"{expansion(length, _COLUMNS[4], near):.8g}"
 
 
-def _across(points: NDArray[np.float64], line: int, j: int) -> str:
+def _across(points: NDArray[np.float64], line: int, j: int, at_wall: float = _AT_WALL) -> str:
     """Return the grading of row ``j`` on a line of x: fine at the plate, relaxed away from it."""
     length = math.dist(points[line, j], points[line, j + 1])
     if j in (0, 4):
@@ -229,7 +231,7 @@ def _across(points: NDArray[np.float64], line: int, j: int) -> str:
         if line in (2, 3):
             return both_ends(expansion(0.5, _ROWS[2] // 2, _ACROSS))
         return "1"
-    first = {0: 1.2e-2, 1: 3e-3, 2: _AT_WALL, 3: _AT_WALL, 4: 4e-3, 5: 1.2e-2}[line]
+    first = {0: 1.2e-2, 1: 3e-3, 2: at_wall, 3: at_wall, 4: 4e-3, 5: 1.2e-2}[line]
     ratio = expansion(length, _ROWS[j], first)
     return f"{1 / ratio if j == 1 else ratio:.8g}"
 
@@ -241,6 +243,9 @@ def both_ends(ratio: float) -> str:
 
 #: The spacing of the meshes of a grid study: sizes that grow geometrically over each block.
 SIMILAR: Spacing = Spacing(_COLUMNS, _ROWS, _along, _across)
+#: The same with thicker cells at the wall, of the plate's meshes: cells that are long along the
+#: span and thin as well are what a moving mesh breaks on.
+OF_PLATE: Spacing = Spacing(_COLUMNS, _ROWS, _along, partial(_across, at_wall=_AT_PLATE))
 
 
 def blocks_around_plate() -> Iterator[tuple[int, int]]:

@@ -33,7 +33,7 @@ from equisection.solvers.openfoam.mesh import (
 #: The channel's walls, with the patch type of each; in the plane there is ``sides`` instead.
 SIDE_WALLS = {"root_wall": "symmetryPlane", "far_wall": "symmetryPlane"}
 #: Cells along the plate and across the gap at refinement 1, and the size of those at the tip.
-_ALONG, _GAP, _AT_TIP = 33, 9, 1 / 20  # chords
+_ALONG, _GAP, _AT_TIP = 44, 8, 1 / 16  # chords
 
 
 @dataclass(frozen=True)

@@ -28,7 +28,7 @@ from equisection.solvers.openfoam.dictionaries import (
 )
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
-from equisection.solvers.openfoam.mesh import SIMILAR, Spacing
+from equisection.solvers.openfoam.mesh import OF_PLATE, Spacing
 from equisection.solvers.openfoam.plate_mesh import SIDE_WALLS, PlateMesh
 from equisection.solvers.openfoam.process import Every, run_program
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, divide, parts
@@ -54,7 +54,7 @@ STEP, DISCARDED, SHORTEST, LONGEST = 0.02, 10.0, 20.0, 60.0
 
 
 def plate_mesh_of(
-    case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = SIMILAR
+    case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = OF_PLATE
 ) -> PlateMesh:
     """Return the mesh of a case of the plate.
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from equisection.solvers.openfoam.mesh import SIMILAR, Spacing
+from equisection.solvers.openfoam.mesh import OF_PLATE, SIMILAR, Spacing
 from equisection.solvers.openfoam.paper_spacing import PAPER
 from equisection.solvers.openfoam.plate_mesh import plate_cells
 
@@ -27,7 +27,7 @@ class Preset:
     @property
     def plate_cells(self) -> int:
         """Number of cells of the plate's mesh, with a gap between tip and wall."""
-        return plate_cells(SIMILAR, self.plate)
+        return plate_cells(OF_PLATE, self.plate)
 
     @property
     def is_similar(self) -> bool:
@@ -37,8 +37,8 @@ class Preset:
 
 #: About 1e4, 2e4 and 6e4 cells, and the paper's cell sizes; of the plate 8e4, 3e5, 1e6 and 5e6.
 PRESETS: Mapping[str, Preset] = {
-    "coarse": Preset(1.0, plate=0.55),
-    "medium": Preset(math.sqrt(2.0), plate=0.85),
-    "fine": Preset(math.sqrt(5.0), plate=1.27),
-    "paper": Preset(1.0, PAPER, plate=2.2),
+    "coarse": Preset(1.0, plate=0.52),
+    "medium": Preset(math.sqrt(2.0), plate=0.81),
+    "fine": Preset(math.sqrt(5.0), plate=1.19),
+    "paper": Preset(1.0, PAPER, plate=2.05),
 }
