@@ -24,8 +24,9 @@ from equisection.files import write_text
 #: Significant digits of a number in a case. Eigenvectors differ in the last digits from one
 #: machine to the next; more digits would ask for new runs without a new case.
 SIGNIFICANT_DIGITS = 8
-#: Relative difference of two numbers up to which they ask for the same.
-ALIKE = 1e-6
+#: Relative difference of two numbers up to which they ask for the same: a fifth of what the loads
+#: of a converged steady run, and with them the factors of a correction, are known to.
+ALIKE = 1e-4
 #: What decides the end of an unsteady case, and nothing before it.
 ENDS = {"criteria", "duration"}
 
@@ -53,11 +54,11 @@ def history_hash(case: UnsteadyCase) -> str:
 
 
 def are_alike(one: Any, other: Any, tolerance: float = ALIKE) -> bool:
-    """Tell whether two cases, as what JSON holds, ask for the same but for rounding.
+    """Tell whether two cases, as what JSON holds, ask for the same but for what is not known.
 
     Numbers may differ by a part of their size, those of a list by that part of its largest: on
-    the way from one machine to the next the last digits of eigenvectors change, and with them now
-    and then a digit that a hash sees.
+    the way from one machine to the next the last digits of eigenvectors change, and the iteration
+    at which a steady run is found to have converged.
     """
     if isinstance(one, dict) and isinstance(other, dict):
         return one.keys() == other.keys() and all(

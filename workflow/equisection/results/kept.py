@@ -42,11 +42,11 @@ class Kept:
         return found
 
     def is_of(self, case: Case) -> bool:
-        """Tell whether the case that it is of differs from this one by rounding alone."""
+        """Tell whether the case that it is of differs from this one by what is not known alone."""
         return are_alike(self.case, json.loads(canonical(case)))
 
     def has_history_of(self, case: UnsteadyCase) -> bool:
-        """Tell whether it differs from a case by rounding and by what ends it alone."""
+        """Tell whether it differs from a case by that and by what ends it alone."""
         return are_alike(_without_end(self.case), _without_end(json.loads(canonical(case))))
 
 

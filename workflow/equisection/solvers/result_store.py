@@ -113,7 +113,7 @@ class ResultStore:
         return attributes
 
     def take(self, task: Task, kept: Sequence[Kept]) -> dict[str, Any] | None:
-        """Take a kept result of a case, or of one that differs by rounding; its attributes."""
+        """Take a kept result of a case, or of one that is alike; its attributes."""
         for one in kept:
             if one.attributes["case_hash"] == task.hash:
                 logger.info("taken from %s, where it is kept", one.path)
@@ -124,7 +124,7 @@ class ResultStore:
         if not runs_batches(task.case):
             for one in kept:
                 if one.is_of(task.case):
-                    logger.info("taken from %s, whose case differs by rounding alone", one.path)
+                    logger.info("taken from %s, whose case is alike", one.path)
                     return self.put(task, read_dataset(one.path))
         return None
 
