@@ -14,8 +14,8 @@ import yaml
 from equisection.cases import Criteria, UnsteadyCase
 from equisection.config import load_config
 from equisection.results.netcdf import read_dataset
-from equisection.solvers.judged_again import judged_again
-from equisection.solvers.verdicts import Motion, judge
+from equisection.solvers.judged_again import judged_again, tip_motion
+from equisection.solvers.verdicts import judge
 from tests.benchmarks.measure import Row
 from tests.workflow.project import ROOT
 
@@ -37,7 +37,7 @@ def rows() -> Iterator[Row]:
         case = case_of(known).model_copy(update=wanted)
         early = judged_again(case, known)
         ends.append(case.duration if early is None else float(early.attrs["end_time"]))
-        late = judge(case, _motion(known))["regime"]
+        late = judge(case, tip_motion(known))["regime"]
         if early is not None and early.attrs["regime"] != late:
             others.append(f"{_name(path)} {early.attrs['regime']} then {late}")
     saved = 100 * (1 - sum(ends) / (len(paths) * unsteady.duration))
@@ -58,10 +58,6 @@ def rows() -> Iterator[Row]:
 def case_of(known: xr.Dataset) -> UnsteadyCase:
     """Return the case that a result is of."""
     return UnsteadyCase.model_validate_json(known.attrs["case"])
-
-
-def _motion(known: xr.Dataset) -> Motion:
-    return Motion(known["time"].values, known["tip_twist"].values, known["tip_deflection"].values)
 
 
 def _name(path: Path) -> str:

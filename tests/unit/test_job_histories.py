@@ -67,7 +67,7 @@ class Adapter:
 def motion(end: float) -> Motion:
     time = np.arange(round(end / STEP) + 1) * STEP
     twist = 0.01 * np.exp(DECAY * time) * np.cos(2 * np.pi * time / PERIOD)
-    return Motion(time, twist, np.zeros_like(time))
+    return Motion(time, twist, 0.3 + 2.0 * twist)
 
 
 def case(duration: float = 300.0, **criteria: float) -> UnsteadyCase:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import xarray as xr
 
@@ -33,9 +35,9 @@ def judged_again(case: UnsteadyCase, known: xr.Dataset) -> xr.Dataset | None:
     time = known["time"].values
     last = float(time[-1]) if time.size else 0.0
     for look in np.arange(LOOKS_EVERY, min(last, case.duration), LOOKS_EVERY):
-        if is_decided(case, _motion(known, float(look))):
+        if is_decided(case, tip_motion(known, float(look))):
             return _cut(case, known, float(look))
-    if is_decided(case, _motion(known, case.duration)) or last >= _last_sample(case):
+    if is_decided(case, tip_motion(known, case.duration)) or last >= _last_sample(case):
         return _cut(case, known, case.duration)
     return None
 
@@ -49,9 +51,11 @@ def _upto(known: xr.Dataset, end: float) -> xr.Dataset:
     return known.sel(time=slice(None, end * (1 + 1e-9)))
 
 
-def _motion(known: xr.Dataset, end: float) -> Motion:
+def tip_motion(known: xr.Dataset, end: float = math.inf) -> Motion:
+    """Return the motion of the tip up to a time (c/V), in chords where the file has metres."""
     part = _upto(known, end)
-    return Motion(part["time"].values, part["tip_twist"].values, part["tip_deflection"].values)
+    deflection = part["tip_deflection"].values / float(known.attrs["chord"])
+    return Motion(part["time"].values, part["tip_twist"].values, deflection)
 
 
 def _cut(case: UnsteadyCase, known: xr.Dataset, end: float) -> xr.Dataset:
@@ -59,7 +63,7 @@ def _cut(case: UnsteadyCase, known: xr.Dataset, end: float) -> xr.Dataset:
     length = float(part["time"].values[-1])
     share = length / float(known["time"].values[-1])
     return part.assign_attrs(
-        judge(case, _motion(known, end)),
+        judge(case, tip_motion(known, end)),
         end_time=length,
         **{name: share * float(known.attrs[name]) for name in _COSTS},
     )
