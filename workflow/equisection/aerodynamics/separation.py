@@ -105,8 +105,8 @@ class Branches:
 
 
 IDENTIFIED_LAGS = SeparationLags(
-    relaxation=2.66,
-    delay=0.65,
+    relaxation=2.64,
+    delay=0.64,
     lift_lag=0.54,
     provenance=(
         "identified from the loads of two free releases of the plate (h = 0.04 c, sharp edges, "
