@@ -22,6 +22,9 @@ from equisection.structure.plate import Plate
 
 Floats = NDArray[np.float64]
 
+#: s of the shifted eigenvalue problem, of the size of the lowest lambda (-).
+_SHIFT = 1.0
+
 
 def _curvature(u: Any, v: Any, _: Any) -> Any:
     return ddot(dd(u), dd(v))
@@ -81,13 +84,20 @@ def torsion_modes(plate: Plate, elements: int, count: int) -> tuple[Floats, Floa
 
 
 def _lowest(stiffness: Floats, mass: Floats, held: list[int], count: int) -> tuple[Floats, Floats]:
-    """Lowest eigenpairs with some unknowns held at zero; vectors (unknown, mode)."""
+    """Lowest eigenpairs with some unknowns held at zero; vectors (unknown, mode).
+
+    Of M x = mu (K + s M) x the largest, mu = 1/(lambda + s): their rounding is a part of
+    themselves, while that of the lowest lambda of K x = lambda M x is a part of the highest.
+    """
     free = np.setdiff1d(np.arange(len(stiffness)), held)
     count = min(count, len(free))
     block = np.ix_(free, free)
-    eigenvalue, reduced = eigh(stiffness[block], mass[block], subset_by_index=[0, count - 1])
+    largest = [len(free) - count, len(free) - 1]
+    shifted = stiffness[block] + _SHIFT * mass[block]
+    inverse, reduced = eigh(mass[block], shifted, subset_by_index=largest)
+    eigenvalue = 1.0 / inverse[::-1] - _SHIFT
     vector = np.zeros((len(stiffness), count))
-    vector[free] = reduced
+    vector[free] = reduced[:, ::-1]
     # A rigid motion comes out as rounding of either sign about zero.
     return np.where(eigenvalue > 1e-8, eigenvalue, 0.0), vector
 
