@@ -63,7 +63,8 @@ def test_work_that_is_missing_is_seen() -> None:
 
 @pytest.mark.parametrize("k_star", ["6.44", "8.5", "10", "14", "21"])
 def test_work_of_the_air_is_the_change_of_energy(k_star: str) -> None:
-    known = read_dataset(KEPT / "2d" / f"k{k_star}.nc")
+    """Over 100 c/V; later cycles at 6.44 exchange next to nothing (docs/openfoam.md)."""
+    known = read_dataset(KEPT / "2d" / f"k{k_star}.nc").sel(time=slice(None, 100.0))
     case = case_of(known)
     assert case.section is not None
     found = cycles(case.section, known)
