@@ -23,7 +23,7 @@ from equisection.solvers.openfoam.dictionaries import (
 )
 from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.mesh_quality import MorphingMesh
-from equisection.solvers.openfoam.rigid import make_mesh, mesh_of
+from equisection.solvers.openfoam.section_rigid import make_mesh, mesh_of
 from tests.sample_cases import STEADY
 
 TWIST_DEG = (-20.0, -8.0, 0.0, 8.0, 20.0, 30.0)
@@ -36,7 +36,7 @@ def mesh_at_rest(installation: Installation, folder: Path, refinement: float = 1
     mesh = mesh_of(STEADY, refinement)
     write_mesh_dictionary(folder, mesh)
     entries = control("pimpleFoam", 1.0, 1.0, 1.0)
-    write_system(folder, entries, flow.schemes(steady=False), flow.solution(steady=False))
+    write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution())
     make_mesh(installation, folder)
     return MorphingMesh(installation, folder, mesh.channel.height)
 

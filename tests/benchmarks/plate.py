@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from equisection.solvers.openfoam import plate_free
+from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.installation import find
 from equisection.solvers.openfoam.pipes import Alive, Pipes
 from equisection.solvers.openfoam.plate_free import PlateRun
@@ -14,7 +15,7 @@ from equisection.solvers.openfoam.presets import PRESETS
 from tests.benchmarks.measure import Row, limit
 from tests.sample_cases import UNSTEADY_PLATE, beam_modes
 
-STEPS, CORRECTORS = 50, 1
+STEPS, STEP, COUPLING = 50, 0.04, Coupling(2, 0.98)
 
 
 class TimedPipes(Pipes):
@@ -36,13 +37,12 @@ class TimedPipes(Pipes):
 
 def rows() -> Iterator[Row]:
     """Release the plate with four modes of each kind, and follow it for some steps."""
-    step = 0.02
     case = UNSTEADY_PLATE.model_copy(
         update={
             "beam": beam_modes(6.44 / 19.91, modes=4),
-            "duration": STEPS * step,
-            "time_step": step,
-            "output_interval": step,
+            "duration": STEPS * STEP,
+            "time_step": STEP,
+            "output_interval": STEP,
         }
     )
     plate_free.Pipes = TimedPipes  # type: ignore[misc]
@@ -50,7 +50,7 @@ def rows() -> Iterator[Row]:
     for ranks in (1, 2):
         with tempfile.TemporaryDirectory() as folder:
             mesh = plate_mesh_of(case, PRESETS["coarse"].plate)
-            run = PlateRun(find(), case, mesh, CORRECTORS, ranks, Path(folder))
+            run = PlateRun(find(), case, mesh, COUPLING, ranks, Path(folder))
             started: list[float] = []
 
             def tell(now: float, end: float, seen: list[float] = started) -> None:

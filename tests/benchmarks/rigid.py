@@ -1,6 +1,7 @@
 """Whether steady solver and unsteady mean agree on the rigid section, where both can be had.
 
     python -m tests.benchmarks.rigid [mesh] [incidence in deg] [--outer-correctors N]
+        [--velocity-relaxation R]
 
 The section of `config/openfoam.yaml` runs steadily, and goes on unsteadily from there as it does
 where the steady solver does not converge, or with other outer correctors. Beside the coefficients
@@ -18,9 +19,10 @@ from equisection.assemble import steady_case
 from equisection.cases import SteadyCase
 from equisection.config import load_config
 from equisection.results.surface import suction_side
+from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.installation import find
 from equisection.solvers.openfoam.presets import PRESETS
-from equisection.solvers.openfoam.rigid import (
+from equisection.solvers.openfoam.section_rigid import (
     RigidLoads,
     mesh_of,
     run_steady,
@@ -59,7 +61,7 @@ def table(loads: dict[str, RigidLoads], incidence_deg: float) -> pd.DataFrame:
     return found
 
 
-def main(mesh_name: str, incidence_deg: float, outer_correctors: int) -> None:
+def main(mesh_name: str, incidence_deg: float, coupling: Coupling) -> None:
     """Run the section both ways and print the table."""
     case, preset = section(incidence_deg), PRESETS[mesh_name]
     mesh = mesh_of(case, preset.refinement, preset.spacing)
@@ -69,14 +71,9 @@ def main(mesh_name: str, incidence_deg: float, outer_correctors: int) -> None:
         raise SystemExit(f"the steady solver does not converge at {incidence_deg:g} deg")
     loads = {
         "steady": steady_mean(find(), folder, history, mesh),
-        "unsteady": unsteady_mean(
-            find(), folder, mesh, work, _nothing, outer_correctors=outer_correctors
-        ),
+        "unsteady": unsteady_mean(find(), folder, mesh, work, _nothing, coupling=coupling),
     }
-    print(
-        f"{mesh_name}, {mesh.cells} cells, {incidence_deg:g} deg, "
-        f"{outer_correctors} outer correctors"
-    )
+    print(f"{mesh_name}, {mesh.cells} cells, {incidence_deg:g} deg, {coupling}")
     print("; ".join(this.method for this in loads.values()))
     print(table(loads, incidence_deg).to_string(float_format="%.4g", na_rep=""))
 
@@ -89,6 +86,11 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.rigid")
     parser.add_argument("mesh", nargs="?", default="medium", choices=sorted(PRESETS))
     parser.add_argument("incidence_deg", nargs="?", type=float, default=2.5)
-    parser.add_argument("--outer-correctors", type=int, default=3)
+    parser.add_argument("--outer-correctors", type=int, default=8)
+    parser.add_argument("--velocity-relaxation", type=float, default=0.95)
     chosen = parser.parse_args()
-    main(chosen.mesh, chosen.incidence_deg, chosen.outer_correctors)
+    main(
+        chosen.mesh,
+        chosen.incidence_deg,
+        Coupling(chosen.outer_correctors, chosen.velocity_relaxation),
+    )

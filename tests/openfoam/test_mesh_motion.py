@@ -15,10 +15,11 @@ from tests.sample_cases import STEADY, UNSTEADY
 
 from equisection.cases import UnsteadyCase
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.openfoam.free import SectionRun
+from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.overset import OversetRun
-from equisection.solvers.openfoam.rigid import WINDOW, mesh_of
+from equisection.solvers.openfoam.section_free import SectionRun
+from equisection.solvers.openfoam.section_rigid import WINDOW, mesh_of
 
 #: Coarser than any preset, about 5,000 cells: for what does not depend on the mesh.
 VERY_COARSE = 0.6
@@ -69,7 +70,9 @@ def test_mesh_that_tangles_is_the_reason_of_the_failure(
     installation: Installation, tmp_path: Path
 ) -> None:
     case = soft(8.0)
-    result = SectionRun(installation, case, mesh_of(case, VERY_COARSE), 2, tmp_path).run(nothing)
+    result = SectionRun(installation, case, mesh_of(case, VERY_COARSE), Coupling(), tmp_path).run(
+        nothing
+    )
     assert result.verdict["regime"] == "failed"
     reason = result.verdict["reason"]
     assert f"after {result.time[-1]:g} c/V, at a twist of " in reason
@@ -81,7 +84,7 @@ def test_rigid_loads_agree_with_those_of_the_one_mesh(
     installation: Installation, tmp_path: Path
 ) -> None:
     """On 11,136 cells without overlap c_l 0.380, c_m 0.0756, c_d 0.0575; here 12,808."""
-    run = OversetRun(installation, UNSTEADY, mesh_of(STEADY, 1.0), 3, tmp_path)
+    run = OversetRun(installation, UNSTEADY, mesh_of(STEADY, 1.0), Coupling(), tmp_path)
     _, loads, converged = run.steady(nothing)
     drag, lift, moment = loads.last(WINDOW // 3).means()
     assert converged
@@ -131,7 +134,7 @@ def test_overset_run_that_was_killed_goes_on_without_a_jump(
     """From the same steady flow; a kill after 3 c/V goes back to the state at 2 c/V."""
     run, _ = whole
     case = run.case.model_copy(update={"duration": 4.0})
-    again = OversetRun(installation, case, run.mesh, run.outer_correctors, tmp_path)
+    again = OversetRun(installation, case, run.mesh, run.coupling, tmp_path)
     shutil.copytree(run.work, tmp_path, dirs_exist_ok=True)
     for path in [*again.folder.glob("[1-9]*"), again.folder / "postProcessing"]:
         shutil.rmtree(path)

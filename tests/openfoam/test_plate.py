@@ -22,6 +22,7 @@ from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.openfoam import plate_free, plate_rigid
+from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import read_loads
 from equisection.solvers.openfoam.plate_free import PlateRun
@@ -29,6 +30,7 @@ from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of
 
 #: Coarser than any preset, 15,128 cells.
 VERY_COARSE = 0.3
+COUPLING = Coupling(2, 0.98)
 
 
 def nothing(done: float, total: float) -> None:
@@ -39,7 +41,7 @@ def rigid(
     installation: Installation, work: Path, incidence_deg: float = 2.5, ranks: int = 1
 ) -> PlateFlow:
     case = STEADY_PLATE.model_copy(update={"incidence_deg": incidence_deg})
-    return PlateFlow(installation, case, plate_mesh_of(case, VERY_COARSE), 1, ranks, work)
+    return PlateFlow(installation, case, plate_mesh_of(case, VERY_COARSE), COUPLING, ranks, work)
 
 
 @pytest.fixture(scope="module")
@@ -92,7 +94,7 @@ def free(duration: float, k_star: float = 6.44, mass: float = 1.0) -> UnsteadyCa
 def run_of(installation: Installation, case: UnsteadyCase, work: Path, steady: Path) -> PlateRun:
     """Return a run that starts from the rigid steady flow, which is the same for all."""
     shutil.copytree(steady, work, dirs_exist_ok=True)
-    return PlateRun(installation, case, plate_mesh_of(case, VERY_COARSE), 1, 1, work)
+    return PlateRun(installation, case, plate_mesh_of(case, VERY_COARSE), COUPLING, 1, work)
 
 
 @pytest.fixture
@@ -220,7 +222,7 @@ def test_solver_ends_with_the_structure_that_is_killed(
     case = free(2.0)
     mesh = plate_mesh_of(case, 0.2)
     (tmp_path / "run").write_bytes(
-        pickle.dumps(PlateRun(installation, case, mesh, 1, ranks, tmp_path))
+        pickle.dumps(PlateRun(installation, case, mesh, COUPLING, ranks, tmp_path))
     )
     structure = subprocess.Popen(
         [sys.executable, "-c", STRUCTURE, str(tmp_path / "run")], stdout=subprocess.PIPE, text=True
@@ -246,7 +248,7 @@ def test_plate_that_diverges_ends_before_it_meets_the_wall(
 
 def test_other_versions_are_refused(installation: Installation, tmp_path: Path) -> None:
     later = LaterVersion(installation.prefix, installation.environment)
-    run = PlateRun(later, free(1.0), plate_mesh_of(free(1.0), VERY_COARSE), 1, 1, tmp_path)
+    run = PlateRun(later, free(1.0), plate_mesh_of(free(1.0), VERY_COARSE), COUPLING, 1, tmp_path)
     with pytest.raises(SolverError, match=r"OpenFOAM v2312: .* v1912"):
         run.run(nothing)
 

@@ -14,17 +14,18 @@ from scipy.optimize import minimize_scalar
 from tests.sample_cases import STEADY, UNSTEADY
 
 from equisection.cases import SectionProperties, UnsteadyCase
-from equisection.solvers.openfoam.free import SectionRun
+from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.histories import read_history
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.rigid import (
+from equisection.solvers.openfoam.section_free import SectionRun
+from equisection.solvers.openfoam.section_history import read_section
+from equisection.solvers.openfoam.section_rigid import (
     RigidLoads,
     mesh_of,
     rigid_loads,
     run_steady,
     unsteady_mean,
 )
-from equisection.solvers.openfoam.section_history import read_section
 
 #: Coarser than any preset, about 4,000 cells: for what does not depend on the mesh.
 VERY_COARSE = 0.6
@@ -39,7 +40,7 @@ def rigid(
 ) -> RigidLoads:
     case = STEADY.model_copy(update={"incidence_deg": incidence_deg})
     mesh = mesh_of(case, refinement)
-    return rigid_loads(installation, case, mesh, work, nothing, outer_correctors=3)
+    return rigid_loads(installation, case, mesh, work, nothing, coupling=Coupling())
 
 
 def free(duration: float, mass: float = 1.0) -> UnsteadyCase:
@@ -63,7 +64,7 @@ def free(duration: float, mass: float = 1.0) -> UnsteadyCase:
 
 
 def run_of(installation: Installation, case: UnsteadyCase, work: Path) -> SectionRun:
-    return SectionRun(installation, case, mesh_of(case, VERY_COARSE), 2, work)
+    return SectionRun(installation, case, mesh_of(case, VERY_COARSE), Coupling(), work)
 
 
 def test_no_lift_and_no_moment_at_zero_incidence(
@@ -101,15 +102,15 @@ def test_mean_pressure_and_friction_add_up_to_the_mean_loads(
     installation: Installation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The start of an unsteady run, which drifts: means over the same time are needed."""
-    monkeypatch.setattr("equisection.solvers.openfoam.rigid.DISCARDED", 0.5)
-    monkeypatch.setattr("equisection.solvers.openfoam.rigid.SHORTEST", 5.0)
-    monkeypatch.setattr("equisection.solvers.openfoam.rigid.KNOWN", math.inf)
+    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.DISCARDED", 0.5)
+    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.SHORTEST", 5.0)
+    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.KNOWN", math.inf)
     case = STEADY.model_copy(update={"incidence_deg": 10.0})
     mesh = mesh_of(case, VERY_COARSE)
-    monkeypatch.setattr("equisection.solvers.openfoam.rigid.MOST", 200)
+    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.MOST", 200)
     source, _, converged = run_steady(installation, case, mesh, tmp_path, nothing)
     assert not converged
-    loads = unsteady_mean(installation, source, mesh, tmp_path, nothing, outer_correctors=3)
+    loads = unsteady_mean(installation, source, mesh, tmp_path, nothing, coupling=Coupling())
     drag, lift, moment = loads.surface.loads(10.0)
     assert drag == pytest.approx(loads.drag, rel=0.005)
     assert lift == pytest.approx(loads.lift, rel=0.005)

@@ -17,8 +17,8 @@ from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh import Mesh
 from equisection.solvers.openfoam.paper_spacing import DOMAIN, NEAR_FIELD, OFF_WALL, WAKE, WALL
 from equisection.solvers.openfoam.presets import PRESETS
-from equisection.solvers.openfoam.rigid import make_mesh, mesh_of
 from equisection.solvers.openfoam.section_mesh import quality, read_cells, section_mesh
+from equisection.solvers.openfoam.section_rigid import make_mesh, mesh_of
 
 
 def made(installation: Installation, mesh: Mesh, folder: Path) -> Path:
@@ -27,7 +27,7 @@ def made(installation: Installation, mesh: Mesh, folder: Path) -> Path:
         folder,
         control("simpleFoam", 1, 1, 1),
         flow.schemes(steady=True),
-        flow.solution(steady=True),
+        flow.steady_solution(),
     )
     make_mesh(installation, folder)
     return folder

@@ -20,10 +20,10 @@ from equisection.solvers.openfoam.case_folder import (
     drop_histories_after,
 )
 from equisection.solvers.openfoam.dictionaries import control, dictionary
-from equisection.solvers.openfoam.flow import reynolds_number, solution, write_flow
-from equisection.solvers.openfoam.rigid import mesh_of, require_sound_mesh
+from equisection.solvers.openfoam.flow import Coupling, reynolds_number, unsteady_solution, write_flow
 from equisection.solvers.openfoam.section_history import read_section
 from equisection.solvers.openfoam.section_motion import write_motion
+from equisection.solvers.openfoam.section_rigid import mesh_of, require_sound_mesh
 from equisection.solvers.registry import SOLVERS, check_provided, solver_from_config
 
 END = "// ************ //\n"
@@ -108,9 +108,9 @@ def test_settings_decide_results_and_know_no_machine() -> None:
 def test_relaxation_is_in_the_case_where_there_is_one() -> None:
     relaxed = openfoam(openfoam={"velocity_relaxation": 0.9})
     settings = solver_from_config(load_config(relaxed), "coarse").settings()
-    assert settings == {"mesh": "coarse", "outer_correctors": 3, "velocity_relaxation": 0.9}
+    assert settings == {"mesh": "coarse", "outer_correctors": 8, "velocity_relaxation": 0.9}
     assert Adapter.from_settings(settings).settings() == settings
-    factors = solution(steady=False, velocity_relaxation=0.9)["relaxationFactors"]
+    factors = unsteady_solution(Coupling(8, 0.9))["relaxationFactors"]
     assert factors == {"equations": {'"U.*"': 0.9, '"(k|omega).*"': 1}}
 
 

@@ -33,7 +33,7 @@ STAND_IN = f"{sys.executable} {ROOT / 'tests' / 'openfoam_stand_in.py'}"
 SOLVER = SolverBlock(
     name=Adapter.name,
     version=Adapter.version,
-    settings={"mesh": "coarse", "outer_correctors": 3},
+    settings={"mesh": "coarse", "outer_correctors": 8},
 )
 CASE = UNSTEADY.model_copy(
     update={"solver": SOLVER, "duration": 20.0, "time_step": 0.02, "output_interval": 0.1}

@@ -12,11 +12,12 @@ from tests.sample_cases import UNSTEADY
 from equisection.config import load_config
 from equisection.errors import ConfigError, SolverError
 from equisection.solvers.openfoam.adapter import Adapter
+from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh import Channel
 from equisection.solvers.openfoam.overset import OversetRun, read_motion
 from equisection.solvers.openfoam.overset_mesh import OversetMesh
-from equisection.solvers.openfoam.rigid import mesh_of
+from equisection.solvers.openfoam.section_rigid import mesh_of
 from equisection.solvers.registry import solver_from_config
 
 CHANNEL = Channel(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
@@ -27,7 +28,7 @@ def meshes(incidence_deg: float = 2.5, refinement: float = 1.0) -> OversetMesh:
 
 
 def run_in(folder: Path) -> OversetRun:
-    return OversetRun(Installation(), UNSTEADY, mesh_of(UNSTEADY, 1.0), 3, folder)
+    return OversetRun(Installation(), UNSTEADY, mesh_of(UNSTEADY, 1.0), Coupling(), folder)
 
 
 def vertices(text: str) -> np.ndarray:
@@ -86,7 +87,7 @@ def test_moving_section_is_that_of_the_morphing_mesh(tmp_path: Path) -> None:
         assert line in text
     # the motion is read from the log, to which it is written only if asked for
     assert "report yes;" in text
-    assert "nOuterCorrectors 3;" in (tmp_path / "system" / "fvSolution").read_text()
+    assert "nOuterCorrectors 8;" in (tmp_path / "system" / "fvSolution").read_text()
     # GAMG ends with a fault on meshes that overlap
     assert "GAMG" not in (tmp_path / "system" / "fvSolution").read_text()
 
@@ -146,7 +147,7 @@ def openfoam(**section: Any) -> dict[str, Any]:
 def test_mesh_motion_is_part_of_a_case_only_where_it_is_not_morph() -> None:
     """Kept results stand under the hashes of settings without it."""
     morph = solver_from_config(load_config(openfoam(mesh_motion="morph")), "coarse").settings()
-    assert morph == {"mesh": "coarse", "outer_correctors": 3}
+    assert morph == {"mesh": "coarse", "outer_correctors": 8}
     overset = solver_from_config(load_config(openfoam(mesh_motion="overset")), "coarse").settings()
     assert overset == {**morph, "mesh_motion": "overset"}
     assert Adapter.from_settings(overset).settings() == overset

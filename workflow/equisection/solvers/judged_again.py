@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
 import xarray as xr
 
 from equisection.cases import UnsteadyCase
-from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge
+from equisection.solvers.verdicts import Motion, decided_at, is_decided, judge
 
 #: Costs of a run, which grow with its length.
 _COSTS = ("wall_seconds", "cpu_seconds")
@@ -34,9 +33,9 @@ def judged_again(case: UnsteadyCase, known: xr.Dataset) -> xr.Dataset | None:
     """
     time = known["time"].values
     last = float(time[-1]) if time.size else 0.0
-    for look in np.arange(LOOKS_EVERY, min(last, case.duration), LOOKS_EVERY):
-        if is_decided(case, tip_motion(known, float(look))):
-            return _cut(case, known, float(look))
+    end = decided_at(case, tip_motion(known))
+    if math.isfinite(end):
+        return _cut(case, known, end)
     if is_decided(case, tip_motion(known, case.duration)) or last >= _last_sample(case):
         return _cut(case, known, case.duration)
     return None

@@ -39,6 +39,11 @@ class Motion:
     twist: Floats
     deflection: Floats
 
+    def until(self, end: float) -> Motion:
+        """Return the part up to a time (c/V)."""
+        kept = self.time <= end * (1 + 1e-9)
+        return Motion(self.time[kept], self.twist[kept], self.deflection[kept])
+
 
 def criteria_of(case: UnsteadyCase) -> Criteria:
     """Return the criteria that a case asks for."""
@@ -157,6 +162,24 @@ def _may_be_beyond_bound(case: UnsteadyCase, late: Motion) -> bool:
 def is_decided(case: UnsteadyCase, tip: Motion) -> bool:
     """Tell whether the verdict on a run so far is in."""
     return assess(tip.time, tip.twist, tip.deflection, criteria_of(case)).decided
+
+
+def last_look(time: float) -> float:
+    """Return the time (c/V) of the last look at a run that has come to a time."""
+    return LOOKS_EVERY * math.floor(time / LOOKS_EVERY * (1 + 1e-9))
+
+
+def decided_at(case: UnsteadyCase, tip: Motion) -> float:
+    """Return the first look (c/V) at which the verdict on a history is in; infinite if none is.
+
+    A run ends a little later, as its solver is followed from outside; its result ends here, so that
+    it does not depend on when the end was noticed.
+    """
+    last = float(tip.time[-1]) if tip.time.size else 0.0
+    for look in np.arange(LOOKS_EVERY, min(last * (1 + 1e-9), case.duration), LOOKS_EVERY):
+        if is_decided(case, tip.until(float(look))):
+            return float(look)
+    return math.inf
 
 
 def _beyond_bound(case: UnsteadyCase, verdict: Verdict) -> bool:

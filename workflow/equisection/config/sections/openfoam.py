@@ -33,13 +33,14 @@ class OpenFoam(Section):
         "has the paper's cell sizes in the section's plane and its number of cells in 3D.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
-        3, description="Iterations of flow, loads and motion in each time step (-)."
+        8,
+        description="Iterations of flow, loads and motion in each time step, at most (-): they end "
+        "when flow and loads are one.",
     )
     velocity_relaxation: Annotated[float, Field(gt=0, le=1, allow_inf_nan=False), NUMBER] = Field(
-        1.0,
-        description="Under-relaxation of the velocity in these iterations, for the free section "
-        "and plate (-); 1 is none. With 0.9 and five of them they converge where the flow "
-        "separates wholly.",
+        0.95,
+        description="Under-relaxation of the velocity in these iterations (-); 1 is none, with "
+        "which they move apart where the flow separates wholly.",
     )
     mesh_motion: MeshMotion = Field(
         MORPH,

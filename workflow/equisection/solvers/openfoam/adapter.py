@@ -26,7 +26,7 @@ from equisection.solvers.openfoam.settings import Settings
 from equisection.solvers.protocol import Capability, Progress
 
 if TYPE_CHECKING:
-    from equisection.solvers.openfoam.rigid import RigidLoads
+    from equisection.solvers.openfoam.section_rigid import RigidLoads
 
 logger = logging.getLogger(__name__)
 
@@ -35,7 +35,7 @@ class Adapter:
     """OpenFOAM on meshes of one refinement; fulfils the solver protocol."""
 
     name = "openfoam"
-    version = "3"
+    version = "4"
     provides = frozenset({Capability.MESH, Capability.SURFACE})
 
     def __init__(self, settings: Settings, ranks: int = 1) -> None:
@@ -85,8 +85,8 @@ class Adapter:
     def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
         """Return the mesh of a rigid section, with its Courant number at a time step (c/V)."""
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.section_mesh import section_mesh  # noqa: PLC0415
+        from equisection.solvers.openfoam.section_rigid import mesh_of  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
@@ -115,12 +115,11 @@ class Adapter:
         self, installation: Installation, case: SteadyCase, place: Path, tell: Progress
     ) -> SteadyResult:
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.rigid import mesh_of, rigid_loads  # noqa: PLC0415
+        from equisection.solvers.openfoam.section_rigid import mesh_of, rigid_loads  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
-        correctors = self._settings.outer_correctors
-        loads = rigid_loads(installation, case, mesh, place, tell, outer_correctors=correctors)
+        loads = rigid_loads(installation, case, mesh, place, tell, coupling=self._settings.coupling)
         return _result(loads)
 
     def _rigid_plate(
@@ -130,8 +129,8 @@ class Adapter:
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
-        correctors, ranks = self._settings.outer_correctors, self._ranks
-        return PlateFlow(installation, case, mesh, correctors, ranks, place).result(tell)
+        coupling, ranks = self._settings.coupling, self._ranks
+        return PlateFlow(installation, case, mesh, coupling, ranks, place).result(tell)
 
     def run_unsteady(
         self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
@@ -155,16 +154,15 @@ class Adapter:
     def _free_section(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
     ) -> UnsteadyResult:
-        from equisection.solvers.openfoam.free import SectionRun  # noqa: PLC0415
         from equisection.solvers.openfoam.overset import OversetRun  # noqa: PLC0415
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.rigid import mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.section_free import SectionRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.section_rigid import mesh_of  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
-        correctors, relaxation = self._settings.outer_correctors, self._settings.velocity_relaxation
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
-        return kind(installation, case, mesh, correctors, place, relaxation).run(tell)
+        return kind(installation, case, mesh, self._settings.coupling, place).run(tell)
 
     def _free_plate(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
@@ -174,9 +172,8 @@ class Adapter:
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
-        correctors, relaxation = self._settings.outer_correctors, self._settings.velocity_relaxation
-        run = PlateRun(installation, case, mesh, correctors, self._ranks, place, relaxation)
-        return run.run(tell)
+        coupling, ranks = self._settings.coupling, self._ranks
+        return PlateRun(installation, case, mesh, coupling, ranks, place).run(tell)
 
 
 _NOTHING = np.empty(0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,6 +31,10 @@ class Loads:
     drag: Floats
     lift: Floats
     moment: Floats
+
+    def until(self, end: float) -> Loads:
+        """Return the part up to a time."""
+        return self.first(int(np.searchsorted(self.time, end * (1 + 1e-9), side="right")))
 
     def since(self, start: float) -> Loads:
         """Return the part after a time."""
@@ -78,6 +83,18 @@ def read_loads(folder: Path) -> Loads:
     place = folder / "postProcessing" / LOADS
     columns = read_history(place, "coefficient.dat", ["Cd", "Cl", "CmPitch"])
     return Loads(columns["Time"], columns["Cd"], columns["Cl"], columns["CmPitch"])
+
+
+def first_known(
+    loads: Loads, is_known: Callable[[Loads], bool], shortest: float, interval: float
+) -> Loads | None:
+    """Return the first part that is known, of those that end at a multiple of an interval.
+
+    A run is followed from outside and ends a little later; what is taken of it ends here, so that
+    it does not depend on when the end was noticed. None if no part is known.
+    """
+    ends = np.arange(shortest, loads.time[-1] * (1 + 1e-9), interval) if loads.time.size else ()
+    return next(filter(is_known, (loads.until(float(end)) for end in ends)), None)
 
 
 def reasonable(loads: Loads) -> int:

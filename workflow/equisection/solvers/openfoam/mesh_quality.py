@@ -74,7 +74,7 @@ class MorphingMesh:
         # the deflection grows from 0 to its end in the time 1
         entries = {**control("pimpleFoam", 1.0, 1.0 / steps, 1.0 / steps), "purgeWrite": 0}
         entries["functions"] = {}
-        write_system(place, entries, flow.schemes(steady=False), flow.solution(steady=False))
+        write_system(place, entries, flow.schemes(steady=False), flow.unsteady_solution())
         moving = morphing(_COASTING, self.channel_height)
         cosine, sine = math.cos(twist), math.sin(twist)
         moving["sixDoFRigidBodyMotionCoeffs"] |= {

@@ -28,12 +28,13 @@ from equisection.files import write_text
 from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.case_folder import emptied
 from equisection.solvers.openfoam.dictionaries import control, dictionary, write_system
-from equisection.solvers.openfoam.free import STATE_INTERVAL, SectionRun
 from equisection.solvers.openfoam.loads import Loads
 from equisection.solvers.openfoam.overset_mesh import OVERSET, OversetMesh
-from equisection.solvers.openfoam.rigid import MOST, Tell, iterate, make_mesh
+from equisection.solvers.openfoam.rigid_flow import MOST, Tell
+from equisection.solvers.openfoam.section_free import STATE_INTERVAL, SectionRun
 from equisection.solvers.openfoam.section_history import SectionHistory, read_section
 from equisection.solvers.openfoam.section_motion import Motion, rigid_body, write_displacement
+from equisection.solvers.openfoam.section_rigid import iterate, make_mesh
 
 #: Edge of the boxes in which the library looks for the other mesh (chords): those that the plate
 #: touches are its hole.
@@ -71,7 +72,7 @@ class OversetRun(SectionRun):
         write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", at_rest))
         entries = control("simpleFoam", MOST, 1, MOST)
         entries |= {"application": "overSimpleFoam", "libs": ['"liboverset.so"']}
-        solution = flow.solution(steady=True)
+        solution = flow.steady_solution()
         solution["solvers"]["p"] = {**_PRESSURE, "relTol": 0.02}
         solution["SIMPLE"] = {"nNonOrthogonalCorrectors": 0}
         solution["relaxationFactors"] = {

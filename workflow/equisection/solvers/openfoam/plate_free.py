@@ -32,7 +32,6 @@ from equisection.solvers.openfoam.case_folder import (
     states,
 )
 from equisection.solvers.openfoam.dictionaries import write_system
-from equisection.solvers.openfoam.free import STATE_INTERVAL
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import BEYOND_REASON
 from equisection.solvers.openfoam.lumped_points import (
@@ -59,9 +58,19 @@ from equisection.solvers.openfoam.process import (
     run_program,
 )
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
-from equisection.solvers.openfoam.rigid import Tell, require_sound_mesh
+from equisection.solvers.openfoam.rigid_flow import Tell
+from equisection.solvers.openfoam.section_free import STATE_INTERVAL
+from equisection.solvers.openfoam.section_rigid import require_sound_mesh
 from equisection.solvers.openfoam.spent import spent
-from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge, refused
+from equisection.solvers.verdicts import (
+    LOOKS_EVERY,
+    Motion,
+    decided_at,
+    is_decided,
+    judge,
+    last_look,
+    refused,
+)
 
 logger = logging.getLogger(__name__)
 
@@ -83,23 +92,20 @@ class PlateRun:
         The case.
     mesh
         Its mesh.
-    outer_correctors
-        Iterations of flow, loads and motion a time step.
+    coupling
+        Of flow, loads and motion in a time step.
     ranks
         Ranks of MPI that a program runs on.
     work
         Where its folders are.
-    velocity_relaxation
-        Under-relaxation of the velocity in these iterations.
     """
 
     installation: Installation
     case: UnsteadyCase
     mesh: PlateMesh
-    outer_correctors: int
+    coupling: flow.Coupling
     ranks: int
     work: Path
-    velocity_relaxation: float = 1.0
 
     @property
     def folder(self) -> Path:
@@ -158,9 +164,7 @@ class PlateRun:
             del done, total
             tell(0.0, case.duration)
 
-        rigid = PlateFlow(
-            self.installation, case, self.mesh, self.outer_correctors, self.ranks, self.work
-        )
+        rigid = PlateFlow(self.installation, case, self.mesh, self.coupling, self.ranks, self.work)
         source, _, converged = rigid.steady(nothing_yet)
         if not converged:
             logger.info("the steady flow does not converge; the release is from its last state")
@@ -176,11 +180,7 @@ class PlateRun:
             "pimpleFoam", case.duration, case.time_step, STATE_INTERVAL, self.mesh.span
         )
         entries["libs"] = ['"liblumpedPointMotion.so"']
-        solution = flow.solution(
-            steady=False,
-            outer_correctors=self.outer_correctors,
-            velocity_relaxation=self.velocity_relaxation,
-        )
+        solution = flow.unsteady_solution(self.coupling)
         solution["solvers"] |= motion_solvers()
         schemes = flow.schemes(steady=False)
         schemes["laplacianSchemes"] |= motion_schemes()
@@ -253,6 +253,8 @@ class PlateRun:
     def _result(self, failure: str) -> UnsteadyResult:
         case = self.case
         history = self.history().sampled(case.time_step, case.output_interval, case.duration)
+        end = math.inf if failure else decided_at(case, self.tip_motion(history))
+        history = history.sampled(case.time_step, case.output_interval, end)
         tip = self.tip_motion(history)
         torsion = self.points.torsion_modes
         return UnsteadyResult(
@@ -336,5 +338,5 @@ class _Exchange:
         if not self._due.is_due(time):
             return False
         case = self._run.case
-        history = self._run.history().sampled(case.time_step, case.output_interval)
+        history = self._run.history().sampled(case.time_step, case.output_interval, last_look(time))
         return is_decided(case, self._run.tip_motion(history))

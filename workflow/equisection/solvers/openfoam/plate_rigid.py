@@ -1,7 +1,7 @@
 """The rigid plate in its channel: steady loads, or the mean of an unsteady run, and their span.
 
-The criteria are those of the section (``rigid``), but for coefficients near zero, which waver more
-on the plate, and with means of shorter records: a step costs what eight of the section do.
+The criteria are those of the section (``rigid_flow``), but for coefficients near zero, which waver
+more on the plate, and with means of shorter records: a step costs what eight of the section do.
 """
 
 from __future__ import annotations
@@ -23,25 +23,28 @@ from equisection.solvers.openfoam.dictionaries import (
     LOADS,
     Entries,
     control,
-    dictionary,
     write_system,
 )
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
+from equisection.solvers.openfoam.loads import Loads
 from equisection.solvers.openfoam.mesh import OF_PLATE, Spacing
 from equisection.solvers.openfoam.plate_mesh import SIDE_WALLS, PlateMesh
-from equisection.solvers.openfoam.process import Every, run_program
+from equisection.solvers.openfoam.process import run_program
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, divide, parts
-from equisection.solvers.openfoam.rigid import (
+from equisection.solvers.openfoam.rigid_flow import (
     CONVERGED,
     FEWEST,
-    KNOWN,
     MOST,
+    STEP,
     WINDOW,
+    Record,
     Tell,
-    make_mesh,
-    mesh_of,
+    follow_iterations,
+    follow_unsteady,
+    method_of_mean,
+    write_at_rest,
 )
+from equisection.solvers.openfoam.section_rigid import make_mesh, mesh_of
 from equisection.solvers.openfoam.span_loads import read_span_loads, surface_output
 from equisection.solvers.openfoam.spent import spent
 
@@ -49,8 +52,8 @@ logger = logging.getLogger(__name__)
 
 #: Half range of a coefficient that counts as converged however small it is.
 CONVERGED_WITHIN = 1e-4
-#: Time step, time left out, shortest and longest record of a rigid unsteady run (c/V).
-STEP, DISCARDED, SHORTEST, LONGEST = 0.02, 10.0, 20.0, 60.0
+#: Time left out, shortest and longest record of a rigid unsteady run (c/V).
+RECORD = Record(10.0, 20.0, 60.0)
 
 
 def plate_mesh_of(
@@ -81,8 +84,8 @@ class PlateFlow:
         OpenFOAM.
     case, mesh
         The case and its mesh.
-    outer_correctors
-        Iterations of the flow a time step, where it goes on unsteadily.
+    coupling
+        Of the flow in a time step, where it goes on unsteadily.
     ranks
         Ranks of MPI that a program runs on.
     work
@@ -92,7 +95,7 @@ class PlateFlow:
     installation: Installation
     case: SteadyCase | UnsteadyCase
     mesh: PlateMesh
-    outer_correctors: int
+    coupling: flow.Coupling
     ranks: int
     work: Path
 
@@ -114,23 +117,18 @@ class PlateFlow:
         flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium), SIDE_WALLS)
         entries = plate_control("simpleFoam", MOST, 1, MOST, self.mesh.span)
         entries["functions"] |= surface_output({"executeControl": "onEnd", "writeControl": "onEnd"})
-        write_system(folder, entries, flow.schemes(steady=True), flow.solution(steady=True))
+        write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
         make_mesh(self.installation, folder)
         divide(self.installation, folder, self.ranks, self.mesh.layers)
-        seen = Every(50)
-
-        def converged(iteration: float) -> bool:
-            tell(iteration, MOST)
-            if not seen.is_due(iteration):
-                return False
-            loads = read_loads(folder)
-            require_reasonable(loads, folder)
-            return _has_converged(loads)
-
-        run_program(self.installation, "simpleFoam", folder, converged, ranks=self.ranks)
-        loads = read_loads(folder)
-        require_reasonable(loads, folder)
-        return folder, loads, _has_converged(loads)
+        loads, has_converged = follow_iterations(
+            folder,
+            _has_converged,
+            tell,
+            lambda watch: run_program(
+                self.installation, "simpleFoam", folder, watch, ranks=self.ranks
+            ),
+        )
+        return folder, loads, has_converged
 
     def result(self, tell: Tell) -> SteadyResult:
         """Return the loads of the rigid plate.
@@ -148,10 +146,7 @@ class PlateFlow:
             logger.info("%g deg: the steady solver does not converge", self.case.incidence_deg)
             folder, record = self._unsteady(folder, tell)
             mean = True
-            method = (
-                f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
-                f"{100 * record.drift():.2g} % apart"
-            )
+            method = method_of_mean(record)
         drag, lift, moment = record.means()
         last = states(parts(folder)[0])[-1].name
         span = read_span_loads(folder, last, self.mesh.edges(), mean=mean)
@@ -170,33 +165,25 @@ class PlateFlow:
         """Go on unsteadily from a steady run; return folder and record to be averaged."""
         folder = emptied(self.work / "unsteady")
         copy_flow_of_all(source, folder)
-        write_text(
-            folder / "constant" / "dynamicMeshDict",
-            dictionary("dynamicMeshDict", {"dynamicFvMesh": "staticFvMesh"}),
-        )
-        entries = plate_control(
-            "pimpleFoam", DISCARDED + LONGEST, STEP, DISCARDED + LONGEST, self.mesh.span
-        )
+        write_at_rest(folder)
+        end = RECORD.end
+        entries = plate_control("pimpleFoam", end, STEP, end, self.mesh.span)
         entries["functions"] |= surface_output(
             {"executeControl": "timeStep", "writeControl": "onEnd"}
         )
         entries["functions"]["means"] = _means()
-        solution = flow.solution(steady=False, outer_correctors=self.outer_correctors)
-        write_system(folder, entries, flow.schemes(steady=False), solution)
-        seen = Every(5.0)
-
-        def known(time: float) -> bool:
-            tell(MOST * time / (DISCARDED + LONGEST), MOST)
-            if time < DISCARDED + SHORTEST or not seen.is_due(time):
-                return False
-            loads = read_loads(folder)
-            require_reasonable(loads, folder)
-            return loads.since(DISCARDED).drift() <= KNOWN
-
-        run_program(self.installation, "pimpleFoam", folder, known, ranks=self.ranks)
-        loads = read_loads(folder)
-        require_reasonable(loads, folder)
-        return folder, loads.since(DISCARDED)
+        write_system(
+            folder, entries, flow.schemes(steady=False), flow.unsteady_solution(self.coupling)
+        )
+        record = follow_unsteady(
+            folder,
+            RECORD,
+            tell,
+            lambda watch: run_program(
+                self.installation, "pimpleFoam", folder, watch, ranks=self.ranks
+            ),
+        )
+        return folder, record
 
 
 def _has_converged(loads: Loads) -> bool:
@@ -216,7 +203,7 @@ def _means() -> Entries:
     return {
         "type": "fieldAverage",
         "libs": ['"libfieldFunctionObjects.so"'],
-        "timeStart": DISCARDED,
+        "timeStart": RECORD.discarded,
         "writeControl": "onEnd",
         "fields": f"( {' '.join(f'{name} {_inline(averaged)}' for name in _AVERAGED)} )",
     }

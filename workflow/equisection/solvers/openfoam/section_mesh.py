@@ -17,7 +17,7 @@ from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh import Mesh
 from equisection.solvers.openfoam.poly_mesh import read_poly_mesh
 from equisection.solvers.openfoam.process import run_program
-from equisection.solvers.openfoam.rigid import run_steady
+from equisection.solvers.openfoam.section_rigid import run_steady
 
 #: What ``checkMesh`` says of the mesh, by our names.
 _QUALITY = {

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from equisection.config.sections.openfoam import MORPH
+from equisection.solvers.openfoam.flow import Coupling
 
 
 @dataclass(frozen=True)
@@ -17,17 +18,22 @@ class Settings:
     mesh
         Name of the mesh.
     outer_correctors
-        Iterations of flow, loads and motion in each time step.
+        Iterations of flow, loads and motion in each time step, at most.
     velocity_relaxation
-        Under-relaxation of the velocity in these iterations, for the free section; 1 is none.
+        Under-relaxation of the velocity in these iterations; 1 is none.
     mesh_motion
         How the mesh follows the free section.
     """
 
     mesh: str
     outer_correctors: int
-    velocity_relaxation: float = 1.0
+    velocity_relaxation: float = 0.95
     mesh_motion: str = MORPH
+
+    @property
+    def coupling(self) -> Coupling:
+        """How flow, loads and motion come together in a time step."""
+        return Coupling(self.outer_correctors, self.velocity_relaxation)
 
     def of_case(self) -> dict[str, Any]:
         """Return what stands in a case: without what is as in cases from before there was a choice.

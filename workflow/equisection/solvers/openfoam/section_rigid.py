@@ -1,34 +1,41 @@
 """The rigid section: steady loads, or the mean of an unsteady run where there are none.
 
-The steady solver has converged when all loads stay within :data:`CONVERGED` of their means over
-the last :data:`WINDOW` iterations. Where it does not, the flow goes on unsteadily from there until
-the means of both halves of the record agree.
+What converged and known mean stands in ``rigid_flow``.
 """
 
 from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
-from equisection.files import write_text
 from equisection.results.surface import SectionSurface
 from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.case_folder import copy_flow, emptied
 from equisection.solvers.openfoam.dictionaries import (
     control,
-    dictionary,
     write_mesh_dictionary,
     write_system,
 )
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
+from equisection.solvers.openfoam.loads import Loads
 from equisection.solvers.openfoam.mesh import SIMILAR, Channel, Mesh, Spacing
-from equisection.solvers.openfoam.process import BlowUpError, Every, run_program
+from equisection.solvers.openfoam.process import BlowUpError, run_program
+from equisection.solvers.openfoam.rigid_flow import (
+    MOST,
+    STEP,
+    WINDOW,
+    Record,
+    Tell,
+    follow_iterations,
+    follow_unsteady,
+    has_converged,
+    method_of_mean,
+    write_at_rest,
+)
 from equisection.solvers.openfoam.surface import (
     averaging,
     surface_of_mean,
@@ -37,16 +44,10 @@ from equisection.solvers.openfoam.surface import (
 
 logger = logging.getLogger(__name__)
 
-#: Relative half range of the loads over the last iterations of a converged steady run.
-CONVERGED, WINDOW, FEWEST, MOST = 5e-4, 150, 300, 3000
-#: Time step, time left out, shortest and longest record of a rigid unsteady run (c/V), and the
-#: relative difference of the means of its halves at which they count as known.
-STEP, DISCARDED, SHORTEST, LONGEST, KNOWN = 0.02, 10.0, 40.0, 100.0, 0.01
+#: Time left out, shortest and longest record of a rigid unsteady run (c/V).
+RECORD = Record(10.0, 40.0, 100.0)
 #: Steps of a rigid unsteady run from one sample of the surface data to the next.
 SAMPLED = 5
-
-#: Called with what is done and what there is to do at most.
-Tell = Callable[[float, float], None]
 
 
 @dataclass(frozen=True)
@@ -107,7 +108,7 @@ def run_steady(
         folder,
         control("simpleFoam", MOST, 1, MOST),
         flow.schemes(steady=True),
-        flow.solution(steady=True),
+        flow.steady_solution(),
     )
     make_mesh(installation, folder)
     return iterate(installation, "simpleFoam", folder, tell)
@@ -117,20 +118,10 @@ def iterate(
     installation: Installation, program: str, folder: Path, tell: Tell
 ) -> tuple[Path, Loads, bool]:
     """Run a steady solver until it has converged, or for long enough; see :func:`run_steady`."""
-    seen = Every(50)
-
-    def converged(iteration: float) -> bool:
-        tell(iteration, MOST)
-        if not seen.is_due(iteration):
-            return False
-        loads = read_loads(folder)
-        require_reasonable(loads, folder)
-        return has_converged(loads)
-
-    run_program(installation, program, folder, converged)
-    loads = read_loads(folder)
-    require_reasonable(loads, folder)
-    return folder, loads, has_converged(loads)
+    loads, converged = follow_iterations(
+        folder, has_converged, tell, lambda watch: run_program(installation, program, folder, watch)
+    )
+    return folder, loads, converged
 
 
 def make_mesh(installation: Installation, folder: Path) -> None:
@@ -144,11 +135,6 @@ def make_mesh(installation: Installation, folder: Path) -> None:
     run_program(installation, "blockMesh", folder)
     run_program(installation, "checkMesh", folder)
     require_sound_mesh(folder / "log.checkMesh")
-
-
-def has_converged(loads: Loads) -> bool:
-    """Tell whether a steady run has converged."""
-    return loads.time.size >= FEWEST and loads.last(WINDOW).spread() <= CONVERGED
 
 
 def require_sound_mesh(log: Path) -> None:
@@ -177,7 +163,7 @@ def rigid_loads(
     work: Path,
     tell: Tell,
     *,
-    outer_correctors: int,
+    coupling: flow.Coupling,
 ) -> RigidLoads:
     """Return the loads of a rigid section.
 
@@ -193,8 +179,8 @@ def rigid_loads(
         Where its folders are.
     tell
         Told what is done.
-    outer_correctors
-        Iterations of the flow a time step, where it goes on unsteadily.
+    coupling
+        Of the flow in a time step, where it goes on unsteadily.
 
     Raises
     ------
@@ -205,7 +191,7 @@ def rigid_loads(
     if converged:
         return steady_mean(installation, folder, steady, mesh)
     logger.info("%g deg: the steady solver does not converge", case.incidence_deg)
-    return unsteady_mean(installation, folder, mesh, work, tell, outer_correctors=outer_correctors)
+    return unsteady_mean(installation, folder, mesh, work, tell, coupling=coupling)
 
 
 def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Mesh) -> RigidLoads:
@@ -229,7 +215,7 @@ def unsteady_mean(
     work: Path,
     tell: Tell,
     *,
-    outer_correctors: int,
+    coupling: flow.Coupling,
 ) -> RigidLoads:
     """Return the mean loads of the flow that goes on unsteadily from a steady run.
 
@@ -243,32 +229,13 @@ def unsteady_mean(
     """
     folder = emptied(work / "unsteady")
     copy_flow(source, folder)
-    write_text(
-        folder / "constant" / "dynamicMeshDict",
-        dictionary("dynamicMeshDict", {"dynamicFvMesh": "staticFvMesh"}),
+    write_at_rest(folder)
+    entries = control("pimpleFoam", RECORD.end, STEP, RECORD.end)
+    entries["functions"] |= averaging(RECORD.discarded, SAMPLED)
+    write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution(coupling))
+    record = follow_unsteady(
+        folder, RECORD, tell, lambda watch: run_program(installation, "pimpleFoam", folder, watch)
     )
-    entries = control("pimpleFoam", DISCARDED + LONGEST, STEP, DISCARDED + LONGEST)
-    entries["functions"] |= averaging(DISCARDED, SAMPLED)
-    solution = flow.solution(steady=False, outer_correctors=outer_correctors)
-    write_system(folder, entries, flow.schemes(steady=False), solution)
-    seen = Every(5.0)
-
-    def known(time: float) -> bool:
-        tell(MOST * time / (DISCARDED + LONGEST), MOST)
-        if time < DISCARDED + SHORTEST or not seen.is_due(time):
-            return False
-        loads = read_loads(folder)
-        require_reasonable(loads, folder)
-        return loads.since(DISCARDED).drift() <= KNOWN
-
-    run_program(installation, "pimpleFoam", folder, known)
-    loads = read_loads(folder)
-    require_reasonable(loads, folder)
-    record = loads.since(DISCARDED)
     drag, lift, moment = record.means()
-    method = (
-        f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
-        f"{100 * record.drift():.2g} % apart"
-    )
     surface = surface_of_mean(folder, mesh)
-    return RigidLoads(drag, lift, moment, method, mesh.cells, surface)
+    return RigidLoads(drag, lift, moment, method_of_mean(record), mesh.cells, surface)

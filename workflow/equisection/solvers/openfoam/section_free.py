@@ -34,11 +34,19 @@ from equisection.solvers.openfoam.loads import Loads, read_loads, require_reason
 from equisection.solvers.openfoam.mesh import Mesh
 from equisection.solvers.openfoam.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
-from equisection.solvers.openfoam.rigid import WINDOW, Tell, run_steady
+from equisection.solvers.openfoam.rigid_flow import WINDOW, Tell
 from equisection.solvers.openfoam.section_history import SectionHistory, read_section
 from equisection.solvers.openfoam.section_motion import motion_output, write_motion
+from equisection.solvers.openfoam.section_rigid import run_steady
 from equisection.solvers.openfoam.spent import spent
-from equisection.solvers.verdicts import LOOKS_EVERY, is_decided, judge, refused
+from equisection.solvers.verdicts import (
+    LOOKS_EVERY,
+    decided_at,
+    is_decided,
+    judge,
+    last_look,
+    refused,
+)
 
 logger = logging.getLogger(__name__)
 
@@ -60,20 +68,17 @@ class SectionRun:
         The case.
     mesh
         Its mesh.
-    outer_correctors
-        Iterations of flow, loads and motion a time step.
+    coupling
+        Of flow, loads and motion in a time step.
     work
         Where its folders are.
-    velocity_relaxation
-        Under-relaxation of the velocity in these iterations; 1 is none.
     """
 
     installation: Installation
     case: UnsteadyCase
     mesh: Mesh
-    outer_correctors: int
+    coupling: flow.Coupling
     work: Path
-    velocity_relaxation: float = 1.0
 
     @property
     def folder(self) -> Path:
@@ -81,7 +86,7 @@ class SectionRun:
         return self.work / "free"
 
     def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
-        """Make the rigid steady flow, as :func:`~.rigid.run_steady` does."""
+        """Make the rigid steady flow, as :func:`~.section_rigid.run_steady` does."""
         return run_steady(self.installation, self.case, self.mesh, self.work, tell)
 
     def write_motion(self, folder: Path) -> None:
@@ -97,11 +102,7 @@ class SectionRun:
 
     def solution(self) -> dict[str, Any]:
         """Return ``fvSolution``."""
-        return flow.solution(
-            steady=False,
-            outer_correctors=self.outer_correctors,
-            velocity_relaxation=self.velocity_relaxation,
-        )
+        return flow.unsteady_solution(self.coupling)
 
     def history(self, loads: Loads | None = None) -> SectionHistory:
         """Return the history so far, with loads that are read already; see :func:`read_section`."""
@@ -174,7 +175,9 @@ class SectionRun:
                 return False
             loads = read_loads(self.folder)
             require_reasonable(loads, self.folder)
-            history = self.history(loads).sampled(case.time_step, case.output_interval)
+            history = self.history(loads).sampled(
+                case.time_step, case.output_interval, last_look(time)
+            )
             return is_decided(case, _tip(case.section, history))
 
         return decided
@@ -208,10 +211,12 @@ def _tip(section: SectionProperties | None, history: SectionHistory) -> verdicts
     )
 
 
-def _from_release(folder: Path, history: SectionHistory, case: UnsteadyCase) -> SectionHistory:
+def _from_release(
+    folder: Path, history: SectionHistory, case: UnsteadyCase, end: float
+) -> SectionHistory:
     """Return the samples to be stored, the release in front."""
     loads = json.loads((folder / _AT_RELEASE).read_text(encoding="utf-8"))
-    sampled = history.sampled(case.time_step, case.output_interval, case.duration)
+    sampled = history.sampled(case.time_step, case.output_interval, end)
     return SectionHistory(
         np.concatenate([[0.0], sampled.time]),
         np.concatenate([[0.0], sampled.twist]),
@@ -224,7 +229,10 @@ def _from_release(folder: Path, history: SectionHistory, case: UnsteadyCase) -> 
 def _result(
     case: UnsteadyCase, folder: Path, so_far: SectionHistory, failure: str
 ) -> UnsteadyResult:
-    history = _from_release(folder, so_far, case)
+    history = _from_release(folder, so_far, case, case.duration)
+    end = math.inf if failure else decided_at(case, _tip(case.section, history))
+    if math.isfinite(end):
+        history = _from_release(folder, so_far, case, end)
     tip = _tip(case.section, history)
     return UnsteadyResult(
         time=history.time,

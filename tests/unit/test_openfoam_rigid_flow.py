@@ -1,0 +1,95 @@
+"""Rigid flows followed from outside: what counts does not depend on when an end was noticed."""
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from equisection.solvers.openfoam import rigid_flow
+from equisection.solvers.openfoam.loads import Loads
+from equisection.solvers.openfoam.process import Watch
+from equisection.solvers.openfoam.rigid_flow import (
+    LOOKS_EVERY,
+    MOST,
+    Record,
+    follow_iterations,
+    follow_unsteady,
+    has_converged,
+    method_of_mean,
+)
+
+RECORD = Record(10.0, 40.0, 100.0)
+
+
+def nothing(done: float, total: float) -> None:
+    """Nobody is told."""
+    del done, total
+
+
+def settling(time: np.ndarray, rate: float) -> Loads:
+    """Loads that come to 0.1, 0.4 and 0.05 at a rate."""
+    rest = 1 + np.exp(-rate * time)
+    return Loads(time, 0.1 * rest, 0.4 * rest, 0.05 * rest)
+
+
+def polled(
+    monkeypatch: pytest.MonkeyPatch, whole: Loads, interval: float
+) -> Callable[[Watch], None]:
+    """A solver whose log is read every so many iterations, or units of time."""
+
+    def run(watch: Watch) -> None:
+        now = 0.0
+        while now < whole.time[-1]:
+            now = min(now + interval, float(whole.time[-1]))
+            seen = whole.until(now)
+            monkeypatch.setattr(rigid_flow, "read_loads", lambda folder, seen=seen: seen)
+            if watch(now):
+                break
+
+    return run
+
+
+@pytest.mark.parametrize("interval", [1.0, 7.0, 23.0, 171.0])
+def test_steady_loads_end_at_the_first_look_that_finds_them_converged(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, interval: float
+) -> None:
+    whole = settling(np.arange(1.0, MOST + 1), 0.01)
+    run = polled(monkeypatch, whole, interval)
+    loads, converged = follow_iterations(tmp_path, has_converged, nothing, run)
+    assert converged
+    assert loads.time[-1] % LOOKS_EVERY == 0
+    assert has_converged(loads)
+    assert not has_converged(whole.until(loads.time[-1] - LOOKS_EVERY))
+
+
+def test_steady_loads_that_do_not_converge_are_all_there(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    time = np.arange(1.0, MOST + 1)
+    waving = 0.4 + 0.01 * np.sin(0.3 * time)
+    run = polled(monkeypatch, Loads(time, waving, waving, waving), 7.0)
+    loads, converged = follow_iterations(tmp_path, has_converged, nothing, run)
+    assert not converged
+    assert loads.time[-1] == MOST
+
+
+@pytest.mark.parametrize("interval", [0.02, 0.1, 3.3, 17.0])
+def test_mean_is_of_the_first_record_whose_halves_agree(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, interval: float
+) -> None:
+    # halves of T: exp(-10 r) (1 - exp(-r T/2))^2/(r T/2) apart, which is 1 % at T = 66
+    whole = settling(0.02 * np.arange(1.0, 5501), 0.25)
+    record = follow_unsteady(tmp_path, RECORD, nothing, polled(monkeypatch, whole, interval))
+    assert record.time[0] > RECORD.discarded
+    assert record.time[-1] == pytest.approx(80.0)
+    assert record.drift() <= rigid_flow.KNOWN
+    assert "mean of unsteady over 70 c/V" in method_of_mean(record)
+
+
+def test_record_goes_on_to_the_longest(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    time = 0.02 * np.arange(1.0, 5501)
+    drifting = 0.4 + 0.01 * time
+    run = polled(monkeypatch, Loads(time, drifting, drifting, drifting), 3.3)
+    record = follow_unsteady(tmp_path, RECORD, nothing, run)
+    assert record.time[-1] == pytest.approx(RECORD.end)

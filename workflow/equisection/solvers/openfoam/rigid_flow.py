@@ -1,0 +1,148 @@
+"""The flow about a rigid section or plate, followed until its loads are known.
+
+The steady solver has converged when all loads stay within :data:`CONVERGED` of their means over
+the last :data:`WINDOW` iterations. Where it does not, the flow goes on unsteadily from there until
+the means of both halves of the record agree within :data:`KNOWN`.
+
+A solver is followed from outside, by its log, and ends a little after it was told to. What is taken
+of its loads ends at a look, which is a given number of iterations or a given time, so that a result
+does not depend on when the end was noticed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from equisection.files import write_text
+from equisection.solvers.openfoam.dictionaries import dictionary
+from equisection.solvers.openfoam.loads import Loads, first_known, read_loads, require_reasonable
+from equisection.solvers.openfoam.process import Every, Watch
+
+#: Relative half range of the loads over the last iterations of a converged steady run.
+CONVERGED, WINDOW, FEWEST, MOST = 5e-4, 150, 300, 3000
+#: Iterations from one look at a steady run to the next, and time (c/V) of an unsteady one.
+LOOKS_EVERY, LOOKS_AFTER = 50, 5.0
+#: Time step of a rigid unsteady run (c/V), and the relative difference of the means of its halves
+#: at which they count as known.
+STEP, KNOWN = 0.02, 0.01
+
+#: Called with what is done and what there is to do at most.
+Tell = Callable[[float, float], None]
+
+
+@dataclass(frozen=True)
+class Record:
+    """Time left out, and shortest and longest record, of a rigid unsteady run (c/V)."""
+
+    discarded: float
+    shortest: float
+    longest: float
+
+    @property
+    def end(self) -> float:
+        """The latest end of the run."""
+        return self.discarded + self.longest
+
+
+def has_converged(loads: Loads) -> bool:
+    """Tell whether a steady run has converged."""
+    return loads.time.size >= FEWEST and loads.last(WINDOW).spread() <= CONVERGED
+
+
+def follow_iterations(
+    folder: Path,
+    is_converged: Callable[[Loads], bool],
+    tell: Tell,
+    run: Callable[[Watch], None],
+) -> tuple[Loads, bool]:
+    """Follow a steady solver until it has converged, or for long enough.
+
+    Parameters
+    ----------
+    folder
+        Folder of the run.
+    is_converged
+        Tells whether loads up to an iteration are those of a converged run.
+    tell
+        Told what is done.
+    run
+        Runs the solver with what is to end it.
+
+    Returns
+    -------
+    tuple
+        The loads up to the iteration that converged, or all of them; and whether one did.
+
+    Raises
+    ------
+    BlowUpError
+        The loads are beyond reason.
+    """
+    seen = Every(LOOKS_EVERY)
+
+    def known(loads: Loads) -> Loads | None:
+        require_reasonable(loads, folder)
+        return first_known(loads, is_converged, FEWEST, LOOKS_EVERY)
+
+    def watch(iteration: float) -> bool:
+        tell(iteration, MOST)
+        return seen.is_due(iteration) and known(read_loads(folder)) is not None
+
+    run(watch)
+    loads = read_loads(folder)
+    part = known(loads)
+    return (loads, False) if part is None else (part, True)
+
+
+def follow_unsteady(
+    folder: Path, record: Record, tell: Tell, run: Callable[[Watch], None]
+) -> Loads:
+    """Follow a rigid unsteady run until the means of its loads are known, or for long enough.
+
+    Returns
+    -------
+    Loads
+        What is to be averaged, without the time left out.
+
+    Raises
+    ------
+    BlowUpError
+        The loads are beyond reason.
+    """
+    seen = Every(LOOKS_AFTER)
+    shortest = record.discarded + record.shortest
+
+    def known(loads: Loads) -> Loads | None:
+        require_reasonable(loads, folder)
+        return first_known(
+            loads, lambda part: part.since(record.discarded).drift() <= KNOWN, shortest, LOOKS_AFTER
+        )
+
+    def watch(time: float) -> bool:
+        tell(MOST * time / record.end, MOST)
+        if time < shortest or not seen.is_due(time):
+            return False
+        return known(read_loads(folder)) is not None
+
+    run(watch)
+    loads = read_loads(folder)
+    part = known(loads)
+    return (loads if part is None else part).since(record.discarded)
+
+
+def method_of_mean(record: Loads) -> str:
+    """Return how the means of a record were obtained, in words."""
+    return (
+        f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
+        f"{100 * record.drift():.2g} % apart"
+    )
+
+
+def write_at_rest(folder: Path) -> None:
+    """Write that the mesh stands still."""
+    write_text(
+        folder / "constant" / "dynamicMeshDict",
+        dictionary("dynamicMeshDict", {"dynamicFvMesh": "staticFvMesh"}),
+    )
