@@ -20,7 +20,12 @@ from equisection.solvers.openfoam.case_folder import (
     drop_histories_after,
 )
 from equisection.solvers.openfoam.dictionaries import control, dictionary
-from equisection.solvers.openfoam.flow import Coupling, reynolds_number, unsteady_solution, write_flow
+from equisection.solvers.openfoam.flow import (
+    Coupling,
+    reynolds_number,
+    unsteady_solution,
+    write_flow,
+)
 from equisection.solvers.openfoam.section_history import read_section
 from equisection.solvers.openfoam.section_motion import write_motion
 from equisection.solvers.openfoam.section_rigid import mesh_of, require_sound_mesh
