@@ -4,12 +4,20 @@
 PYTHON ?= python3
 CORES ?= all
 CONFIG ?=
+FROM ?= kept
 ENV := .venv
 BIN := $(ENV)/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profiles/default \
 	$(if $(CONFIG),--configfile $(CONFIG))
 
-.PHONY: run report identification status test lint bench openfoam clean
+# What `make paper` draws: kept results alone, or with FROM=scratch what is computed.
+PAPER := compute=$(if $(filter scratch,$(FROM)),true reuse='',false)
+PAPER_PLATE := results/paper-plate-figures
+ifeq ($(filter kept scratch,$(FROM)),)
+$(error FROM is '$(FROM)'; allowed are kept and scratch)
+endif
+
+.PHONY: run report paper identification status test lint bench openfoam clean
 
 run: $(ENV)/run
 	$(SNAKEMAKE)
@@ -22,6 +30,14 @@ run: $(ENV)/run
 report: run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && \
 	$(SNAKEMAKE) --report $$folder/report.html && echo "report: $$folder/report.html"
+
+paper: $(ENV)/run
+	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER) \
+		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
+		$(PAPER_PLATE)/figures/fig10-spanwise-loads.png
+	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER)
+	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Fig. 10 in $(PAPER_PLATE)/figures/" \
+		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/"
 
 identification: $(ENV)/run
 	$(SNAKEMAKE) identification
