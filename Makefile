@@ -17,7 +17,7 @@ ifeq ($(filter kept scratch,$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run report paper identification status test lint bench openfoam clean
+.PHONY: run report paper cost identification status test lint docs bench openfoam clean
 
 run: $(ENV)/run
 	$(SNAKEMAKE)
@@ -36,8 +36,13 @@ paper: $(ENV)/run
 		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
 		$(PAPER_PLATE)/figures/fig10-spanwise-loads.png
 	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER)
+	$(BIN)/python -m equisection.comparison.side_by_side
 	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Fig. 10 in $(PAPER_PLATE)/figures/" \
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/"
+
+cost: $(ENV)/run
+	$(SNAKEMAKE) --configfile config/paper/embedded.yaml -- results/paper-embedded/comparison/summary.csv
+	cp results/paper-embedded/comparison/summary.csv results/reference/embedded-cost.csv
 
 identification: $(ENV)/run
 	$(SNAKEMAKE) identification
@@ -58,6 +63,11 @@ lint: $(ENV)/lint
 	$(BIN)/python -m equisection.config --check
 	$(BIN)/snakemake --lint
 
+docs: $(ENV)/docs
+	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --nitpicky \
+		--conf-dir docs --doctree-dir .sphinx . site
+	@echo "site: site/docs/index.html"
+
 bench: $(ENV)/test
 	$(BIN)/python -m tests.benchmarks
 
@@ -71,7 +81,7 @@ openfoam:
 
 clean:
 	find results -mindepth 1 -maxdepth 1 ! -name reference -exec rm -rf {} +
-	rm -rf .snakemake
+	rm -rf .snakemake .sphinx site
 
 # One environment; each stamp says which extras are in it, and is renewed when the pins change.
 $(ENV)/python-is-new-enough:
@@ -86,6 +96,10 @@ $(ENV)/run: $(ENV)/python-is-new-enough envs/constraints.txt pyproject.toml
 
 $(ENV)/test: $(ENV)/run
 	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[test]'
+	@touch $@
+
+$(ENV)/docs: $(ENV)/run
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[docs]'
 	@touch $@
 
 $(ENV)/lint: $(ENV)/run
