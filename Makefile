@@ -11,9 +11,10 @@ SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profi
 	$(if $(CONFIG),--configfile $(CONFIG))
 
 # What `make paper` draws: kept results alone, or with FROM=scratch what is computed.
-PAPER := compute=$(if $(filter scratch,$(FROM)),true reuse='',false)
+PAPER_FROM_kept := compute=false
+PAPER_FROM_scratch := compute=true reuse='""'
 PAPER_PLATE := results/paper-plate-figures
-ifeq ($(filter kept scratch,$(FROM)),)
+ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
@@ -32,10 +33,10 @@ report: run
 	$(SNAKEMAKE) --report $$folder/report.html && echo "report: $$folder/report.html"
 
 paper: $(ENV)/run
-	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER) \
+	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
 		$(PAPER_PLATE)/figures/fig10-spanwise-loads.png
-	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER)
+	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER_FROM_$(FROM))
 	$(BIN)/python -m equisection.comparison.side_by_side
 	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Fig. 10 in $(PAPER_PLATE)/figures/" \
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/"

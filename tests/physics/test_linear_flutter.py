@@ -135,7 +135,7 @@ class TestDivergence:
 
 class TestFlutter:
     def test_of_the_textbook(self):
-        """Hodges & Pierce, section 5.5: U_F = 2.165 b omega_theta, with states for the wake."""
+        """Hodges & Pierce, section 5.5: U_F = 2.165 b omega_theta."""
         assert 1 / math.sqrt(flutter(HODGES_PIERCE).scale) == pytest.approx(2.165, rel=0.01)
 
     @pytest.mark.parametrize(

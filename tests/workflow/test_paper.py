@@ -1,30 +1,38 @@
 """The paper's figures, tables and claims from kept results alone, as `make paper` has them."""
 
 import re
+import shlex
 import shutil
 from pathlib import Path
 
 import pytest
 
 from equisection.comparison.side_by_side import main
-from tests.workflow.project import ROOT, Project
+from tests.workflow.project import ROOT, Project, jobs_planned
+
+
+def commands(origin: str) -> list[list[str]]:
+    """Return the arguments of Snakemake in `make paper FROM=<origin>`, targets first."""
+    text = (ROOT / "Makefile").read_text().replace("\\\n", " ")
+    variables = dict(re.findall(r"^(PAPER_\w+) := (.*)$", text, flags=re.MULTILINE))
+    recipe = text[text.index("\npaper:") :].split("\n\n")[0]
+    recipe = recipe.replace("$(PAPER_FROM_$(FROM))", variables[f"PAPER_FROM_{origin}"])
+    recipe = recipe.replace("$(PAPER_PLATE)", variables["PAPER_PLATE"])
+    found = []
+    for line in re.findall(r"\$\(SNAKEMAKE\) (.*)", recipe):
+        words = [*shlex.split(line), "--"]
+        place = words.index("--")
+        found.append([*words[place + 1 : -1], *words[:place]])
+    return found
 
 
 @pytest.fixture(scope="module")
 def paper(tmp_path_factory: pytest.TempPathFactory) -> Project:
-    """The runs of `make paper` in a fresh clone that has no solver to start."""
+    """The runs of `make paper` in a fresh clone."""
     project = Project.fresh(tmp_path_factory.mktemp("paper") / "project")
     shutil.copytree(ROOT / "results" / "reference", project.folder / "results" / "reference")
-    text = (ROOT / "Makefile").read_text().replace("\\\n", " ")
-    recipe = text[text.index("\npaper:") :].split("\n\n")[0]
-    plate = re.search(r"^PAPER_PLATE := (\S+)$", text, flags=re.MULTILINE)
-    assert plate is not None
-    commands = re.findall(r"\$\(SNAKEMAKE\) (.*)", recipe)
-    assert len(commands) == 2
-    for command in commands:
-        words = command.replace("$(PAPER_PLATE)", plate[1]).replace("$(PAPER)", "compute=false")
-        options, _, targets = " ".join(words.split()).partition(" -- ")
-        project.run(*targets.split(), *options.split())
+    for arguments in commands("kept"):
+        project.run(*arguments)
     return project
 
 
@@ -50,6 +58,14 @@ def test_every_figure_is_drawn_and_nothing_is_computed(paper: Project) -> None:
 @pytest.mark.parametrize("name", ["table1", "table2", "bubble", "grid_study"])
 def test_every_table_is_there(name: str, paper: Project) -> None:
     assert list((paper.folder / "results").glob(f"paper-*/tables/{name}.csv"))
+
+
+def test_from_scratch_every_case_is_to_be_computed(paper: Project) -> None:
+    plate, section = (jobs_planned(paper.run(*words, "-n")) for words in commands("scratch"))
+    assert plate["steady_case"] >= 4
+    assert plate["unsteady_case"] >= 6
+    assert section["unsteady_case"] >= 20
+    assert section["steady_batch"] == section["unsteady_batch"] == 0
 
 
 def test_what_is_missing_is_named(paper: Project) -> None:

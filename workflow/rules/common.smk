@@ -156,7 +156,9 @@ def indices_before_round(wildcards):
 
 def indices_of_histories(wildcards):
     """Return the runs of which histories are shown: of the corrected section and the beam."""
-    if not CONFIG.compute:  # a model of which nothing is kept is not the one that is shown
+    if (
+        not CONFIG.compute
+    ):  # a model of which nothing is kept is not the one that is shown
         return indices_of_sweep(wildcards)
     models = (section_model(CONFIG.sweep.shown), beam_model(CONFIG.sweep.shown))
     return [

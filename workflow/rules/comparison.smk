@@ -76,7 +76,7 @@ rule missing:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("results/index.py"),
+        code=code("comparison/missing.py", "results/index.py"),
     message:
         "cases without a kept result"
     script:

@@ -11,6 +11,7 @@ import pandas as pd
 import xarray as xr
 
 from equisection.comparison.kept_runs import kept_runs
+from equisection.comparison.missing import missing_table
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset
 
@@ -21,8 +22,10 @@ class Evidence:
 
     Attributes
     ----------
-    paper, summary, onset, linear, missing
+    paper, summary, onset, linear
         ``comparison/*.csv`` of the run that the paper's figures are drawn from.
+    missing
+        The cases of both runs of ``make paper`` that have no result.
     bubble, grid_study
         ``tables/*.csv`` of it.
     correction, section_mesh
@@ -86,7 +89,12 @@ def read_evidence(figures: Path, plate: Path, reference: Path) -> Evidence:
         summary=_table(comparison / "summary.csv"),
         onset=_table(comparison / "onset.csv"),
         linear=_table(comparison / "linear_theory.csv"),
-        missing=_table(comparison / "missing.csv"),
+        missing=missing_table(
+            index
+            for run in (figures, plate)
+            for kind in ("steady", "unsteady")
+            for index in sorted((run / kind).glob("*/*.json"))
+        ),
         bubble=_table(figures / "tables" / "bubble.csv"),
         grid_study=_table(figures / "tables" / "grid_study.csv"),
         correction=read_dataset(figures / "steady" / "correction.nc"),

@@ -84,7 +84,7 @@ def _means(evidence: Evidence, model: str, columns: tuple[str, ...]) -> Finding:
                 f"{percent(value)} at {k_star:g}"
                 for k_star, value in zip(pairs["k_star"], relative, strict=True)
             )
-            parts.append(f"{column.removesuffix('_deg').replace('_', ' ')}: {words}")
+            parts.append(f"{_name(column)}: {words} (k*)")
     if not parts:
         return open_finding(_PLATE_RUNS, " ".join(_over_corrected(evidence, c) for c in columns))
     return Finding(
@@ -106,12 +106,16 @@ def _over_corrected(evidence: Evidence, column: str) -> str:
     pairs = _pairs(evidence, _SECTION, _CORRECTED, column)
     if pairs.empty:
         return ""
-    name = column.removesuffix("_deg").removesuffix("_chords").replace("_", " ")
     ratio = pairs["here"] / pairs["other"]
+    low, high = pairs["k_star"].min(), pairs["k_star"].max()
     return (
-        f"The section as it is has {ratio.min():.2f} to {ratio.max():.2f} times the {name} of the "
-        f"corrected one (k* {pairs['k_star'].min():g} to {pairs['k_star'].max():g})."
+        f"The section as it is has {ratio.min():.2f} to {ratio.max():.2f} times the "
+        f"{_name(column)} of the corrected one (k* {low:g} to {high:g})."
     )
+
+
+def _name(column: str) -> str:
+    return column.removesuffix("_deg").removesuffix("_chords").replace("_", " ")
 
 
 def _by_k_star(k_star: pd.Series, values: pd.Series) -> str:
@@ -254,14 +258,14 @@ def not_classical_flutter(evidence: Evidence) -> Finding:
     )
     return Finding(
         Verdict.AGREES if fastest["growth_rate"] < 0.0 else Verdict.DIFFERS,
-        f"at k* = {unstable:g}, where the section's oscillation still grows, the least damped "
+        f"at k* = {unstable:g}, where the uncorrected section is still unstable, the least damped "
         f"motion of linear theory ({fastest['motion']}) decays by "
         f"{fastest['growth_rate']:+.4f} V/c. {own}divergence at {divergence:.2f} "
         f"({by_polar:.2f} with the slope of the section's own c_m)",
         "Theodorsen's loads, k and p-k methods; fractions of a second",
         "The instability is none of attached, linear flow. With centre of mass and pitch axis in "
-        "one there is still a linear flutter, next to divergence and at about a fifth of the k* at "
-        "which the section stalls ([linear.md](linear.md)).",
+        "one there is still a linear flutter, next to divergence and far below the k* at which the "
+        "section stalls ([linear.md](linear.md)).",
     )
 
 
