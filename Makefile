@@ -4,12 +4,21 @@
 PYTHON ?= python3
 CORES ?= all
 CONFIG ?=
+FROM ?= kept
 ENV := .venv
 BIN := $(ENV)/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profiles/default \
 	$(if $(CONFIG),--configfile $(CONFIG))
 
-.PHONY: run report identification status test lint bench openfoam clean
+# What `make paper` draws: kept results alone, or with FROM=scratch what is computed.
+PAPER_FROM_kept := compute=false
+PAPER_FROM_scratch := compute=true reuse='""'
+PAPER_PLATE := results/paper-plate-figures
+ifeq ($(PAPER_FROM_$(FROM)),)
+$(error FROM is '$(FROM)'; allowed are kept and scratch)
+endif
+
+.PHONY: run report paper cost identification status test lint docs bench openfoam clean
 
 run: $(ENV)/run
 	$(SNAKEMAKE)
@@ -22,6 +31,19 @@ run: $(ENV)/run
 report: run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && \
 	$(SNAKEMAKE) --report $$folder/report.html && echo "report: $$folder/report.html"
+
+paper: $(ENV)/run
+	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER_FROM_$(FROM)) \
+		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
+		$(PAPER_PLATE)/figures/fig10-spanwise-loads.png
+	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER_FROM_$(FROM))
+	$(BIN)/python -m equisection.comparison.side_by_side
+	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Fig. 10 in $(PAPER_PLATE)/figures/" \
+		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/"
+
+cost: $(ENV)/run
+	$(SNAKEMAKE) --configfile config/paper/embedded.yaml -- results/paper-embedded/comparison/summary.csv
+	cp results/paper-embedded/comparison/summary.csv results/reference/embedded-cost.csv
 
 identification: $(ENV)/run
 	$(SNAKEMAKE) identification
@@ -42,6 +64,11 @@ lint: $(ENV)/lint
 	$(BIN)/python -m equisection.config --check
 	$(BIN)/snakemake --lint
 
+docs: $(ENV)/docs
+	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --nitpicky \
+		--conf-dir docs --doctree-dir .sphinx . site
+	@echo "site: site/docs/index.html"
+
 bench: $(ENV)/test
 	$(BIN)/python -m tests.benchmarks
 
@@ -55,7 +82,7 @@ openfoam:
 
 clean:
 	find results -mindepth 1 -maxdepth 1 ! -name reference -exec rm -rf {} +
-	rm -rf .snakemake
+	rm -rf .snakemake .sphinx site
 
 # One environment; each stamp says which extras are in it, and is renewed when the pins change.
 $(ENV)/python-is-new-enough:
@@ -70,6 +97,10 @@ $(ENV)/run: $(ENV)/python-is-new-enough envs/constraints.txt pyproject.toml
 
 $(ENV)/test: $(ENV)/run
 	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[test]'
+	@touch $@
+
+$(ENV)/docs: $(ENV)/run
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[docs]'
 	@touch $@
 
 $(ENV)/lint: $(ENV)/run

@@ -4,17 +4,39 @@ from pathlib import Path
 
 import pandas as pd
 
+from equisection.comparison.linear_theory import linear_onset, moment_slope, with_linear_theory
 from equisection.comparison.onset import onset_table
 from equisection.files import written_whole
+from equisection.results.netcdf import read_dataset
 from equisection.script import logged
 
 
-def main(summary: Path, output: Path) -> None:
-    """Bracket the onset of each model between a stable and an unstable k*."""
+def main(
+    summary: Path,
+    equivalent: Path,
+    polar_2d: Path,
+    *,
+    resolution: str,
+    incidence_deg: float,
+    reduction: str,
+    output: Path,
+) -> None:
+    """Bracket the onset of each model, and put linear theory's divergence and flutter beside."""
+    slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg)
+    linear = linear_onset(read_dataset(equivalent), slope)
+    table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
     with written_whole(output) as aside:
-        onset_table(pd.read_csv(summary)).to_csv(aside, index=False)
+        table.to_csv(aside, index=False, float_format="%.6g")
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        main(Path(snakemake.input.summary), Path(snakemake.output[0]))
+        main(
+            Path(snakemake.input.summary),
+            Path(snakemake.input.equivalent),
+            Path(snakemake.input.polar_2d),
+            resolution=snakemake.params.resolution,
+            incidence_deg=snakemake.params.incidence_deg,
+            reduction=snakemake.params.reduction,
+            output=Path(snakemake.output[0]),
+        )

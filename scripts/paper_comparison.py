@@ -5,12 +5,13 @@ from typing import Any
 
 import pandas as pd
 
+from equisection import plan
 from equisection.comparison.paper import paper_table
 from equisection.comparison.paper_here import Run
 from equisection.comparison.tables import table_2
 from equisection.config import load_config
 from equisection.files import written_whole
-from equisection.results.index import result_file
+from equisection.results.index import read_index, result_file
 from equisection.results.netcdf import read_dataset
 from equisection.script import logged
 
@@ -49,8 +50,10 @@ if __name__ == "__main__":
         for name in ("polar_3d", "correction", "bubble"):
             for path in snakemake.input[name]:
                 inputs[name] = Path(path)
-        for index in snakemake.input.index_3d:
-            inputs["reference_3d"] = result_file(Path(index), snakemake.params.reference)
+        for index in map(Path, snakemake.input.index_3d):
+            stiffest = plan.stiffest_case(read_index(index))
+            if stiffest is not None:
+                inputs["reference_3d"] = result_file(index, stiffest)
         main(
             dict(snakemake.params.config),
             snakemake.params.is_paper_case,

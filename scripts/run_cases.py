@@ -1,4 +1,4 @@
-"""Run the cases of one job with the solver that they name."""
+"""Run the cases of one job with the solver that they name, or take what is kept of them."""
 
 import logging
 import sys
@@ -9,6 +9,7 @@ from equisection.results.failures import warning_of
 from equisection.results.index import write_index
 from equisection.script import logged
 from equisection.solvers.job import run_cases
+from equisection.solvers.kept_alone import answer_from_kept
 
 
 def main(
@@ -35,13 +36,22 @@ def main(
         print(f"warning: {warning}", file=sys.stderr)
 
 
+def take_kept(cases: Path, output: Path, store: Path, reuse: Path) -> None:
+    """Index the kept results of the cases; those that have none are named in the index."""
+    answers = answer_from_kept(read_cases(cases), output.parent, store, reuse)
+    write_index(output, answers.found, answers.missing)
+
+
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        main(
+        arguments = (
             Path(snakemake.input[0]),
             Path(snakemake.output[0]),
             Path(snakemake.params.store),
-            Path(snakemake.log[0]).with_suffix(".progress.json"),
-            Path(snakemake.params.reuse) if snakemake.params.reuse else None,
-            threads=snakemake.threads,
         )
+        reuse = Path(snakemake.params.reuse) if snakemake.params.reuse else None
+        if reuse is not None and not snakemake.params.compute:
+            take_kept(*arguments, reuse)
+        else:
+            progress = Path(snakemake.log[0]).with_suffix(".progress.json")
+            main(*arguments, progress, reuse, threads=snakemake.threads)

@@ -1,10 +1,14 @@
 """Make the mesh of the section, and its Courant number in the steady flow."""
 
+import shutil
 from pathlib import Path
 from typing import cast
 
 from equisection.cases import SteadyCase, case_hash, read_cases
+from equisection.files import written_whole
+from equisection.results.kept import kept_mesh
 from equisection.results.netcdf import write_dataset
+from equisection.results.section_mesh import no_mesh
 from equisection.script import logged
 from equisection.solvers.protocol import MeshingSolver
 from equisection.solvers.registry import solver_from_case
@@ -28,11 +32,22 @@ def main(cases: Path, time_step: float, store: Path, output: Path) -> None:
     write_dataset(output, dataset)
 
 
+def take_kept(cases: Path, time_step: float, reuse: Path, output: Path) -> None:
+    """Take the mesh that is kept of the one case of ``cases``, or one without cells."""
+    ((_, case),) = read_cases(cases).items()
+    wanted = {"solver": case.solver.name, "resolution": case.resolution, "time_step": time_step}
+    kept = kept_mesh(reuse, {**wanted, "incidence_deg": case.incidence_deg})
+    if kept is None:
+        write_dataset(output, no_mesh(case.incidence_deg, time_step).to_dataset())
+        return
+    with written_whole(output) as aside:
+        shutil.copyfile(kept, aside)
+
+
 if __name__ == "__main__":
     with logged(snakemake.log[0]):
-        main(
-            Path(snakemake.input.case),
-            snakemake.params.time_step,
-            Path(snakemake.params.store),
-            Path(snakemake.output[0]),
-        )
+        case, step = Path(snakemake.input.case), snakemake.params.time_step
+        if snakemake.params.compute:
+            main(case, step, Path(snakemake.params.store), Path(snakemake.output[0]))
+        else:
+            take_kept(case, step, Path(snakemake.params.reuse), Path(snakemake.output[0]))

@@ -136,6 +136,25 @@ MALFORMED = [
     ({"sweep": {"models": "3d"}}, "sweep.models", "'3d'", "a list of 1 or more, each one of 2d"),
     ({"sweep": {"models": ["3d", "4d"]}}, "sweep.models.1", "'4d'", "one of 2d, 2d-corrected"),
     ({"sweep": {"models": ["3d", "2d", "3d"]}}, "sweep.models.2", "'3d'", "each model once"),
+    (
+        {"sweep": {"models": ["2d", "3d"], "taken": {"3d": "other/unsteady/3d/sweep.json"}}},
+        "sweep.taken.3d",
+        "'other/unsteady/3d/sweep.json'",
+        "a model that is not in sweep.models",
+    ),
+    (
+        {"sweep": {"models": ["2d"], "taken": {"3d": "other/unsteady/2d/sweep.json"}}},
+        "sweep.taken.3d",
+        "'other/unsteady/2d/sweep.json'",
+        "an index of results of this model",
+    ),
+    ({"compute": False, "reuse": ""}, "reuse", "''", "a folder with results"),
+    (
+        {"compute": False, "sweep": {"onset": "refine"}},
+        "sweep.onset",
+        "'refine'",
+        "'sweep' where compute is false",
+    ),
     ({"steady": {"incidence_deg": [0, 1]}}, "steady.incidence_deg", "[0, 1]", "of 4 or more"),
     (
         {"steady": {"incidence_deg": [0, 2, 1, 3]}},

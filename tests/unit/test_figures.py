@@ -28,13 +28,15 @@ from equisection.figures import (
     fig15_modal_contributions,
     fig16_response,
     fig17_hysteresis,
+    growth_rate,
 )
 from equisection.figures.correction import SteadyData
 from equisection.figures.rule_graph import RuleGraph, RuleText
 from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import write_dataset
-from equisection.results.section_mesh import SectionMesh
+from equisection.results.polar import gather_polar
+from equisection.results.section_mesh import SectionMesh, no_mesh
 from equisection.results.steady import SteadyResult
 from equisection.results.surface import SectionSurface
 from equisection.results.unsteady import UnsteadyResult
@@ -420,6 +422,58 @@ def test_failed_runs_are_crosses_on_the_axis(tmp_path):
 def test_reduced_time_is_that_of_the_paper(tmp_path):
     response = fig16_response.read_response(*sweep(tmp_path, SWEEPS["one k*"]), 21.0 / 4.0)
     assert response.histories["C"].time[-1] == pytest.approx(2.0 * 40.0)
+
+
+@pytest.mark.parametrize("module", [fig05_section_mesh, fig08_courant_number])
+def test_mesh_that_is_not_kept_is_said_to_be_missing(module):
+    figure = module.draw(no_mesh(2.5, 0.02).to_dataset())
+    assert "is not kept" in words(figure).replace("\n", " ")
+    lay_out(figure)
+
+
+def test_rigid_beam_that_was_not_run_is_said_to_be_missing():
+    figure = fig10_spanwise_loads.draw(gather_polar({}), "coarse")
+    assert "No rigid beam was run" in words(figure)
+    lay_out(figure)
+
+
+def linear_theory() -> pd.DataFrame:
+    return pd.DataFrame(
+        {
+            "reduction": "consistent",
+            "motion": ["pitch", "pitch", "heave", "heave"],
+            "k_star": [5.0, 21.0, 5.0, 21.0],
+            "growth_rate": [-0.03, -0.02, -0.05, -0.04],
+            "frequency_strouhal": [0.12, 0.28, 0.02, 0.04],
+        }
+    )
+
+
+def growth(**changes: object) -> pd.DataFrame:
+    runs = {
+        "model": "2d",
+        "k_star": [5.0, 21.0],
+        "regime": ["growing", "settled"],
+        "growth_rate": [0.01, -0.02],
+        "frequency_strouhal": [0.12, 0.28],
+        "solver": "made-up",
+        "resolution": "coarse",
+    }
+    return pd.DataFrame({**runs, **changes})
+
+
+def test_growth_of_runs_and_of_linear_theory_stand_in_one_panel():
+    figure = growth_rate.draw(growth(), linear_theory(), is_paper_case=True)
+    drawn = [tuple(line.get_ydata()) for line in figure.axes[0].get_lines()]
+    assert {(0.01, -0.02), (-0.03, -0.02), (-0.05, -0.04)} <= set(drawn)
+    lay_out(figure)
+
+
+def test_failed_runs_have_no_growth():
+    failed = growth(regime="failed")
+    figure = growth_rate.draw(failed, linear_theory().iloc[:0], is_paper_case=False)
+    assert "No run has a growth rate." in words(figure)
+    lay_out(figure)
 
 
 @pytest.mark.parametrize("suffix", ["png", "svg", "pdf"])

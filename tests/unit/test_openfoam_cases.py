@@ -202,6 +202,7 @@ def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
         "fig08-courant-number",
         "fig16-response",
         "fig17-hysteresis",
+        "growth-rate",
     ]
 
 

@@ -65,7 +65,8 @@ def test_name_of_a_model_is_taken_apart(
 
 def test_sweep_is_in_ascending_order() -> None:
     assert plan.sweep_cases(config(k_star=[21, 4, 6.44])) == ["k4", "k6.44", "k21"]
-    assert plan.reference_case(config(k_star=[21, 4, 6.44])) == "k21"
+    assert plan.stiffest_case(["k4", "k21", "k6.44"]) == "k21"
+    assert plan.stiffest_case([]) is None
 
 
 def test_range_of_k_star_holds_both_ends() -> None:

@@ -9,8 +9,9 @@ from tests.sample_cases import STEADY, UNSTEADY
 
 from equisection.cases import Case, case_hash
 from equisection.command_line import main
-from equisection.results.kept import keep_results, kept_results
+from equisection.results.kept import SECTION_MESH, keep_results, kept_mesh, kept_results
 from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.results.section_mesh import no_mesh
 from equisection.solvers import job
 from equisection.solvers.job import run_cases
 from equisection.solvers.result_store import ResultStore, Task
@@ -48,6 +49,16 @@ def test_results_of_cases_are_kept_but_for_failed_ones(run: Path, tmp_path: Path
         case_hash(STEADY): tmp_path / "kept/steady/2d/coarse_a2.5.nc",
         case_hash(at(5.0)): tmp_path / "kept/unsteady/2d/k5.nc",
     }
+
+
+def test_section_mesh_is_kept_and_found_by_what_it_is_of(run: Path, tmp_path: Path) -> None:
+    mesh = no_mesh(2.5, 0.02).to_dataset().assign_attrs(resolution="coarse")
+    write_dataset(run / SECTION_MESH, mesh)
+    keep_results(run, tmp_path / "kept/my-beam")
+    path = tmp_path / "kept/my-beam" / SECTION_MESH
+    assert kept_mesh(tmp_path / "kept", {"resolution": "coarse", "time_step": 0.02}) == path
+    assert kept_mesh(tmp_path / "kept", {"resolution": "fine", "time_step": 0.02}) is None
+    assert path not in {kept.path for kept in kept_results(tmp_path / "kept")}
 
 
 def test_kept_result_is_taken_and_others_are_computed(

@@ -116,3 +116,11 @@ def test_given_polar_is_read_back_as_it_was(tmp_path: Path) -> None:
     np.testing.assert_array_equal(polar.moment, [-0.06, 0.0, 0.07, 0.066])
     np.testing.assert_array_equal(polar.drag, [0.054, 0.044, 0.086, 0.15])
     assert polar.label == "given: tunnel"
+
+
+def test_polar_of_no_case_is_written_and_read(tmp_path: Path) -> None:
+    write_dataset(tmp_path / "polar.nc", gather_polar({}))
+    polar = read_dataset(tmp_path / "polar.nc")
+    assert polar.sizes["resolution"] == 0
+    with pytest.raises(ResultFileError, match="no resolution 'coarse'"):
+        polar_at(polar, "coarse")

@@ -93,7 +93,18 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         run.main(cases, index, folder / "store", folder / "progress.json")
     indices = [folder / "unsteady" / model / "sweep.json" for model in ("2d-corrected", "3d")]
     load_script("summary").main(indices, folder / "summary.csv")
-    load_script("onset").main(folder / "summary.csv", folder / "onset.csv")
+    load_script("linear_theory").main(
+        folder / "equivalent.nc", [9.0, 21.0], folder / "linear_theory.csv"
+    )
+    load_script("onset").main(
+        folder / "summary.csv",
+        folder / "equivalent.nc",
+        folder / "polar_2d.nc",
+        resolution="thin",
+        incidence_deg=2.5,
+        reduction="consistent",
+        output=folder / "onset.csv",
+    )
     load_script("refine_onset").main(indices[:1], 0.05, 3, folder / "round1.json")
     return folder
 

@@ -23,11 +23,13 @@ ONCE = (
     "equivalent_section",
     "summary",
     "onset",
+    "linear_theory",
     "paper_comparison",
     "fig01_workflow",
     "fig03_modes",
     "fig06_section_polar",
     "fig16_response",
+    "growth_rate",
     "run",
 )
 

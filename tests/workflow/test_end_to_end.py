@@ -26,6 +26,7 @@ FIGURES = (
     "fig15-modal-contributions",
     "fig16-response",
     "fig17-hysteresis",
+    "growth-rate",
 )
 GATHERED = {
     "structure/modes.nc": {"frequency", "kind", "shape", "frequency_constant"},
@@ -47,11 +48,12 @@ GATHERED = {
     "steady/polar_3d.nc": {"cd", "cl", "cm", "cl_section", "cm_section"},
     "steady/correction.nc": {"lift_factor", "moment_factor"},
 }
-REPORTED_TABLES = ("table1", "table2", "paper", "summary", "onset")
+REPORTED_TABLES = ("table1", "table2", "paper", "summary", "onset", "linear_theory")
 COLUMNS = {
     "comparison/summary.csv": "model,k_star,regime,mean_twist_deg,mean_deflection_chords,"
     "twist_amplitude_deg,frequency_strouhal,growth_rate,cpu_seconds,wall_seconds",
     "comparison/onset.csv": "model,k_star_stable,k_star_unstable",
+    "comparison/linear_theory.csv": "reduction,motion,k_star,growth_rate,frequency_strouhal",
     "comparison/paper.csv": "quantity,paper,here,relative_difference",
 }
 RESULTS_OF_CASES = [
@@ -225,7 +227,7 @@ def reported(finished: Project, tmp_path_factory: pytest.TempPathFactory) -> tup
 def test_report_shows_every_figure_and_table_with_its_caption(reported: tuple[str, str]) -> None:
     entry = r'"name": "([^"]+)", "filename": .{0,300}?"caption": "((?:[^"\\]|\\.)*)"'
     captions = dict(re.findall(entry, reported[1]))
-    shown = {f"{name}.png": name[:5] for name in FIGURES}
+    shown = {f"{name}.png": re.sub(r"^(fig\d+)-.*", r"\1", name) for name in FIGURES}
     shown |= {f"{name}.csv": name for name in REPORTED_TABLES}
     for name, source in shown.items():
         text = (ROOT / "workflow" / "report" / f"{source}.rst").read_text()

@@ -9,7 +9,7 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -129,8 +129,14 @@ def read_refinement(path: Path) -> list[str]:
     return names
 
 
-#: Figures of every run, by the paper's number.
-FIGURES = ("fig01-workflow", "fig03-modes", "fig06-section-polar", "fig16-response")
+#: Figures of every run, by the paper's number; the last is not one of the paper's.
+FIGURES = (
+    "fig01-workflow",
+    "fig03-modes",
+    "fig06-section-polar",
+    "fig16-response",
+    "growth-rate",
+)
 #: Figures of the rigid beam, drawn only where the solver runs it.
 FIGURES_OF_BEAM = ("fig10-spanwise-loads",)
 #: Figures of the correction, drawn only where there is a polar of the rigid beam.
@@ -150,7 +156,7 @@ def figures(config: Config) -> list[str]:
         of_beam = (*FIGURES_OF_BEAM, *of_beam)
     of_mesh = FIGURES_OF_MESH if has_mesh(config) else ()
     of_surface = FIGURES_OF_SURFACE if has_surface(config) else ()
-    run = {model(name, config.reduction).dimension for name in config.sweep.models}
+    run = {model(name, config.reduction).dimension for name in config.sweep.shown}
     shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
     return sorted([*FIGURES, *of_beam, *of_mesh, *of_surface, *shown])
 
@@ -182,6 +188,6 @@ def has_grid_study(config: Config) -> bool:
     return has_mesh(config) and len(resolutions(config)) >= 3
 
 
-def reference_case(config: Config) -> str:
-    """Return the stiffest case of the sweep, the paper's reference plate (k* = 21) by default."""
-    return sweep_cases(config)[-1]
+def stiffest_case(names: Iterable[str]) -> str | None:
+    """Return the case of the largest k*, the paper's reference plate (k* = 21) by default."""
+    return max(names, key=k_star_of, default=None)

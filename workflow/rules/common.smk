@@ -26,9 +26,13 @@ RESOLVED = resolve_config(CONFIG)
 RESULTS = f"results/{CONFIG.run}"
 LOGS = f"{RESULTS}/logs"
 STORE = "results/.store"
+# Results that are only looked up, so that a later run that computes does not find them.
+KEPT_STORE = f"{RESULTS}/.kept"
 ENVIRONMENT = "../../envs/environment.yaml"
 PROJECT = Path(workflow.current_basedir).parent.parent
 PROVIDES = SOLVERS[CONFIG.solver].provides
+# Whether all cases of a batch go to one job: the solver takes many, or they are only looked up.
+IN_ONE_JOB = Capability.BATCH in PROVIDES or not CONFIG.compute
 DIMENSIONS = plan.steady_dimensions(CONFIG)
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
@@ -90,6 +94,12 @@ def solver_input_files():
     return CONFIG.solver_section.input_files()
 
 
+def kept_files():
+    """Return the results that are taken, where none is computed: new ones are looked at."""
+    found = Path(CONFIG.reuse).rglob("*.nc") if not CONFIG.compute else []
+    return sorted(map(str, found))
+
+
 def section_polar():
     """Return the file of the section polar of the run's resolution, if it is one."""
     path = CONFIG.embedded.polars.get(CONFIG.steady.resolution, FLAT_PLATE)
@@ -119,17 +129,21 @@ def inputs_of_batch(wildcards):
 
 def indices_of_sweep(wildcards):
     """Return the indices of all results of all models."""
+    return [index for model in CONFIG.sweep.shown for index in indices_of_model(model)]
+
+
+def indices_of_model(model):
+    """Return the indices of a model's results, of this run or of the one they are taken from."""
+    if model in CONFIG.sweep.taken:
+        return [CONFIG.sweep.taken[model]]
     return [
-        f"{RESULTS}/unsteady/{model}/{batch}.json"
-        for model in CONFIG.sweep.models
-        for batch in plan.batches(CONFIG)
+        f"{RESULTS}/unsteady/{model}/{batch}.json" for batch in plan.batches(CONFIG)
     ]
 
 
 def index_of_beam():
-    """Return the index of the beam's results, if the beam is run."""
-    there = "3d" in CONFIG.sweep.models
-    return [f"{RESULTS}/unsteady/3d/{plan.SWEEP_BATCH}.json"] if there else []
+    """Return the index of the beam's results, if the beam is run or taken."""
+    return indices_of_model("3d")[:1] if "3d" in CONFIG.sweep.shown else []
 
 
 def indices_before_round(wildcards):
@@ -142,12 +156,16 @@ def indices_before_round(wildcards):
 
 def indices_of_histories(wildcards):
     """Return the runs of which histories are shown: of the corrected section and the beam."""
-    models = (section_model(CONFIG.sweep.models), beam_model(CONFIG.sweep.models))
+    if (
+        not CONFIG.compute
+    ):  # a model of which nothing is kept is not the one that is shown
+        return indices_of_sweep(wildcards)
+    models = (section_model(CONFIG.sweep.shown), beam_model(CONFIG.sweep.shown))
     return [
-        f"{RESULTS}/unsteady/{model}/{batch}.json"
+        index
         for model in models
         if model is not None
-        for batch in plan.batches(CONFIG)
+        for index in indices_of_model(model)
     ]
 
 
@@ -234,7 +252,14 @@ def bubble_of_section():
 def comparison_files():
     """Return the tables that compare the models with each other and with the paper."""
     return [
-        f"{RESULTS}/comparison/{name}.csv" for name in ("summary", "onset", "paper")
+        f"{RESULTS}/comparison/{name}.csv"
+        for name in (
+            "summary",
+            "onset",
+            "linear_theory",
+            "paper",
+            *(() if CONFIG.compute else ("missing",)),
+        )
     ]
 
 

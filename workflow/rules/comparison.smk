@@ -1,5 +1,13 @@
 """Summary of all runs, the bracket of the onset, and the numbers that the paper states."""
 
+# Modules of the classical baseline.
+LINEAR_THEORY = (
+    "aerodynamics/indicial.py",
+    "aerodynamics/thin_airfoil.py",
+    "comparison/linear_theory.py",
+    "motion/linear_flutter.py",
+)
+
 
 rule config_resolved:
     """The configuration with every default filled in."""
@@ -43,17 +51,44 @@ rule summary:
         runtime=5,
     params:
         code=code("comparison/summary.py", "results"),
-        models=list(CONFIG.sweep.models),
+        models=list(CONFIG.sweep.shown),
     message:
         "summary"
     script:
         "../../scripts/summary.py"
 
 
+rule missing:
+    """Name the cases that no kept result answers, where none is computed."""
+    input:
+        indices=indices_of_sweep,
+        steady=expand(
+            f"{RESULTS}/steady/{{dimension}}/polar.json", dimension=DIMENSIONS
+        ),
+    output:
+        f"{RESULTS}/comparison/missing.csv",
+    log:
+        f"{LOGS}/missing.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code("comparison/missing.py", "results/index.py"),
+    message:
+        "cases without a kept result"
+    script:
+        "../../scripts/missing.py"
+
+
 rule onset:
     """The bracket of the onset of each model."""
     input:
         summary=f"{RESULTS}/comparison/summary.csv",
+        equivalent=f"{RESULTS}/structure/equivalent.nc",
+        polar_2d=f"{RESULTS}/steady/polar_2d.nc",
     output:
         report(
             f"{RESULTS}/comparison/onset.csv",
@@ -70,11 +105,45 @@ rule onset:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("comparison/onset.py"),
+        code=code("comparison/onset.py", *LINEAR_THEORY),
+        resolution=CONFIG.steady.resolution,
+        incidence_deg=CONFIG.flow.incidence_deg,
+        reduction=CONFIG.reduction,
     message:
         "onset of the instability"
     script:
         "../../scripts/onset.py"
+
+
+rule linear_theory:
+    """Growth and frequency of the section by classical linear theory."""
+    input:
+        equivalent=f"{RESULTS}/structure/equivalent.nc",
+    output:
+        report(
+            f"{RESULTS}/comparison/linear_theory.csv",
+            caption="../report/linear_theory.rst",
+            category="Tables",
+            labels={
+                "table": "linear theory",
+                "shows": "what Theodorsen's theory sees",
+            },
+        ),
+    log:
+        f"{LOGS}/linear_theory.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=500,
+        runtime=5,
+    params:
+        code=code(*LINEAR_THEORY),
+        k_star=list(CONFIG.sweep.values()),
+    message:
+        "linear theory"
+    script:
+        "../../scripts/linear_theory.py"
 
 
 rule paper_comparison:
@@ -114,7 +183,6 @@ rule paper_comparison:
         code=code("comparison"),
         is_paper_case=CONFIG.is_paper_case,
         config=RESOLVED,
-        reference=plan.reference_case(CONFIG),
     message:
         "comparison with the paper"
     script:

@@ -335,7 +335,7 @@ rule fig15_modal_contributions:
     """Contribution of each mode to the deformation (Fig. 15)."""
     input:
         modes=f"{RESULTS}/structure/modes.nc",
-        index=f"{RESULTS}/unsteady/3d/sweep.json",
+        index=index_of_beam(),
         style=STYLE,
     output:
         png=report(
@@ -355,7 +355,6 @@ rule fig15_modal_contributions:
         mem_mb=1000,
         runtime=5,
     params:
-        case=plan.reference_case(CONFIG),
         code=code(*DRAWING, "figures/fig15_modal_contributions.py"),
     message:
         "Fig. 15, modal contributions"
@@ -429,3 +428,35 @@ rule fig17_hysteresis:
         "Fig. 17, hysteresis"
     script:
         "../../scripts/fig17_hysteresis.py"
+
+
+rule growth_rate:
+    """Growth rate and frequency over k*, beside those of classical linear theory."""
+    input:
+        summary=f"{RESULTS}/comparison/summary.csv",
+        linear_theory=f"{RESULTS}/comparison/linear_theory.csv",
+        style=STYLE,
+    output:
+        png=report(
+            f"{RESULTS}/figures/growth-rate.png",
+            caption="../report/growth-rate.rst",
+            category="Figures",
+            labels={"figure": "growth", "shows": "growth rate, linear theory"},
+        ),
+        svg=f"{RESULTS}/figures/growth-rate.svg",
+        pdf=f"{RESULTS}/figures/growth-rate.pdf",
+    log:
+        f"{LOGS}/growth_rate.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code(*DRAWING, "figures/growth_rate.py", "figures/models.py"),
+        is_paper_case=CONFIG.is_paper_case,
+    message:
+        "growth rate and linear theory"
+    script:
+        "../../scripts/growth_rate.py"

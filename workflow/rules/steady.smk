@@ -71,18 +71,20 @@ rule steady_case:
     params:
         store=STORE,
         reuse=CONFIG.reuse,
+        compute=True,
     message:
         "steady {wildcards.dimension} case {wildcards.angle}"
     script:
         "../../scripts/run_cases.py"
 
 
-if Capability.BATCH in PROVIDES:
+if IN_ONE_JOB:
 
     rule steady_batch:
         """Run all incidences of a dimension in one job."""
         input:
             f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
+            kept=kept_files(),
         output:
             f"{RESULTS}/steady/{{dimension}}/polar.json",
         log:
@@ -94,8 +96,9 @@ if Capability.BATCH in PROVIDES:
             mem_mb=1000,
             runtime=10,
         params:
-            store=STORE,
+            store=STORE if CONFIG.compute else KEPT_STORE,
             reuse=CONFIG.reuse,
+            compute=CONFIG.compute,
         message:
             "steady {wildcards.dimension} cases"
         script:
@@ -185,6 +188,7 @@ rule section_mesh:
     """Make the section's mesh, and its Courant number in the steady flow at the run's incidence."""
     input:
         case=f"{RESULTS}/cases/steady/2d/{MESH_CASE}.json",
+        kept=kept_files(),
     output:
         f"{RESULTS}/steady/section_mesh.nc",
     log:
@@ -197,6 +201,8 @@ rule section_mesh:
         runtime=60,
     params:
         store=STORE,
+        reuse=CONFIG.reuse,
+        compute=CONFIG.compute,
         time_step=CONFIG.unsteady.time_step,
     message:
         "mesh of the section"

@@ -71,18 +71,20 @@ rule unsteady_case:
     params:
         store=STORE,
         reuse=CONFIG.reuse,
+        compute=True,
     message:
         "{wildcards.model} at {wildcards.case}"
     script:
         "../../scripts/run_cases.py"
 
 
-if Capability.BATCH in PROVIDES:
+if IN_ONE_JOB:
 
     rule unsteady_batch:
         """Run all k* of a batch in one job."""
         input:
             f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
+            kept=kept_files(),
         output:
             f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
@@ -94,8 +96,9 @@ if Capability.BATCH in PROVIDES:
             mem_mb=2000,
             runtime=60,
         params:
-            store=STORE,
+            store=STORE if CONFIG.compute else KEPT_STORE,
             reuse=CONFIG.reuse,
+            compute=CONFIG.compute,
         message:
             "{wildcards.model}, {wildcards.batch}"
         script:

@@ -45,6 +45,12 @@ class Config(Section):
         description="Folder with results of earlier runs: a case that one of them is the result "
         "of, by its hash, is not computed again. Empty to compute every case.",
     )
+    compute: bool = Field(
+        True,
+        description="Whether a case without a kept result is computed. With false, results come "
+        "from `reuse` alone and no solver is needed: cases that it has not are named in "
+        "`comparison/missing.csv` and left out.",
+    )
     beam: Beam = Field(Beam(), description="The beam.")
     flow: Flow = Field(Flow(), description="The flow.")
     structure: Structure = Field(Structure(), description="Mode computation.")
@@ -76,6 +82,18 @@ class Config(Section):
     def is_paper_case(self) -> bool:
         """Whether beam and flow are those of the paper, so that its numbers can stand beside."""
         return self.beam == Beam() and self.flow == Flow()
+
+
+@check("compute", "reuse")
+def _results_from_somewhere(compute: bool, reuse: str) -> Iterator[Problem]:
+    if not compute and not reuse:
+        yield Problem("reuse", reuse, "allowed is a folder with results where compute is false")
+
+
+@check("compute", "sweep.onset")
+def _refined_by_runs(compute: bool, onset: str) -> Iterator[Problem]:
+    if not compute and onset == "refine":
+        yield Problem("sweep.onset", onset, "allowed is 'sweep' where compute is false")
 
 
 @check("run")

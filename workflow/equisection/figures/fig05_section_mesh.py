@@ -11,7 +11,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from equisection.figures.panels import letter
+from equisection.figures.panels import letter, without_data
 from equisection.figures.provenance import add_provenance, solver_of
 from equisection.figures.style import BLUE, PAGE_WIDTH
 from equisection.results.section_mesh import edges
@@ -28,6 +28,8 @@ def draw(mesh: xr.Dataset) -> Figure:
     mesh
         ``steady/section_mesh.nc``.
     """
+    if not mesh.sizes["cell"]:
+        return without_data("The mesh of the section is not kept.")
     points = np.stack([mesh["x"].values, mesh["y"].values], axis=-1)
     lines = points[edges(mesh["corners"].values)]
     figure = Figure(figsize=(PAGE_WIDTH, 4.6))

@@ -10,7 +10,7 @@ from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from equisection.figures.panels import legend_above, letter
+from equisection.figures.panels import legend_above, letter, without_data
 from equisection.figures.provenance import add_provenance, solver_of
 from equisection.figures.style import BLUE, COLOURS, DASHES, GREY, PAGE_WIDTH
 from equisection.results.section_mesh import share_below
@@ -31,6 +31,8 @@ def draw(mesh: xr.Dataset) -> Figure:
     mesh
         ``steady/section_mesh.nc``.
     """
+    if not mesh.sizes["cell"]:
+        return without_data("The mesh of the section, and the flow on it, is not kept.")
     figure = Figure(figsize=(PAGE_WIDTH, 3.0))
     left, right = figure.subplots(1, 2, width_ratios=[1.25, 1.0])
     _map(figure, left, mesh)

@@ -9,7 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from equisection.figures.panels import letter, say
+from equisection.figures.panels import letter, say, without_data
 from equisection.figures.provenance import add_provenance, solver_of
 from equisection.figures.style import COLOURS, DASHES, GREY, MARKERS, PAGE_WIDTH
 
@@ -38,6 +38,8 @@ def draw(polar: xr.Dataset, resolution: str) -> Figure:
     resolution
         The resolution that is shown.
     """
+    if resolution not in polar["resolution"].values:
+        return without_data(f"No rigid beam was run at resolution '{resolution}'.")
     chosen = polar.sel(resolution=resolution)
     finite = np.isfinite(chosen["cl"].values)
     angles = incidences_shown([float(a) for a in chosen["incidence_deg"].values[finite]])

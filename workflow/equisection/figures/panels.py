@@ -7,7 +7,7 @@ import textwrap
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from equisection.figures.style import GREY
+from equisection.figures.style import GREY, PAGE_WIDTH
 
 
 def letter(axes: Axes, name: str, title: str = "") -> None:
@@ -30,6 +30,13 @@ def say(axes: Axes, sentence: str, width: int = 38) -> None:
     axes.set_xticks([])
     axes.set_yticks([])
     axes.grid(visible=False)
+
+
+def without_data(sentence: str) -> Figure:
+    """Return a figure of one empty panel, with a plain sentence that says why."""
+    figure = Figure(figsize=(PAGE_WIDTH, 1.6))
+    say(figure.subplots(), sentence, width=90)
+    return figure
 
 
 def in_words(regime: str) -> str:

@@ -19,7 +19,11 @@ from equisection.files import write_text
 SCHEMA_VERSION = 1
 
 
-def write_index(path: Path, attributes: Mapping[str, Mapping[str, Any]]) -> None:
+def write_index(
+    path: Path,
+    attributes: Mapping[str, Mapping[str, Any]],
+    missing: Mapping[str, str] | None = None,
+) -> None:
     """Write the index beside the result files.
 
     Parameters
@@ -28,12 +32,16 @@ def write_index(path: Path, attributes: Mapping[str, Mapping[str, Any]]) -> None
         The index; result files are ``<name>.nc`` in the same folder.
     attributes
         Attributes of the result of each case, by the case's name.
+    missing
+        Why there is no result of a case, by its name; these have no file.
     """
     results = {
         name: {key: _plain(value) for key, value in sorted(found.items())}
         for name, found in attributes.items()
     }
-    document = {"schema_version": SCHEMA_VERSION, "results": results}
+    document: dict[str, Any] = {"schema_version": SCHEMA_VERSION, "results": results}
+    if missing:
+        document["missing"] = dict(missing)
     write_text(path, json.dumps(document, indent=1, allow_nan=False) + "\n")
 
 
@@ -45,10 +53,30 @@ def read_index(path: Path) -> dict[str, dict[str, Any]]:
     ResultFileError
         The file is missing, malformed or of another schema version.
     """
+    results = _read(path)[0].items()
+    return {
+        name: {key: math.nan if value is None else value for key, value in attributes.items()}
+        for name, attributes in results
+    }
+
+
+def read_missing(path: Path) -> dict[str, str]:
+    """Return why there is no result of a case, by the name of each such case of an index.
+
+    Raises
+    ------
+    ResultFileError
+        As :func:`read_index`.
+    """
+    return _read(path)[1]
+
+
+def _read(path: Path) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:
+    """Return results and what is missing, as they stand in an index."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
         found = document["schema_version"]
-        results = document["results"].items()
+        results, missing = dict(document["results"]), dict(document.get("missing", {}))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise ResultFileError(
             f"{path}: cannot be read as an index of results ({error!r}); delete it and run again"
@@ -58,10 +86,7 @@ def read_index(path: Path) -> dict[str, dict[str, Any]]:
             f"{path}: schema version {found}; version {SCHEMA_VERSION} is read here. "
             "Delete it and run again"
         )
-    return {
-        name: {key: math.nan if value is None else value for key, value in attributes.items()}
-        for name, attributes in results
-    }
+    return results, missing
 
 
 def result_file(index: Path, name: str) -> Path:

@@ -21,6 +21,8 @@ from equisection.results.netcdf import read_attributes
 
 #: Where a run has the results of its cases.
 _KINDS = ("steady", "unsteady")
+#: Where a run has the mesh of the section, which is the result of no case.
+SECTION_MESH = Path("steady/section_mesh.nc")
 
 
 @dataclass(frozen=True)
@@ -65,12 +67,12 @@ def kept_results(folder: Path) -> list[Kept]:
 
 
 def keep_results(run: Path, folder: Path) -> list[Path]:
-    """Copy the results of a run's cases to a folder, laid out as in the run.
+    """Copy the results of a run's cases, and its section mesh, to a folder laid out as the run.
 
     Returns
     -------
     list of Path
-        The copies; a failed case is none, for it may be cured.
+        The copies of results; a failed case is none, for it may be cured.
 
     Raises
     ------
@@ -81,15 +83,25 @@ def keep_results(run: Path, folder: Path) -> list[Path]:
     for kind in _KINDS:
         for path in sorted((run / kind).rglob("*.nc")):
             attributes = _attributes(path)
-            if attributes.get("case_hash") and not failure_of(attributes):
+            is_mesh = path == run / SECTION_MESH
+            if is_mesh or (attributes.get("case_hash") and not failure_of(attributes)):
                 copy = folder / path.relative_to(run)
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 with written_whole(copy) as aside:
                     shutil.copyfile(path, aside)
-                copies.append(copy)
+                copies += [] if is_mesh else [copy]
     if not copies:
         raise ResultFileError(f"{run}: no result of a case to keep; give the folder of a run")
     return copies
+
+
+def kept_mesh(folder: Path, attributes: dict[str, Any]) -> Path | None:
+    """Return the first section mesh below a folder that has some attributes, if there is one."""
+    for path in sorted(folder.rglob(str(SECTION_MESH))):
+        found = _attributes(path)
+        if found and all(found.get(name) == value for name, value in attributes.items()):
+            return path
+    return None
 
 
 def _attributes(path: Path) -> dict[str, Any]:

@@ -34,8 +34,10 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
     xarray.Dataset
         Over ``resolution`` and ``incidence_deg``; in 3D also over ``span``. A case that failed
         is NaN, with the reason in the attribute ``failures``; where ``is_run`` is 0 there is no
-        case.
+        case. Without results it is without resolutions and incidences.
     """
+    if not results:
+        return _empty_polar()
     resolutions = list(dict.fromkeys(resolution for resolution, _ in results))
     angles = sorted({angle for _, angle in results})
     gathered = {key: _coefficients(result) for key, result in results.items()}
@@ -74,6 +76,18 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
         failures="; ".join(failures),
         **{f"solver_{name}": text for name, text in solvers.items()},
     )
+
+
+def _empty_polar() -> xr.Dataset:
+    """Return the polar of no case."""
+    nothing = (("resolution", "incidence_deg"), np.empty((0, 0)))
+    polar = xr.Dataset(
+        dict.fromkeys(_COEFFICIENTS, nothing),
+        coords={"resolution": np.empty(0, str), "incidence_deg": np.empty(0)},
+        attrs={"failures": ""},
+    )
+    _describe(polar)
+    return polar
 
 
 def _describe(polar: xr.Dataset) -> None:
@@ -134,6 +148,10 @@ def polar_at(dataset: xr.Dataset, resolution: str) -> SectionPolar:
     ResultFileError
         Fewer than four incidences have a result.
     """
+    if resolution not in dataset["resolution"].values:
+        raise ResultFileError(
+            f"the polar has no resolution '{resolution}': none of its incidences has a result"
+        )
     chosen = dataset.sel(resolution=resolution)
     there = np.isfinite(chosen["cl"].values)
     if there.sum() < 4:

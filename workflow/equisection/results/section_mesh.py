@@ -67,6 +67,14 @@ class SectionMesh:
         )
 
 
+def no_mesh(incidence_deg: float, time_step: float) -> SectionMesh:
+    """Return what stands for a mesh that is not known: one without cells."""
+    nothing = np.empty((0, 4), np.int64)
+    return SectionMesh(
+        np.empty((0, 2)), nothing, np.empty(0), time_step, incidence_deg, "not known", {}
+    )
+
+
 def cell_areas(points: Floats, corners: NDArray[np.int64]) -> Floats:
     """Return the areas of quadrilaterals (unit of the points squared), shape (m,)."""
     first, second = np.moveaxis(points[corners[:, [2, 3]]] - points[corners[:, [0, 1]]], 1, 0)

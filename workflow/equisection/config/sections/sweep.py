@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag
@@ -71,6 +72,17 @@ class Sweep(Section):
         3, description="Values of k* that one round of refinement runs at once (-)."
     )
 
+    taken: dict[ModelName, str] = Field(
+        {},
+        description="Models whose results are those of another run, beside the ones run here: the "
+        "index of them (`results/<run>/unsteady/<model>/sweep.json`) by the model's name.",
+    )
+
+    @property
+    def shown(self) -> tuple[str, ...]:
+        """The models that are compared: those run, then those taken."""
+        return (*self.models, *self.taken)
+
     def values(self) -> tuple[float, ...]:
         """Return the values of k*, ascending."""
         return (
@@ -108,6 +120,21 @@ def _distinct_in_range(k_star: Range) -> Iterator[Problem]:
             f"allowed are fewer values, so that those between {k_star.start:g} and "
             f"{k_star.stop:g} differ in the first six digits, which name the files of a case",
         )
+
+
+@check("sweep.models", "sweep.taken")
+def _run_or_taken(models: tuple[str, ...], taken: dict[str, str]) -> Iterator[Problem]:
+    for model, path in taken.items():
+        if model in models:
+            yield Problem(
+                f"sweep.taken.{model}", path, "allowed is a model that is not in sweep.models"
+            )
+        elif Path(path).suffix != ".json" or Path(path).parent.name != model:
+            yield Problem(
+                f"sweep.taken.{model}",
+                path,
+                f"allowed is an index of results of this model, unsteady/{model}/sweep.json",
+            )
 
 
 @check("sweep.models")

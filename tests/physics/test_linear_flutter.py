@@ -1,0 +1,191 @@
+"""Classical linear theory of a section: Theodorsen's function, divergence, flutter."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from equisection.aerodynamics.indicial import theodorsen
+from equisection.aerodynamics.thin_airfoil import ThinAirfoil
+from equisection.motion.linear_flutter import (
+    TypicalSection,
+    divergence_scale,
+    flutter,
+    growth_and_frequency,
+)
+
+
+def textbook(axis: float, centre: float, mass_ratio: float, gyration_2: float, ratio: float):
+    """Return a section from a, e, mu, r^2 and sigma of the textbooks; s is 1/V^2.
+
+    Lengths are in half-chords, V = U/(b omega_theta).
+    """
+    mass = mass_ratio * math.pi / 2
+    inertia = mass * gyration_2 / 4
+    return TypicalSection(
+        mass=mass,
+        inertia=inertia,
+        flexural_stiffness=4 * ratio**2 * mass,
+        torsional_stiffness=4 * inertia,
+        axis=axis / 2,
+        centre=centre / 2,
+    )
+
+
+#: Hodges & Pierce, Introduction to Structural Dynamics and Aeroelasticity, sections 4.2 and 5.5.
+HODGES_PIERCE = textbook(-1 / 5, -1 / 10, 20, 6 / 25, 2 / 5)
+#: The paper's section at s = k*, in its own reduction (c^2 m/I = 9.12, c^2 k_w/k_theta = 0.183).
+PLATE = TypicalSection(9.12 * 6.67, 6.67, 0.183, 1.0)
+
+
+def flutter_determinant(k, squares, numbers):
+    """Return the determinant of heave h/b and pitch; ``squares`` is (omega_theta/omega)^2."""
+    axis, centre, mass_ratio, gyration_2, ratio = numbers
+    circulation = complex(theodorsen(k))
+    lift_by_heave = 1 - 2j * circulation / k
+    lift_by_pitch = -axis - 1j / k - 2 * circulation / k**2 - 2j * (0.5 - axis) * circulation / k
+    moment_by_heave = -axis + 2j * (0.5 + axis) * circulation / k
+    moment_by_pitch = (
+        1 / 8
+        + axis**2
+        - 1j * (0.5 - axis) / k
+        + 2 * (0.5 + axis) * circulation / k**2
+        + 2j * (0.25 - axis**2) * circulation / k
+    )
+    offset = mass_ratio * (centre - axis)
+    return np.linalg.det(
+        [
+            [mass_ratio * (1 - ratio**2 * squares) + lift_by_heave, offset + lift_by_pitch],
+            [offset + moment_by_heave, mass_ratio * gyration_2 * (1 - squares) + moment_by_pitch],
+        ]
+    )
+
+
+class TestTheodorsensFunction:
+    def test_limits(self):
+        assert theodorsen(1e-6) == pytest.approx(1.0, abs=2e-5)
+        assert theodorsen(1e5) == pytest.approx(0.5, abs=1e-5)
+
+    @pytest.mark.parametrize(
+        ("k", "real", "imaginary"),
+        [
+            (0.05, 0.9090, -0.1306),
+            (0.1, 0.8319, -0.1723),
+            (0.2, 0.7276, -0.1886),
+            (0.5, 0.5979, -0.1507),
+            (1.0, 0.5394, -0.1003),
+            (4.0, 0.5037, -0.0305),
+        ],
+    )
+    def test_table_values(self, k, real, imaginary):
+        """Theodorsen, NACA Report 496, Table II; to the last digit printed there."""
+        assert theodorsen(k) == pytest.approx(complex(real, imaginary), abs=6e-5)
+
+
+class TestLoads:
+    def test_steady_lift_acts_at_the_quarter_chord(self):
+        for axis in (-0.25, 0.0, 0.1):
+            loads = ThinAirfoil(axis).influence(0.0)
+            np.testing.assert_allclose(loads[:, 0], 0.0)
+            assert loads[0, 1] == pytest.approx(2 * math.pi)
+            assert loads[1, 1] == pytest.approx(2 * math.pi * (0.25 + axis))
+
+    def test_slow_heave_is_a_steady_incidence(self):
+        """w/c = -theta/(i omega) blows against the plate as the incidence theta does."""
+        omega = 1e-4
+        loads = ThinAirfoil().influence(omega)
+        assert -loads[0, 0] / (1j * omega) == pytest.approx(2 * math.pi, rel=1e-3)
+
+    def test_loads_about_another_axis_are_the_same_loads(self):
+        """Move the axis by d: w = w' + d theta, M' = M + d L."""
+        d, omega = 0.13, 0.9
+        here, there = (ThinAirfoil(axis).influence(omega) for axis in (0.0, d))
+        place = np.array([[1.0, d], [0.0, 1.0]])
+        np.testing.assert_allclose(place.T @ here @ place, there, rtol=1e-12)
+
+    def test_fast_motion_meets_the_mass_of_a_cylinder(self):
+        """Apparent mass rho pi b^2 and inertia rho pi b^4/8 (Lamb, Hydrodynamics, article 71)."""
+        omega = 1e5
+        loads = ThinAirfoil().influence(omega) / omega**2
+        np.testing.assert_allclose(np.diag(loads).real, [math.pi / 2, math.pi / 64], rtol=1e-4)
+
+
+class TestDivergence:
+    def test_of_the_textbook(self):
+        """Hodges & Pierce: U_D = r sqrt(mu/(1 + 2 a)) b omega_theta."""
+        speed = 1 / math.sqrt(divergence_scale(HODGES_PIERCE))
+        assert speed == pytest.approx(math.sqrt(6 / 25 * 20 / (1 - 2 / 5)), rel=1e-12)
+        assert speed == pytest.approx(2.828, abs=5e-4)
+
+    def test_of_a_plate_about_mid_chord(self):
+        assert divergence_scale(PLATE) == pytest.approx(math.pi / 2)
+
+    @pytest.mark.parametrize("section", [HODGES_PIERCE, PLATE], ids=["textbook", "plate"])
+    def test_leaves_no_static_stiffness(self, section):
+        scale = divergence_scale(section)
+        left = scale * section.stiffness_matrix - section.air.influence(0.0)
+        assert abs(np.linalg.det(left)) < 1e-12 * np.linalg.det(scale * section.stiffness_matrix)
+
+    @pytest.mark.parametrize("axis", [-0.25, -0.3])
+    def test_none_about_an_axis_at_the_quarter_chord_or_before_it(self, axis):
+        assert divergence_scale(TypicalSection(60.0, 7.0, 0.2, 1.0, axis, axis)) == 0.0
+
+
+class TestFlutter:
+    def test_of_the_textbook(self):
+        """Hodges & Pierce, section 5.5: U_F = 2.165 b omega_theta."""
+        assert 1 / math.sqrt(flutter(HODGES_PIERCE).scale) == pytest.approx(2.165, rel=0.01)
+
+    @pytest.mark.parametrize(
+        "numbers",
+        [(-1 / 5, -1 / 10, 20, 6 / 25, 2 / 5), (-0.15, 0.10, 76, 0.388, 55.9 / 64.1)],
+        ids=["Hodges & Pierce", "Fung, section 6.9"],
+    )
+    def test_flutter_determinant_of_the_textbooks_vanishes(self, numbers):
+        """Scanlan & Rosenbaum, Aircraft Vibration and Flutter (1951), in their own coefficients."""
+        found = flutter(textbook(*numbers))
+        speed = 1 / math.sqrt(found.scale)
+        k = found.omega / 2
+        assert abs(flutter_determinant(k, 1 / (k * speed) ** 2, numbers)) < 1e-6
+
+    def test_the_p_k_method_is_neutral_where_the_k_method_is(self):
+        found = flutter(HODGES_PIERCE)
+        p = growth_and_frequency(HODGES_PIERCE, found.scale * np.array([1.05, 1.0, 0.95]))
+        place = int(np.argmax(p[1].real))
+        assert p[1, place] == pytest.approx(1j * found.omega, abs=1e-7)
+        assert p[0, place].real < 0.0 < p[2, place].real
+
+    def test_heavy_sections_vibrate_as_in_vacuum(self):
+        heavy = TypicalSection(1e9, 1e8, 4e8, 9e8)
+        p = growth_and_frequency(heavy, np.array([1.0]))[0]
+        np.testing.assert_allclose(p.imag, [math.sqrt(0.4), 3.0], rtol=1e-7)
+        np.testing.assert_allclose(p.real, 0.0, atol=1e-7)
+
+    def test_order_of_the_scales_does_not_matter(self):
+        scales = np.array([4.0, 21.0, 8.0])
+        p = growth_and_frequency(PLATE, scales)
+        np.testing.assert_allclose(p, growth_and_frequency(PLATE, scales[::-1])[::-1], rtol=1e-8)
+
+    def test_heave_of_a_heavy_section_is_damped_by_its_lift(self):
+        """Quasi-steady: p = -2 pi C/(2 m*), small against omega (Fung, section 6.9)."""
+        mass, omega = 1e4, 0.02
+        section = TypicalSection(mass, 1e9, mass * omega**2, 1e9)
+        p = growth_and_frequency(section, np.array([1.0]))[0, 0]
+        assert p.real == pytest.approx(-math.pi * theodorsen(omega / 2).real / mass, rel=0.01)
+
+    def test_of_the_papers_section_is_far_below_its_onset(self):
+        """Section 5.2 of the paper: no linear flutter is expected with centre and axis in one.
+
+        There is one, at a third of the k* of the instability and next to divergence; at the k* of
+        the paper both motions decay.
+        """
+        found = flutter(PLATE)
+        assert divergence_scale(PLATE) < found.scale == pytest.approx(1.93, abs=0.005)
+        assert growth_and_frequency(PLATE, np.linspace(4.0, 21.0, 35)).real.max() < -0.01
+
+    def test_a_centre_behind_the_axis_flutters_sooner(self):
+        """The same section with its mass 0.1 c further aft."""
+        aft = TypicalSection(9.12 * 6.67, 6.67 + 9.12 * 6.67 * 0.01, 0.183, 1.0, 0.0, 0.1)
+        assert flutter(aft).scale > 1.3 * flutter(PLATE).scale

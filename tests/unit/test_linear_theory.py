@@ -1,0 +1,77 @@
+"""Linear theory of the equivalent section beside the runs: on the axis of k*."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+import pytest
+import xarray as xr
+
+from equisection.comparison.linear_theory import (
+    COLUMNS,
+    ONSET_COLUMNS,
+    linear_onset,
+    linear_theory,
+    moment_slope,
+    with_linear_theory,
+)
+
+#: The paper's plate, with the consistent section 6 % stiffer and lighter.
+EQUIVALENT = xr.Dataset(
+    {
+        "m_star": ("reduction", [60.8, 80.0]),
+        "i_star": ("reduction", [6.67, 6.67]),
+        "k_w_star": ("reduction", [3.9, 5.1]),
+        "k_star": ("reduction", [21.3, 22.6]),
+    },
+    {"reduction": ["paper", "consistent"]},
+)
+
+
+def polar(angles: tuple[float, ...], slope: float = 1.0) -> xr.Dataset:
+    """Return a polar whose c_m grows evenly with the incidence."""
+    moment = slope * np.radians(angles)[None]
+    names = dict.fromkeys(("cd", "cl", "cm"), (("resolution", "incidence_deg"), moment))
+    return xr.Dataset(
+        names, {"resolution": ["coarse"], "incidence_deg": list(angles)}, {"solver_coarse": "made"}
+    )
+
+
+def test_both_sections_are_at_the_k_star_of_the_axis() -> None:
+    """Divergence is where the section's own k* is the slope of the moment."""
+    found = linear_onset(EQUIVALENT, 1.3)
+    for reduction, own in (("paper", 21.3), ("consistent", 22.6)):
+        expected = [math.pi / 2 * 21.3 / own, 1.3 * 21.3 / own]
+        assert [found[reduction][name] for name in ONSET_COLUMNS[1:]] == pytest.approx(expected)
+
+
+def test_growth_vanishes_at_the_k_star_of_flutter() -> None:
+    k_star = linear_onset(EQUIVALENT, 1.3)["consistent"]["linear_flutter"]
+    table = linear_theory(EQUIVALENT, [k_star, 21.0])
+    assert tuple(table.columns) == COLUMNS
+    here = table[(table["reduction"] == "consistent") & (table["k_star"] == k_star)]
+    assert here["growth_rate"].max() == pytest.approx(0.0, abs=1e-8)
+
+
+def test_stiff_sections_move_at_their_natural_frequencies() -> None:
+    table = linear_theory(EQUIVALENT, [21.3e4]).set_index(["reduction", "motion"])
+    natural = math.sqrt(21.3e4 / 6.67) / (2 * math.pi)
+    assert table.loc[("paper", "pitch"), "frequency_strouhal"] == pytest.approx(natural, rel=0.01)
+
+
+def test_slope_of_a_polar_that_is_not_there_is_unknown() -> None:
+    assert moment_slope(polar((0.0, 2.0, 4.0, 6.0)), "coarse", 2.5) == pytest.approx(1.0)
+    assert math.isnan(moment_slope(polar((0.0, 2.0, 4.0)), "coarse", 2.5))
+    assert math.isnan(moment_slope(polar((0.0, 2.0, 4.0, 6.0)), "coarse", 7.0))
+
+
+def test_only_uncorrected_sections_have_it_in_the_table_of_the_onset() -> None:
+    models = ["2d", "2d-corrected", "3d", "2d-paper"]
+    linear = linear_onset(EQUIVALENT, 1.3)
+    table = with_linear_theory(pd.DataFrame({"model": models}), linear, "consistent")
+    divergence = table.set_index("model")["linear_divergence"]
+    assert divergence["2d"] == pytest.approx(linear["consistent"]["linear_divergence"])
+    assert divergence["2d-paper"] == pytest.approx(linear["paper"]["linear_divergence"])
+    assert divergence[["2d-corrected", "3d"]].isna().all()

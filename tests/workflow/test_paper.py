@@ -1,0 +1,74 @@
+"""The paper's figures, tables and claims from kept results alone, as `make paper` has them."""
+
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+
+from equisection.comparison.side_by_side import main
+from tests.workflow.project import ROOT, Project, jobs_planned
+
+
+def commands(origin: str) -> list[list[str]]:
+    """Return the arguments of Snakemake in `make paper FROM=<origin>`, targets first."""
+    text = (ROOT / "Makefile").read_text().replace("\\\n", " ")
+    variables = dict(re.findall(r"^(PAPER_\w+) := (.*)$", text, flags=re.MULTILINE))
+    recipe = text[text.index("\npaper:") :].split("\n\n")[0]
+    recipe = recipe.replace("$(PAPER_FROM_$(FROM))", variables[f"PAPER_FROM_{origin}"])
+    recipe = recipe.replace("$(PAPER_PLATE)", variables["PAPER_PLATE"])
+    found = []
+    for line in re.findall(r"\$\(SNAKEMAKE\) (.*)", recipe):
+        words = [*shlex.split(line), "--"]
+        place = words.index("--")
+        found.append([*words[place + 1 : -1], *words[:place]])
+    return found
+
+
+@pytest.fixture(scope="module")
+def paper(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """The runs of `make paper` in a fresh clone."""
+    project = Project.fresh(tmp_path_factory.mktemp("paper") / "project")
+    shutil.copytree(ROOT / "results" / "reference", project.folder / "results" / "reference")
+    for arguments in commands("kept"):
+        project.run(*arguments)
+    return project
+
+
+def test_page_of_the_claims_is_up_to_date(
+    paper: Project, capsys: pytest.CaptureFixture[str]
+) -> None:
+    results = paper.folder / "results"
+    arguments = ["--figures", str(results / "paper-figures")]
+    arguments += ["--plate", str(results / "paper-plate-figures")]
+    arguments += ["--reference", str(ROOT / "results" / "reference")]
+    ended = main([*arguments, "--page", str(ROOT / "docs" / "side-by-side.md"), "--check"])
+    assert ended == 0, capsys.readouterr().err
+
+
+def test_every_figure_is_drawn_and_nothing_is_computed(paper: Project) -> None:
+    results = paper.folder / "results"
+    drawn = {path.stem[:5] for path in results.glob("paper-*/figures/*.png")}
+    numbers = (1, 3, 5, 6, 7, 8, 10, 13, 14, 15, 16, 17)
+    assert {f"fig{number:02}" for number in numbers} <= drawn
+    assert not (results / ".store").exists()
+
+
+@pytest.mark.parametrize("name", ["table1", "table2", "bubble", "grid_study"])
+def test_every_table_is_there(name: str, paper: Project) -> None:
+    assert list((paper.folder / "results").glob(f"paper-*/tables/{name}.csv"))
+
+
+def test_from_scratch_every_case_is_to_be_computed(paper: Project) -> None:
+    plate, section = (jobs_planned(paper.run(*words, "-n")) for words in commands("scratch"))
+    assert plate["steady_case"] >= 4
+    assert plate["unsteady_case"] >= 6
+    assert section["unsteady_case"] >= 20
+    assert section["steady_batch"] == section["unsteady_batch"] == 0
+
+
+def test_what_is_missing_is_named(paper: Project) -> None:
+    missing = Path(paper.folder / "results/paper-figures/comparison/missing.csv").read_text()
+    for line in missing.splitlines()[1:]:
+        assert "results/reference" in line

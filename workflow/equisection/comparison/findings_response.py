@@ -1,0 +1,288 @@
+"""What was found of the paper's claims on the response over k*, its onset and its cost."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pandas as pd
+
+from equisection.comparison.evidence import Evidence
+from equisection.comparison.findings import (
+    Finding,
+    Verdict,
+    graded,
+    open_finding,
+    percent,
+    resolution_of,
+)
+from equisection.comparison.kept_runs import base_of, cost_ladder
+from equisection.comparison.paper_values import PUBLISHED
+
+_SECTION, _CORRECTED, _BEAM = "2d", "2d-corrected", "3d"
+_BOUNDED = ("settled", "limit-cycle")
+_PLATE_RUNS = "coupled runs of the plate (`config/openfoam3d.yaml`)"
+#: k* of the onset, and cells times steps of the plate over those of the section, in the paper.
+_PAPER_ONSET, _PAPER_COST = (
+    next(entry.value for entry in PUBLISHED if entry.quantity == name)
+    for name in ("k* of the onset", "cost of 3D over 2D, per time simulated")
+)
+
+
+def first_modes(evidence: Evidence) -> Finding:
+    """Judge the dominance of the first modes."""
+    names = {kind: f"first {kind} mode over the others" for kind in ("bending", "torsion")}
+    ratios = {kind: evidence.number(name) for kind, name in names.items()}
+    notes = evidence.paper.set_index("quantity")["note"]
+    if not all(map(math.isfinite, ratios.values())):
+        return open_finding(_PLATE_RUNS)
+    least = min(ratios.values())
+    words = "; ".join(
+        f"{kind}: {ratio:.3g} times the next ({notes[names[kind]]})"
+        for kind, ratio in ratios.items()
+    )
+    return Finding(
+        Verdict.AGREES if least >= 100 else Verdict.PARTLY if least >= 10 else Verdict.DIFFERS,
+        words,
+        resolution_of(evidence, _BEAM),
+        "The share of the second mode is set by the shape of the load along the span and the ratio "
+        "of the natural frequencies; a uniform load already gives what the note says.",
+    )
+
+
+def mean_twist_uncorrected(evidence: Evidence) -> Finding:
+    """Judge the mean twist of the section against the plate's."""
+    return _means(evidence, _SECTION, ("mean_twist_deg",))
+
+
+def means_corrected(evidence: Evidence) -> Finding:
+    """Judge both means of the corrected section against the plate's."""
+    return _means(evidence, _CORRECTED, ("mean_twist_deg", "mean_deflection_chords"))
+
+
+def mean_bending_uncorrected(evidence: Evidence) -> Finding:
+    """Judge whether the section bends more than the plate."""
+    pairs = _pairs(evidence, _SECTION, _BEAM, "mean_deflection_chords")
+    if pairs.empty:
+        return open_finding(_PLATE_RUNS, _over_corrected(evidence, "mean_deflection_chords"))
+    ratio = pairs["here"] / pairs["other"]
+    return Finding(
+        Verdict.AGREES if (ratio > 1.0).all() else Verdict.DIFFERS,
+        f"section over plate: {_by_k_star(pairs['k_star'], ratio)}",
+        resolution_of(evidence, _SECTION, _BEAM),
+    )
+
+
+def _means(evidence: Evidence, model: str, columns: tuple[str, ...]) -> Finding:
+    parts, differences = [], []
+    for column in columns:
+        pairs = _pairs(evidence, model, _BEAM, column)
+        if not pairs.empty:
+            relative = pairs["here"] / pairs["other"] - 1.0
+            differences += list(relative)
+            words = ", ".join(
+                f"{percent(value)} at {k_star:g}"
+                for k_star, value in zip(pairs["k_star"], relative, strict=True)
+            )
+            parts.append(f"{_name(column)}: {words} (k*)")
+    if not parts:
+        return open_finding(_PLATE_RUNS, " ".join(_over_corrected(evidence, c) for c in columns))
+    return Finding(
+        graded(differences, 0.1, 0.25), "; ".join(parts), resolution_of(evidence, model, _BEAM)
+    )
+
+
+def _pairs(evidence: Evidence, model: str, other: str, column: str) -> pd.DataFrame:
+    """Return k* and a mean of two models where the motion of both is bounded."""
+    bounded = [runs[runs["regime"].isin(_BOUNDED)] for runs in map(evidence.runs, (model, other))]
+    joined = bounded[0].merge(bounded[1], on="k_star", suffixes=("", "_other"))
+    return pd.DataFrame(
+        {"k_star": joined["k_star"], "here": joined[column], "other": joined[f"{column}_other"]}
+    ).dropna()
+
+
+def _over_corrected(evidence: Evidence, column: str) -> str:
+    """Say how the uncorrected section compares with the corrected one, for want of the plate."""
+    pairs = _pairs(evidence, _SECTION, _CORRECTED, column)
+    if pairs.empty:
+        return ""
+    ratio = pairs["here"] / pairs["other"]
+    low, high = pairs["k_star"].min(), pairs["k_star"].max()
+    return (
+        f"The section as it is has {ratio.min():.2f} to {ratio.max():.2f} times the "
+        f"{_name(column)} of the corrected one (k* {low:g} to {high:g})."
+    )
+
+
+def _name(column: str) -> str:
+    return column.removesuffix("_deg").removesuffix("_chords").replace("_", " ")
+
+
+def _by_k_star(k_star: pd.Series, values: pd.Series) -> str:
+    return ", ".join(f"{v:.2f} at k* = {k:g}" for k, v in zip(k_star, values, strict=True))
+
+
+def onset(evidence: Evidence) -> Finding:
+    """Judge the k* of the onset."""
+    parts, found = [], []
+    for model in (_CORRECTED, _BEAM, _SECTION):
+        unstable, stable = evidence.bracket(model)
+        if math.isfinite(unstable) and math.isfinite(stable):
+            crossing = _crossing(evidence.runs(model))
+            zero = f", growth through zero at {crossing:.2g}" if math.isfinite(crossing) else ""
+            parts.append(f"{model}: unstable at {unstable:g}, stable at {stable:g}{zero}")
+            if model != _SECTION:
+                found.append((unstable, stable))
+    if not found:
+        return open_finding("runs on both sides of the onset")
+    holds = [0.9 * low <= _PAPER_ONSET <= 1.1 * high for low, high in found]
+    verdict = Verdict.PARTLY if any(holds) else Verdict.DIFFERS
+    if all(holds) and len(found) > 1:
+        verdict = Verdict.AGREES
+    if not evidence.runs(_BEAM).size:
+        parts.append(f"{_BEAM}: not run yet")
+    return Finding(
+        verdict,
+        "; ".join(parts) + _mesh_shift(evidence.kept),
+        resolution_of(evidence, _SECTION, _CORRECTED, _BEAM),
+        "Near the onset the growth is slow, so that its k* hangs on the mesh, on the correction "
+        "and on what counts as stable: a limit cycle below 0.5 deg does here "
+        "([files.md](files.md)). The paper reads it off the slope of the means.",
+    )
+
+
+def _crossing(runs: pd.DataFrame) -> float:
+    """Return the highest k* at which the growth rate passes through zero, by interpolation."""
+    known = runs.dropna(subset=["growth_rate"]).sort_values("k_star", ascending=False)
+    k_star, growth = known["k_star"].to_numpy(), known["growth_rate"].to_numpy()
+    for place in range(len(growth) - 1):
+        high, low = growth[place], growth[place + 1]
+        if high < 0.0 <= low:
+            return float(np.interp(0.0, [high, low], [k_star[place], k_star[place + 1]]))
+    return math.nan
+
+
+def _mesh_shift(kept: pd.DataFrame) -> str:
+    """Say by how much a finer mesh changes the growth rate of the section at the same k*."""
+    section = kept[kept["model"] == _SECTION]
+    parts = []
+    for k_star, runs in section.groupby("k_star"):
+        but_for_mesh = runs["settings"].str.replace(r'"mesh": "\w+"', "", regex=True)
+        for _, alike in runs.groupby([but_for_mesh, "time_step"]):
+            by_mesh = alike.drop_duplicates("cells").sort_values("cells")
+            if len(by_mesh) > 1:
+                words = ", ".join(
+                    f"{row.growth_rate:+.4f} ({row.resolution})" for row in by_mesh.itertuples()
+                )
+                parts.append(f"k* = {k_star:g}: {words}")
+    return f". Growth (V/c) of the section by mesh: {'; '.join(parts)}" if parts else ""
+
+
+def limit_cycle(evidence: Evidence) -> Finding:
+    """Judge the run just outside the corrected section's onset."""
+    _, stable = evidence.bracket(_CORRECTED)
+    run = evidence.at(_CORRECTED, stable)
+    if run is None:
+        return open_finding("a stable run above the onset of the corrected section")
+    is_cycle = run["regime"] == "limit-cycle"
+    return Finding(
+        Verdict.AGREES if is_cycle else Verdict.DIFFERS,
+        f"at k* = {stable:g}: {_in_words(run)}",
+        resolution_of(evidence, _CORRECTED),
+        "A motion whose growth is within a few 1e-4 V/c of zero keeps its amplitude over the "
+        "length of a run; whether it is a cycle for good cannot be told from that."
+        if is_cycle
+        else "",
+    )
+
+
+def growing_inside(evidence: Evidence) -> Finding:
+    """Judge the runs just inside the onset."""
+    parts, regimes, growth = [], [], {}
+    for model in (_CORRECTED, _BEAM):
+        unstable, _ = evidence.bracket(model)
+        run = evidence.at(model, unstable)
+        if run is not None:
+            regimes.append(run["regime"])
+            growth[model] = float(run["growth_rate"])
+            parts.append(f"{model} at k* = {unstable:g}: {_in_words(run)}")
+    if not parts:
+        return open_finding("an unstable run")
+    if _BEAM not in growth:
+        parts.append(f"{_BEAM}: not run yet")
+    grows = all(regime == "growing" for regime in regimes)
+    abrupt = growth.get(_CORRECTED, math.nan) > growth.get(_BEAM, math.nan)
+    verdict = Verdict.AGREES if grows and abrupt else Verdict.PARTLY if grows else Verdict.DIFFERS
+    return Finding(verdict, "; ".join(parts), resolution_of(evidence, _CORRECTED, _BEAM))
+
+
+def decay_at_high_stiffness(evidence: Evidence) -> Finding:
+    """Judge the stiffest runs."""
+    parts, settled = [], []
+    for model in (_SECTION, _CORRECTED, _BEAM):
+        runs = evidence.runs(model)
+        if len(runs):
+            run = runs.iloc[-1]
+            settled.append(run["regime"] == "settled")
+            parts.append(f"{model} at k* = {run['k_star']:g}: {_in_words(run)}")
+    if not parts:
+        return open_finding("runs at high k*")
+    return Finding(
+        Verdict.AGREES if all(settled) else Verdict.DIFFERS,
+        "; ".join(parts),
+        resolution_of(evidence, _SECTION, _CORRECTED, _BEAM),
+    )
+
+
+def _in_words(run: pd.Series) -> str:
+    return (
+        f"{str(run['regime']).replace('-', ' ')}, amplitude {run['twist_amplitude_deg']:.2g} deg, "
+        f"growth {run['growth_rate']:+.4f} V/c"
+    )
+
+
+def not_classical_flutter(evidence: Evidence) -> Finding:
+    """Judge what linear theory sees at the k* of the instability."""
+    row = evidence.onset[evidence.onset["model"] == _SECTION]
+    unstable, _ = evidence.bracket(_SECTION)
+    if row.empty or not math.isfinite(unstable):
+        return open_finding("an unstable run of the section as it is")
+    at = evidence.linear[np.isclose(evidence.linear["k_star"], unstable)]
+    fastest = at.loc[at["growth_rate"].idxmax()]
+    flutter, divergence, by_polar = (
+        float(row[name].iloc[0])
+        for name in ("linear_flutter", "linear_divergence", "divergence_by_polar")
+    )
+    own = (
+        f"Its own flutter is at k* = {flutter:.2f}, " if math.isfinite(flutter) else "It has none; "
+    )
+    return Finding(
+        Verdict.AGREES if fastest["growth_rate"] < 0.0 else Verdict.DIFFERS,
+        f"at k* = {unstable:g}, where the uncorrected section is still unstable, the least damped "
+        f"motion of linear theory ({fastest['motion']}) decays by "
+        f"{fastest['growth_rate']:+.4f} V/c. {own}divergence at {divergence:.2f} "
+        f"({by_polar:.2f} with the slope of the section's own c_m)",
+        "Theodorsen's loads, k and p-k methods; fractions of a second",
+        "The instability is none of attached, linear flow. With centre of mass and pitch axis in "
+        "one there is still a linear flutter, next to divergence and far below the k* at which the "
+        "section stalls ([linear.md](linear.md)).",
+    )
+
+
+def cost(evidence: Evidence) -> Finding:
+    """Judge the cost of the plate over the section's."""
+    ladder = cost_ladder(evidence.kept, evidence.embedded)
+    plate = ladder[ladder["what"].str.startswith("3D OpenFOAM")]
+    section = base_of(ladder)
+    if section is None or plate.empty:
+        return open_finding(_PLATE_RUNS, f"The paper's cells and steps make it {_PAPER_COST:.0f}.")
+    dearest = plate.iloc[0]
+    ratio = float(dearest["seconds"] / section["seconds"])
+    steps = float(dearest["cell_steps"] / section["cell_steps"])
+    return Finding(
+        Verdict.AGREES if ratio >= 100 else Verdict.PARTLY if ratio >= 5 else Verdict.DIFFERS,
+        f"{ratio:.3g} times the processor time for the same time simulated, with {steps:.3g} times "
+        f"the cells and steps (in the paper {_PAPER_COST:.0f})",
+        f"{dearest['what']} over {section['what']}; the table below",
+        "The meshes here are nearer to each other in size than the paper's.",
+    )

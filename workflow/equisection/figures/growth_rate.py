@@ -1,0 +1,80 @@
+"""Growth rate and frequency over k* of every model, beside those of classical linear theory."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from equisection.figures.models import LOOKS
+from equisection.figures.panels import letter, say
+from equisection.figures.provenance import add_provenance, solvers_of
+from equisection.figures.style import DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
+
+#: Symbols and units of the panels, by the columns of both tables.
+_QUANTITIES = {
+    "growth_rate": ("growth rate", "growth rate (V/c)"),
+    "frequency_strouhal": ("frequency", "$f c/V$"),
+}
+#: k* of the onset in the paper.
+_PAPER_ONSET = 5.5
+
+
+def draw(summary: pd.DataFrame, linear: pd.DataFrame, *, is_paper_case: bool) -> Figure:
+    """Draw growth rates (left) and frequencies (right).
+
+    Parameters
+    ----------
+    summary
+        ``comparison/summary.csv``.
+    linear
+        ``comparison/linear_theory.csv``.
+    is_paper_case
+        Whether the paper's onset is a number to stand beside.
+    """
+    figure = Figure(figsize=(PAGE_WIDTH, 3.4))
+    panels = figure.subplots(1, 2)
+    for axes, place, (name, (title, label)) in zip(panels, "ab", _QUANTITIES.items(), strict=True):
+        axes.set(xlabel="$k^*$", ylabel=label)
+        letter(axes, place, title)
+        _over_k_star(axes, summary, linear, name)
+        if is_paper_case:
+            axes.axvline(_PAPER_ONSET, color=GREY, linewidth=0.8, linestyle=":")
+    handles, _ = panels[0].get_legend_handles_labels()
+    if handles:
+        figure.legend(handles=handles, loc="outside upper center", ncols=3)
+    sources = solvers_of(
+        (f"solver '{solver}'", str(resolution))
+        for solver, resolution in summary[["solver", "resolution"]].drop_duplicates().values
+    )
+    add_provenance(figure, *sources, "linear: thin plate in free air, Theodorsen, p-k method")
+    return figure
+
+
+def _over_k_star(axes: Axes, summary: pd.DataFrame, linear: pd.DataFrame, name: str) -> None:
+    known = summary[np.isfinite(summary[name]) & (summary["regime"] != "failed")]
+    if known.empty and linear.empty:
+        say(axes, f"No run has a {_QUANTITIES[name][0]}.")
+        return
+    axes.axhline(0.0, color=LIGHT_GREY, linewidth=0.8)
+    for model, runs in known.groupby("model", sort=False):
+        look = LOOKS[str(model)]
+        axes.plot(
+            runs["k_star"],
+            runs[name],
+            color=look.colour,
+            linestyle=look.line,
+            marker=look.marker,
+            label=look.label,
+        )
+    for number, ((reduction, motion), rows) in enumerate(
+        linear.groupby(["reduction", "motion"], sort=False), start=1
+    ):
+        axes.plot(
+            rows["k_star"],
+            rows[name],
+            color=GREY,
+            linestyle=DASHES[number],
+            label=f"linear, {motion}, {reduction} reduction",
+        )
