@@ -9,6 +9,7 @@ from equisection.results.failures import warning_of
 from equisection.results.index import write_index
 from equisection.script import logged
 from equisection.solvers.job import run_cases
+from equisection.solvers.protocol import MPIRUN, ONE_THREAD, Allocation
 
 
 def main(
@@ -18,14 +19,14 @@ def main(
     progress: Path,
     reuse: Path | None = None,
     *,
-    threads: int = 1,
+    allocation: Allocation = ONE_THREAD,
 ) -> None:
     """Run the cases; their results go to the folder of ``output``.
 
     ``output`` is the index of the results, or the result file of a single case.
     """
     attributes = run_cases(
-        read_cases(cases), output.parent, store, progress, reuse, threads=threads
+        read_cases(cases), output.parent, store, progress, reuse, allocation=allocation
     )
     if output.suffix == ".json":
         write_index(output, attributes)
@@ -43,5 +44,5 @@ if __name__ == "__main__":
             Path(snakemake.params.store),
             Path(snakemake.log[0]).with_suffix(".progress.json"),
             Path(snakemake.params.reuse) if snakemake.params.reuse else None,
-            threads=snakemake.threads,
+            allocation=Allocation(snakemake.threads, snakemake.resources.get("mpi") or MPIRUN),
         )

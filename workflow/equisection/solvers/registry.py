@@ -14,7 +14,7 @@ from equisection.cases import SolverBlock
 from equisection.config import Config
 from equisection.config.checks import Problem
 from equisection.errors import CaseFileError, ConfigError
-from equisection.solvers.protocol import Capability, Solver
+from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Solver
 
 
 @dataclass(frozen=True)
@@ -69,8 +69,8 @@ def solver_from_config(config: Config, resolution: str) -> Solver:
     return _adapter(config.solver).from_config(config, resolution)  # type: ignore[no-any-return]
 
 
-def solver_from_case(block: SolverBlock, threads: int = 1) -> Solver:
-    """Return the solver that a case asks for, to run on some threads.
+def solver_from_case(block: SolverBlock, allocation: Allocation = ONE_THREAD) -> Solver:
+    """Return the solver that a case asks for, to run on what its job has been given.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def solver_from_case(block: SolverBlock, threads: int = 1) -> Solver:
         raise CaseFileError(
             f"solver '{block.name}' is not known; allowed are {', '.join(sorted(SOLVERS))}"
         )
-    solver: Solver = _adapter(block.name).from_settings(block.settings, threads)
+    solver: Solver = _adapter(block.name).from_settings(block.settings, allocation)
     if solver.version != block.version:
         raise CaseFileError(
             f"the case is for version {block.version} of solver '{block.name}', installed is "
