@@ -19,6 +19,7 @@ from equisection.results.kept import kept_results
 from equisection.results.spent import Spent
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
+from equisection.solvers.ownership import claimed
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Solver
 from equisection.solvers.registry import solver_from_case
 from equisection.solvers.result_store import ResultStore, Task, publish, runs_batches, task_of
@@ -37,6 +38,8 @@ def run_cases(
     allocation: Allocation = ONE_THREAD,
 ) -> dict[str, dict[str, Any]]:
     """Run the cases that the store does not have, and publish the results of all.
+
+    Where another job runs one of them in this store, it waits and takes the result.
 
     Parameters
     ----------
@@ -63,7 +66,8 @@ def run_cases(
     CaseFileError
         A case asks for a solver, or a version of it, that is not here.
     SolverError
-        The solver could not run, or left a case without a result.
+        The solver could not run, or left a case without a result; or this process was stopped for
+        so long that another job took its place.
     """
     results = ResultStore(store)
     tasks = {name: task_of(case) for name, case in cases.items()}
@@ -95,10 +99,15 @@ def _compute(
     tasks: list[Task], store: ResultStore, progress_file: Path, allocation: Allocation
 ) -> dict[str, dict[str, Any]]:
     """Have cases of one solver in the store; return the attributes of each result by hash."""
-    work = store.work(tasks[0])
-    work.mkdir(parents=True, exist_ok=True)
-    found = _results(tasks, work, progress_file, allocation)
-    return {task.hash: store.put(task, found[task.hash]) for task in tasks}
+    with claimed(store.work(tasks[0])) as claim:
+        # another job may have had the directory until now
+        known = {task.hash: store.known(task) or store.judge_again(task, ()) for task in tasks}
+        missing = [task for task in tasks if known[task.hash] is None]
+        if missing:
+            found = _results(missing, store.work(tasks[0]), progress_file, allocation)
+            claim.require()
+            known |= {task.hash: store.put(task, found[task.hash]) for task in missing}
+    return {name: attributes or {} for name, attributes in known.items()}
 
 
 def _results(
