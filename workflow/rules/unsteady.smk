@@ -13,6 +13,7 @@ checkpoint unsteady_cases:
         f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
     log:
         f"{LOGS}/unsteady_cases_{{model}}_{{batch}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -38,6 +39,7 @@ checkpoint unsteady_case_file:
         f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
     log:
         f"{LOGS}/unsteady_case_file_{{model}}_{{case}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -64,10 +66,13 @@ rule unsteady_case:
         f"{LOGS}/unsteady_{{model}}_{{case}}.log",
     conda:
         ENVIRONMENT
-    threads: threads_of_unsteady
+    threads: ranks
     resources:
-        mem_mb=2000,
-        runtime=1440,
+        mem_mb=memory,
+        runtime=runtime,
+        tasks=ranks,
+        cpus_per_task=1,
+        mpi=launcher,
     params:
         store=STORE,
         reuse=CONFIG.reuse,
@@ -91,8 +96,8 @@ if Capability.BATCH in PROVIDES:
             ENVIRONMENT
         threads: 1
         resources:
-            mem_mb=2000,
-            runtime=60,
+            mem_mb=memory,
+            runtime=runtime,
         params:
             store=STORE,
             reuse=CONFIG.reuse,
@@ -111,6 +116,7 @@ else:
             f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
             f"{LOGS}/unsteady_results_{{model}}_{{batch}}.log",
+        localrule: True
         conda:
             ENVIRONMENT
         threads: 1
@@ -131,6 +137,7 @@ checkpoint refine_onset:
         f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
     log:
         f"{LOGS}/refine_onset_{{model}}_{{batch}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1

@@ -19,17 +19,27 @@ from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Sol
 
 @dataclass(frozen=True)
 class Entry:
-    """Where an adapter is, and what it provides; ``dimensions`` are those of its cases."""
+    """Where an adapter is, and what it provides; ``dimensions`` are those of its cases.
+
+    ``work`` is the module that tells how much its jobs have to do (:class:`.work.Estimate`).
+    """
 
     module: str
     provides: frozenset[Capability]
     dimensions: tuple[str, ...] = ("2d", "3d")
+    work: str = ""
 
 
 SOLVERS: dict[str, Entry] = {
-    "embedded": Entry("equisection.solvers.embedded", frozenset({Capability.BATCH})),
+    "embedded": Entry(
+        "equisection.solvers.embedded",
+        frozenset({Capability.BATCH}),
+        work="equisection.solvers.embedded_work",
+    ),
     "openfoam": Entry(
-        "equisection.solvers.openfoam.adapter", frozenset({Capability.MESH, Capability.SURFACE})
+        "equisection.solvers.openfoam.adapter",
+        frozenset({Capability.MESH, Capability.SURFACE}),
+        work="equisection.solvers.openfoam.work",
     ),
 }
 
