@@ -7,6 +7,7 @@ rule config_resolved:
         f"{RESULTS}/config.resolved.yaml",
     log:
         f"{LOGS}/config_resolved.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -35,6 +36,7 @@ rule summary:
         ),
     log:
         f"{LOGS}/summary.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -63,6 +65,7 @@ rule onset:
         ),
     log:
         f"{LOGS}/onset.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -104,6 +107,7 @@ rule paper_comparison:
         ),
     log:
         f"{LOGS}/paper_comparison.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -134,6 +138,7 @@ rule rigid_beam_table:
         ),
     log:
         f"{LOGS}/rigid_beam_table.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
