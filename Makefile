@@ -18,7 +18,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run report paper cost identification status test lint docs bench openfoam clean
+.PHONY: run report paper cost identification cost-model status test lint docs bench openfoam slurm clean
 
 run: $(ENV)/run
 	$(SNAKEMAKE)
@@ -48,6 +48,9 @@ cost: $(ENV)/run
 identification: $(ENV)/run
 	$(SNAKEMAKE) identification
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && cat $$folder/identification/lags.yaml
+
+cost-model: $(ENV)/run
+	$(BIN)/equisection cost-model results --write workflow/profiles/cost.yaml
 
 status: $(ENV)/run
 	$(BIN)/equisection status
@@ -80,6 +83,15 @@ openfoam:
 	as_root=$$([ $$(id -u) -eq 0 ] || echo sudo); \
 	$$as_root apt-get update --quiet && $$as_root apt-get install --quiet --yes openfoam
 
+# A scheduler of one machine, for the tests; Debian and Ubuntu, as root or with sudo. Snakemake's part
+# has a folder of its own, since it would cost every start of Snakemake some time.
+slurm: $(ENV)/slurm/installed
+	@command -v slurmctld >/dev/null && command -v munged >/dev/null && { echo "SLURM is there: $$(slurmctld -V)"; exit 0; }; \
+	command -v apt-get >/dev/null || \
+		{ echo "error: no apt-get here; install slurmctld, slurmd and munged by hand" >&2; exit 1; }; \
+	as_root=$$([ $$(id -u) -eq 0 ] || echo sudo); \
+	$$as_root apt-get update --quiet && $$as_root apt-get install --quiet --yes slurm-wlm munge libpmix-dev
+
 clean:
 	find results -mindepth 1 -maxdepth 1 ! -name reference -exec rm -rf {} +
 	rm -rf .snakemake .sphinx site
@@ -101,6 +113,11 @@ $(ENV)/test: $(ENV)/run
 
 $(ENV)/docs: $(ENV)/run
 	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[docs]'
+	@touch $@
+
+$(ENV)/slurm/installed: $(ENV)/run
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --no-deps --upgrade \
+		--target $(ENV)/slurm snakemake-executor-plugin-slurm snakemake-executor-plugin-slurm-jobstep
 	@touch $@
 
 $(ENV)/lint: $(ENV)/run

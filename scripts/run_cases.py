@@ -10,6 +10,7 @@ from equisection.results.index import write_index
 from equisection.script import logged
 from equisection.solvers.job import run_cases
 from equisection.solvers.kept_alone import answer_from_kept
+from equisection.solvers.protocol import MPIRUN, ONE_THREAD, Allocation
 
 
 def main(
@@ -19,14 +20,14 @@ def main(
     progress: Path,
     reuse: Path | None = None,
     *,
-    threads: int = 1,
+    allocation: Allocation = ONE_THREAD,
 ) -> None:
     """Run the cases; their results go to the folder of ``output``.
 
     ``output`` is the index of the results, or the result file of a single case.
     """
     attributes = run_cases(
-        read_cases(cases), output.parent, store, progress, reuse, threads=threads
+        read_cases(cases), output.parent, store, progress, reuse, allocation=allocation
     )
     if output.suffix == ".json":
         write_index(output, attributes)
@@ -54,4 +55,5 @@ if __name__ == "__main__":
             take_kept(*arguments, reuse)
         else:
             progress = Path(snakemake.log[0]).with_suffix(".progress.json")
-            main(*arguments, progress, reuse, threads=snakemake.threads)
+            allocation = Allocation(snakemake.threads, snakemake.resources.get("mpi") or MPIRUN)
+            main(*arguments, progress, reuse, allocation=allocation)

@@ -10,6 +10,7 @@ from equisection.results.kept import kept_mesh
 from equisection.results.netcdf import write_dataset
 from equisection.results.section_mesh import no_mesh
 from equisection.script import logged
+from equisection.solvers.ownership import claimed
 from equisection.solvers.protocol import MeshingSolver
 from equisection.solvers.registry import solver_from_case
 
@@ -22,7 +23,8 @@ def main(cases: Path, time_step: float, store: Path, output: Path) -> None:
     ((_, case),) = read_cases(cases).items()
     solver = cast(MeshingSolver, solver_from_case(case.solver))
     work = store / case_hash(case) / "mesh"
-    mesh = solver.section_mesh(cast(SteadyCase, case), time_step, work)
+    with claimed(work):
+        mesh = solver.section_mesh(cast(SteadyCase, case), time_step, work)
     dataset = mesh.to_dataset().assign_attrs(
         solver=solver.name,
         solver_version=solver.version,

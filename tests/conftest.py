@@ -7,6 +7,9 @@ from types import ModuleType
 import pytest
 from hypothesis import settings
 
+from equisection.errors import SolverError
+from equisection.solvers.openfoam.installation import Installation, find
+
 ROOT = Path(__file__).parents[1]
 
 # One thread each: the small matrices here do not gain from more, and tests run side by side.
@@ -32,3 +35,14 @@ def load_script() -> Callable[[str], ModuleType]:
         return module
 
     return load
+
+
+@pytest.fixture(scope="session")
+def installation() -> Installation:
+    """OpenFOAM of this machine; where there is none a test is skipped, but not in CI."""
+    try:
+        return find()
+    except SolverError as error:
+        if os.environ.get("CI") == "true":
+            raise
+        pytest.skip(str(error))

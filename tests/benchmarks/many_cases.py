@@ -7,7 +7,7 @@ from tempfile import TemporaryDirectory
 
 import numpy as np
 
-from equisection.cases import Case, SolverBlock
+from equisection.cases import Case, SolverBlock, UnsteadyCase
 from equisection.config import load_config
 from equisection.solvers.job import run_cases
 from equisection.solvers.registry import solver_from_config
@@ -39,20 +39,24 @@ def _seconds(number: int) -> tuple[float, float]:
     with TemporaryDirectory() as folder:
         place = Path(folder)
         start, processor = time.perf_counter(), time.process_time()
-        run_cases(_cases(number), place / "out", place / "store", place / "progress.json")
+        cases: dict[str, Case] = {f"k{case.k_star:.6g}": case for case in cases_of_section(number)}
+        run_cases(cases, place / "out", place / "store", place / "progress.json")
         return time.perf_counter() - start, time.process_time() - processor
 
 
-def _cases(number: int) -> dict[str, Case]:
+def cases_of_section(number: int) -> list[UnsteadyCase]:
+    """Return free sections at as many k* on the default polar."""
     polar = str(ROOT / "config" / "polars" / "plate_2d_11136.csv")
     config = load_config({"embedded": {"polars": {"coarse": polar}}})
     solver = solver_from_config(config, "coarse")
     block = SolverBlock(name=solver.name, version=solver.version, settings=solver.settings())
     assert UNSTEADY.section is not None
-    cases: dict[str, Case] = {}
+    cases = []
     for k_star in np.linspace(4.0, 21.0, number):
         section = UNSTEADY.section.model_copy(update={"torsional_stiffness": float(k_star)})
-        cases[f"k{k_star:.6g}"] = UNSTEADY.model_copy(
-            update={"k_star": float(k_star), "section": section, "solver": block}
+        cases.append(
+            UNSTEADY.model_copy(
+                update={"k_star": float(k_star), "section": section, "solver": block}
+            )
         )
     return cases

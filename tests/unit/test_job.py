@@ -18,7 +18,7 @@ from equisection.results.netcdf import read_dataset
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import VERDICT_ATTRIBUTES, UnsteadyResult
 from equisection.solvers.job import run_cases
-from equisection.solvers.protocol import Capability, Progress, Solver
+from equisection.solvers.protocol import Allocation, Capability, Progress, Solver
 from equisection.solvers.registry import SOLVERS, Entry, solver_from_case
 
 NOTHING = np.empty(0)
@@ -36,7 +36,7 @@ class Adapter:
         self._factor = factor
 
     @classmethod
-    def from_settings(cls, settings: dict[str, Any], threads: int) -> "Adapter":
+    def from_settings(cls, settings: dict[str, Any], allocation: Allocation) -> "Adapter":
         return cls(settings["factor"])
 
     def settings(self) -> dict[str, Any]:

@@ -15,7 +15,7 @@ from equisection.results.kept import keep_results
 from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.job import run_cases
-from equisection.solvers.protocol import Capability, Progress
+from equisection.solvers.protocol import Allocation, Capability, Progress
 from equisection.solvers.registry import SOLVERS, Entry
 from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge
 
@@ -31,7 +31,7 @@ class Adapter:
     ran: list[tuple[Path, float]]
 
     @classmethod
-    def from_settings(cls, settings: dict[str, Any], threads: int) -> "Adapter":
+    def from_settings(cls, settings: dict[str, Any], allocation: Allocation) -> "Adapter":
         del settings
         return cls()
 

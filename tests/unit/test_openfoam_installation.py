@@ -6,7 +6,7 @@ import pytest
 
 from equisection.config.sections.openfoam import PREFIX_VARIABLE
 from equisection.errors import SolverError
-from equisection.solvers.openfoam.installation import PROGRAMS, find, version_in
+from equisection.solvers.openfoam.installation import PROGRAMS, Installation, find, version_in
 
 NOWHERE = Path("/nonexistent")
 
@@ -109,3 +109,20 @@ def test_programs_that_do_not_start_say_so(tmp_path: Path) -> None:
     broken = type(find(search, NOWHERE))((f"{search}/openfoam2111",))
     with pytest.raises(SolverError, match="Could not find mandatory etc entry"):
         broken.version()
+
+
+def test_one_rank_is_started_without_a_launcher() -> None:
+    found = Installation(("openfoam2312",), launcher="srun")
+    assert found.command("simpleFoam") == ["openfoam2312", "simpleFoam"]
+
+
+def test_mpirun_is_that_of_the_installation() -> None:
+    found = Installation(("openfoam2312",))
+    words = ["openfoam2312", "mpirun", "-n", "4", "simpleFoam", "-parallel"]
+    assert found.command("simpleFoam", 4) == words
+
+
+def test_launcher_of_a_scheduler_starts_the_container_on_each_rank() -> None:
+    found = Installation(("apptainer", "exec", "of.sif"), launcher="srun --mpi=pmix")
+    launch, container = ["srun", "--mpi=pmix", "-n", "4"], ["apptainer", "exec", "of.sif"]
+    assert found.command("simpleFoam", 4) == [*launch, *container, "simpleFoam", "-parallel"]

@@ -47,6 +47,10 @@ def small(**changes: Any) -> dict[str, Any]:
 class Project:
     """One copy of the project."""
 
+    #: What Python starts, and where jobs run.
+    program: tuple[str, ...] = ("-m", "snakemake")
+    where: tuple[str, ...] = ("--cores", "2")
+
     def __init__(self, folder: Path, config: dict[str, Any] | None = None) -> None:
         self.folder = folder
         self.config = deepcopy(config)
@@ -80,9 +84,9 @@ class Project:
 
     def command(self, *arguments: str) -> list[str]:
         """Return the command line of Snakemake."""
-        command = [sys.executable, "-m", "snakemake", *arguments, "--cores", "2"]
+        command = [sys.executable, *self.program, *arguments, *self.where]
         if self.config is not None:
-            path = self.folder / "test.yaml"
+            path = self.folder / f"{self.config['run']}.yaml"
             path.write_text(yaml.safe_dump(self.config), encoding="utf-8")
             command += ["--configfile", path.name]
         return command

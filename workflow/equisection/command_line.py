@@ -20,6 +20,7 @@ examples:
   equisection status                     how far the runs in results/ are
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
+  equisection cost-model                 what a cell of a mesh costs, by the results
   equisection polar results/my-beam/steady/2d/coarse_a*.nc > my_section.csv
 """
 
@@ -38,6 +39,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print(_polar(options.results), end="")
         elif options.command == "keep":
             _keep(options.run_folder, options.folder)
+        elif options.command == "cost-model":
+            _cost_model(options.folder, options.write)
         else:
             _status(options.run_folder, options.plain)
     except EquisectionError as error:
@@ -114,7 +117,40 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FOLDER",
         help="where to keep them (default: results/reference/<name of the run>)",
     )
+    cost = commands.add_parser(
+        "cost-model",
+        help="what a cell costs, by the results that are there",
+        description="Fit the time of a cell of OpenFOAM's meshes to what results took, and print "
+        "it. Jobs ask a cluster for time by it (docs/cluster.md).",
+    )
+    cost.add_argument(
+        "folder",
+        nargs="*",
+        type=Path,
+        metavar="FOLDER",
+        help="where results are looked for (default: results)",
+    )
+    cost.add_argument(
+        "--write",
+        type=Path,
+        metavar="FILE",
+        help="also write it to the cost model, workflow/profiles/cost.yaml",
+    )
     return parser
+
+
+def _cost_model(folders: Sequence[Path], model: Path | None) -> None:
+    # Imported here, so that --help and --version come at once.
+    from equisection.solvers.cost import read_cost_model  # noqa: PLC0415
+    from equisection.solvers.cost_fit import fits, fitted, write_cost_model  # noqa: PLC0415
+
+    found = fits(folders or [Path("results")])
+    for fit in found:
+        print(fit.words())
+    if not found:
+        print("no result of OpenFOAM that says what it took; the cost model stays as it is")
+    elif model is not None:
+        write_cost_model(model, fitted(read_cost_model(model), found))
 
 
 def _keep(run: Path, folder: Path | None) -> None:

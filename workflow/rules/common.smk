@@ -192,17 +192,6 @@ def this_angle(wildcards):
     return [wildcards.angle]
 
 
-def threads_of_steady(wildcards):
-    """Return the threads of a steady case."""
-    return CONFIG.solver_section.threads(wildcards.dimension)
-
-
-def threads_of_unsteady(wildcards):
-    """Return the threads of a case of a model."""
-    dimension = plan.model(wildcards.model, CONFIG.reduction).dimension
-    return CONFIG.solver_section.threads(dimension)
-
-
 def structure_files():
     """Return what is known of the beam without a flow."""
     return [

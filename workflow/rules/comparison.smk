@@ -15,6 +15,7 @@ rule config_resolved:
         f"{RESULTS}/config.resolved.yaml",
     log:
         f"{LOGS}/config_resolved.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -43,6 +44,7 @@ rule summary:
         ),
     log:
         f"{LOGS}/summary.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -98,6 +100,7 @@ rule onset:
         ),
     log:
         f"{LOGS}/onset.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -173,6 +176,7 @@ rule paper_comparison:
         ),
     log:
         f"{LOGS}/paper_comparison.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -202,6 +206,7 @@ rule rigid_beam_table:
         ),
     log:
         f"{LOGS}/rigid_beam_table.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1

@@ -9,6 +9,7 @@ rule equivalent_section:
         f"{RESULTS}/structure/equivalent.nc",
     log:
         f"{LOGS}/equivalent_section.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -35,6 +36,7 @@ rule correction_factors:
         f"{RESULTS}/steady/correction.nc",
     log:
         f"{LOGS}/correction_factors.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1

@@ -36,6 +36,7 @@ rule fig01_workflow:
         pdf=f"{RESULTS}/figures/fig01-workflow.pdf",
     log:
         f"{LOGS}/fig01_workflow.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -72,6 +73,7 @@ rule fig03_modes:
         pdf=f"{RESULTS}/figures/fig03-modes.pdf",
     log:
         f"{LOGS}/fig03_modes.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -108,6 +110,7 @@ rule fig05_section_mesh:
         pdf=f"{RESULTS}/figures/fig05-section-mesh.pdf",
     log:
         f"{LOGS}/fig05_section_mesh.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -139,6 +142,7 @@ rule fig06_section_polar:
         pdf=f"{RESULTS}/figures/fig06-section-polar.pdf",
     log:
         f"{LOGS}/fig06_section_polar.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -170,6 +174,7 @@ rule fig07_surface:
         pdf=f"{RESULTS}/figures/fig07-surface.pdf",
     log:
         f"{LOGS}/fig07_surface.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -208,6 +213,7 @@ rule fig08_courant_number:
         pdf=f"{RESULTS}/figures/fig08-courant-number.pdf",
     log:
         f"{LOGS}/fig08_courant_number.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -240,6 +246,7 @@ rule fig10_spanwise_loads:
         pdf=f"{RESULTS}/figures/fig10-spanwise-loads.pdf",
     log:
         f"{LOGS}/fig10_spanwise_loads.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -273,6 +280,7 @@ rule fig13_lift_correction:
         pdf=f"{RESULTS}/figures/fig13-lift-correction.pdf",
     log:
         f"{LOGS}/fig13_lift_correction.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -311,6 +319,7 @@ rule fig14_moment_correction:
         pdf=f"{RESULTS}/figures/fig14-moment-correction.pdf",
     log:
         f"{LOGS}/fig14_moment_correction.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -348,6 +357,7 @@ rule fig15_modal_contributions:
         pdf=f"{RESULTS}/figures/fig15-modal-contributions.pdf",
     log:
         f"{LOGS}/fig15_modal_contributions.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -381,6 +391,7 @@ rule fig16_response:
         pdf=f"{RESULTS}/figures/fig16-response.pdf",
     log:
         f"{LOGS}/fig16_response.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -415,6 +426,7 @@ rule fig17_hysteresis:
         pdf=f"{RESULTS}/figures/fig17-hysteresis.pdf",
     log:
         f"{LOGS}/fig17_hysteresis.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1

@@ -14,6 +14,7 @@ checkpoint steady_cases:
         f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
     log:
         f"{LOGS}/steady_cases_{{dimension}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -38,6 +39,7 @@ checkpoint steady_case_file:
         f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
     log:
         f"{LOGS}/steady_case_file_{{dimension}}_{{angle}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -64,10 +66,13 @@ rule steady_case:
         f"{LOGS}/steady_{{dimension}}_{{angle}}.log",
     conda:
         ENVIRONMENT
-    threads: threads_of_steady
+    threads: ranks
     resources:
-        mem_mb=2000,
-        runtime=240,
+        mem_mb=memory,
+        runtime=runtime,
+        tasks=ranks,
+        cpus_per_task=1,
+        mpi=launcher,
     params:
         store=STORE,
         reuse=CONFIG.reuse,
@@ -93,8 +98,8 @@ if IN_ONE_JOB:
             ENVIRONMENT
         threads: 1
         resources:
-            mem_mb=1000,
-            runtime=10,
+            mem_mb=memory,
+            runtime=runtime,
         params:
             store=STORE if CONFIG.compute else KEPT_STORE,
             reuse=CONFIG.reuse,
@@ -123,6 +128,7 @@ else:
             f"{RESULTS}/steady/{{dimension}}/polar.json",
         log:
             f"{LOGS}/steady_results_{{dimension}}.log",
+        localrule: True
         conda:
             ENVIRONMENT
         threads: 1
@@ -147,6 +153,7 @@ if CONFIG.steady.beam_polar:
             f"{RESULTS}/steady/polar_3d.nc",
         log:
             f"{LOGS}/given_beam_polar.log",
+        localrule: True
         conda:
             ENVIRONMENT
         threads: 1
@@ -170,6 +177,7 @@ rule polar:
         f"{RESULTS}/steady/polar_{{dimension}}.nc",
     log:
         f"{LOGS}/polar_{{dimension}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -226,6 +234,7 @@ rule grid_study:
         ),
     log:
         f"{LOGS}/grid_study.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -257,6 +266,7 @@ rule bubble:
         ),
     log:
         f"{LOGS}/bubble.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1

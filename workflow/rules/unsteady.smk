@@ -13,6 +13,7 @@ checkpoint unsteady_cases:
         f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
     log:
         f"{LOGS}/unsteady_cases_{{model}}_{{batch}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -38,6 +39,7 @@ checkpoint unsteady_case_file:
         f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
     log:
         f"{LOGS}/unsteady_case_file_{{model}}_{{case}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -64,10 +66,13 @@ rule unsteady_case:
         f"{LOGS}/unsteady_{{model}}_{{case}}.log",
     conda:
         ENVIRONMENT
-    threads: threads_of_unsteady
+    threads: ranks
     resources:
-        mem_mb=2000,
-        runtime=1440,
+        mem_mb=memory,
+        runtime=runtime,
+        tasks=ranks,
+        cpus_per_task=1,
+        mpi=launcher,
     params:
         store=STORE,
         reuse=CONFIG.reuse,
@@ -93,8 +98,8 @@ if IN_ONE_JOB:
             ENVIRONMENT
         threads: 1
         resources:
-            mem_mb=2000,
-            runtime=60,
+            mem_mb=memory,
+            runtime=runtime,
         params:
             store=STORE if CONFIG.compute else KEPT_STORE,
             reuse=CONFIG.reuse,
@@ -114,6 +119,7 @@ else:
             f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
             f"{LOGS}/unsteady_results_{{model}}_{{batch}}.log",
+        localrule: True
         conda:
             ENVIRONMENT
         threads: 1
@@ -134,6 +140,7 @@ checkpoint refine_onset:
         f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
     log:
         f"{LOGS}/refine_onset_{{model}}_{{batch}}.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1

@@ -27,7 +27,7 @@ from equisection.config.sections import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.protocol import Capability, Progress
+from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 Floats = NDArray[np.float64]
 
@@ -64,9 +64,11 @@ class Adapter:
         return cls(polar, section.strips, lags)
 
     @classmethod
-    def from_settings(cls, settings: dict[str, Any], threads: int = 1) -> Adapter:
+    def from_settings(
+        cls, settings: dict[str, Any], allocation: Allocation = ONE_THREAD
+    ) -> Adapter:
         """Return the solver of a case, which runs in one thread."""
-        del threads
+        del allocation
         data = settings["polar"]
         polar = SectionPolar(
             np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]

@@ -19,7 +19,8 @@ from equisection.results.kept import kept_results
 from equisection.results.spent import Spent
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.protocol import Solver
+from equisection.solvers.ownership import claimed
+from equisection.solvers.protocol import ONE_THREAD, Allocation, Solver
 from equisection.solvers.registry import solver_from_case
 from equisection.solvers.result_store import ResultStore, Task, publish, runs_batches, task_of
 from equisection.solvers.verdicts import refused
@@ -34,9 +35,11 @@ def run_cases(
     progress_file: Path,
     reuse: Path | None = None,
     *,
-    threads: int = 1,
+    allocation: Allocation = ONE_THREAD,
 ) -> dict[str, dict[str, Any]]:
     """Run the cases that the store does not have, and publish the results of all.
+
+    Where another job runs one of them in this store, it waits and takes the result.
 
     Parameters
     ----------
@@ -50,8 +53,8 @@ def run_cases(
         Where the job says how far it is.
     reuse
         Folder with results of earlier runs, which are taken into the store.
-    threads
-        Threads that the job has; they decide nothing.
+    allocation
+        What the job has been given of the machine; it decides nothing.
 
     Returns
     -------
@@ -63,7 +66,8 @@ def run_cases(
     CaseFileError
         A case asks for a solver, or a version of it, that is not here.
     SolverError
-        The solver could not run, or left a case without a result.
+        The solver could not run, or left a case without a result; or this process was stopped for
+        so long that another job took its place.
     """
     results = ResultStore(store)
     tasks = {name: task_of(case) for name, case in cases.items()}
@@ -75,7 +79,7 @@ def run_cases(
     missing = [task for name, task in different.items() if known[name] is None]
     logger.info("%d cases, %d of them to be computed", len(tasks), len(missing))
     for group in _alike(missing):
-        known |= _compute(group, results, progress_file, threads)
+        known |= _compute(group, results, progress_file, allocation)
     for name, task in tasks.items():
         publish(results.result(task), folder / f"{name}.nc")
     return {name: known[task.hash] or {} for name, task in tasks.items()}
@@ -92,12 +96,25 @@ def _alike(tasks: list[Task]) -> list[list[Task]]:
 
 
 def _compute(
-    tasks: list[Task], store: ResultStore, progress_file: Path, threads: int
+    tasks: list[Task], store: ResultStore, progress_file: Path, allocation: Allocation
 ) -> dict[str, dict[str, Any]]:
-    """Run cases of one solver into the store; return the attributes of each result by hash."""
-    solver = solver_from_case(tasks[0].case.solver, threads)
-    work = store.work(tasks[0])
-    work.mkdir(parents=True, exist_ok=True)
+    """Have cases of one solver in the store; return the attributes of each result by hash."""
+    with claimed(store.work(tasks[0])) as claim:
+        # another job may have had the directory until now
+        known = {task.hash: store.known(task) or store.judge_again(task, ()) for task in tasks}
+        missing = [task for task in tasks if known[task.hash] is None]
+        if missing:
+            found = _results(missing, store.work(tasks[0]), progress_file, allocation)
+            claim.require()
+            known |= {task.hash: store.put(task, found[task.hash]) for task in missing}
+    return {name: attributes or {} for name, attributes in known.items()}
+
+
+def _results(
+    tasks: list[Task], work: Path, progress_file: Path, allocation: Allocation
+) -> dict[str, xr.Dataset]:
+    """Run cases of one solver; return the result of each by hash."""
+    solver = solver_from_case(tasks[0].case.solver, allocation)
     wall, cpu = time.perf_counter(), _cpu_seconds()
     unit = "cases" if isinstance(tasks[0].case, SteadyCase) else "c/V"
     hashes = [task.hash for task in tasks]
@@ -112,9 +129,8 @@ def _compute(
         cpu_seconds=(_cpu_seconds() - cpu) / len(tasks),
         wall_seconds=(time.perf_counter() - wall) / len(tasks),
     )
-    attributes = {}
-    for task, result in zip(tasks, results, strict=True):
-        dataset = _dataset(task.case, result).assign_attrs(
+    return {
+        task.hash: _dataset(task.case, result).assign_attrs(
             solver=solver.name,
             solver_version=solver.version,
             solver_description=solver.describe(task.case.dimension),
@@ -122,8 +138,8 @@ def _compute(
             batch_cases=len(tasks),
             **asdict(result.spent or shared),
         )
-        attributes[task.hash] = store.put(task, dataset)
-    return attributes
+        for task, result in zip(tasks, results, strict=True)
+    }
 
 
 def _run(

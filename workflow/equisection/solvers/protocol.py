@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
 from typing import Any, Protocol
@@ -21,6 +22,29 @@ class Capability(StrEnum):
     FIELDS = "fields"  # the flow field
     MESH = "mesh"  # a mesh of the section, which can be shown and refined
 
+
+#: What starts the ranks of MPI where no scheduler says otherwise.
+MPIRUN = "mpirun"
+
+
+@dataclass(frozen=True)
+class Allocation:
+    """What a job has been given of the machine; nothing of it decides a result.
+
+    Attributes
+    ----------
+    threads
+        Threads, or ranks of MPI, that it may use.
+    launcher
+        Command that starts ranks of MPI, for instance ``mpirun`` or ``srun --mpi=pmix``; their
+        number follows as ``-n``.
+    """
+
+    threads: int = 1
+    launcher: str = MPIRUN
+
+
+ONE_THREAD = Allocation()
 
 #: Called with time simulated and longest time (c/V), summed over the cases of the job.
 Progress = Callable[[float, float], None]

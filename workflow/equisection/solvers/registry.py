@@ -14,22 +14,32 @@ from equisection.cases import SolverBlock
 from equisection.config import Config
 from equisection.config.checks import Problem
 from equisection.errors import CaseFileError, ConfigError
-from equisection.solvers.protocol import Capability, Solver
+from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Solver
 
 
 @dataclass(frozen=True)
 class Entry:
-    """Where an adapter is, and what it provides; ``dimensions`` are those of its cases."""
+    """Where an adapter is, and what it provides; ``dimensions`` are those of its cases.
+
+    ``work`` is the module that tells how much its jobs have to do (:class:`.work.Estimate`).
+    """
 
     module: str
     provides: frozenset[Capability]
     dimensions: tuple[str, ...] = ("2d", "3d")
+    work: str = ""
 
 
 SOLVERS: dict[str, Entry] = {
-    "embedded": Entry("equisection.solvers.embedded", frozenset({Capability.BATCH})),
+    "embedded": Entry(
+        "equisection.solvers.embedded",
+        frozenset({Capability.BATCH}),
+        work="equisection.solvers.embedded_work",
+    ),
     "openfoam": Entry(
-        "equisection.solvers.openfoam.adapter", frozenset({Capability.MESH, Capability.SURFACE})
+        "equisection.solvers.openfoam.adapter",
+        frozenset({Capability.MESH, Capability.SURFACE}),
+        work="equisection.solvers.openfoam.work",
     ),
 }
 
@@ -69,8 +79,8 @@ def solver_from_config(config: Config, resolution: str) -> Solver:
     return _adapter(config.solver).from_config(config, resolution)  # type: ignore[no-any-return]
 
 
-def solver_from_case(block: SolverBlock, threads: int = 1) -> Solver:
-    """Return the solver that a case asks for, to run on some threads.
+def solver_from_case(block: SolverBlock, allocation: Allocation = ONE_THREAD) -> Solver:
+    """Return the solver that a case asks for, to run on what its job has been given.
 
     Raises
     ------
@@ -81,7 +91,7 @@ def solver_from_case(block: SolverBlock, threads: int = 1) -> Solver:
         raise CaseFileError(
             f"solver '{block.name}' is not known; allowed are {', '.join(sorted(SOLVERS))}"
         )
-    solver: Solver = _adapter(block.name).from_settings(block.settings, threads)
+    solver: Solver = _adapter(block.name).from_settings(block.settings, allocation)
     if solver.version != block.version:
         raise CaseFileError(
             f"the case is for version {block.version} of solver '{block.name}', installed is "

@@ -23,7 +23,7 @@ from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.settings import Settings
-from equisection.solvers.protocol import Capability, Progress
+from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 if TYPE_CHECKING:
     from equisection.solvers.openfoam.section_rigid import RigidLoads
@@ -38,9 +38,10 @@ class Adapter:
     version = "4"
     provides = frozenset({Capability.MESH, Capability.SURFACE})
 
-    def __init__(self, settings: Settings, ranks: int = 1) -> None:
+    def __init__(self, settings: Settings, allocation: Allocation = ONE_THREAD) -> None:
         self._settings = settings
-        self._ranks = ranks
+        self._ranks = allocation.threads
+        self._launcher = allocation.launcher
 
     @classmethod
     def from_config(cls, config: Config, resolution: str) -> Adapter:
@@ -52,12 +53,14 @@ class Adapter:
             section.velocity_relaxation,
             section.mesh_motion,
         )
-        return cls(settings, section.ranks)
+        return cls(settings, Allocation(section.ranks))
 
     @classmethod
-    def from_settings(cls, settings: dict[str, Any], threads: int = 1) -> Adapter:
+    def from_settings(
+        cls, settings: dict[str, Any], allocation: Allocation = ONE_THREAD
+    ) -> Adapter:
         """Return the solver of a case, to run on as many ranks as there are threads."""
-        return cls(Settings(**settings), threads)
+        return cls(Settings(**settings), allocation)
 
     def settings(self) -> dict[str, Any]:
         """Return what decides a result, as it stands in a case."""
@@ -96,7 +99,7 @@ class Adapter:
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
     ) -> list[SteadyResult]:
         """Run rigid sections and plates, each in a folder of its own."""
-        installation = find()
+        installation = find(launcher=self._launcher)
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         results = []
         for number, case in enumerate(cases):
@@ -136,7 +139,7 @@ class Adapter:
         self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
     ) -> list[UnsteadyResult]:
         """Release sections and plates one after the other, each until its verdict is in."""
-        installation = find()
+        installation = find(launcher=self._launcher)
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         total = sum(case.duration for case in cases)
         results = []

@@ -14,12 +14,13 @@ import shlex
 import shutil
 import subprocess
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from pathlib import Path
 
 from equisection.config.sections.openfoam import PREFIX_VARIABLE
 from equisection.errors import SolverError
+from equisection.solvers.protocol import MPIRUN
 
 #: Programs that a case needs.
 PROGRAMS = ("blockMesh", "checkMesh", "simpleFoam", "pimpleFoam", "postProcess")
@@ -55,17 +56,26 @@ class Installation:
         Variables beside those of the process.
     found
         How it was found, in words.
+    launcher
+        Command that starts ranks of MPI, on one machine or on all that the job has.
     """
 
     prefix: tuple[str, ...] = ()
     environment: Mapping[str, str] = field(default_factory=dict)
     found: str = ""
+    launcher: str = MPIRUN
 
     def command(self, program: str, ranks: int = 1) -> list[str]:
-        """Return the command line of a program, on several ranks of MPI where there are more."""
+        """Return the command line of a program, on several ranks of MPI where there are more.
+
+        ``mpirun`` is that of the installation, so it comes behind the prefix. Another launcher, a
+        scheduler's, comes before it: the prefix, a container for instance, is started on each rank.
+        """
         if ranks == 1:
             return [*self.prefix, program]
-        return [*self.prefix, "mpirun", "-np", str(ranks), program, "-parallel"]
+        launch = [*shlex.split(self.launcher), "-n", str(ranks)]
+        words = [*self.prefix, *launch] if self.launcher == MPIRUN else [*launch, *self.prefix]
+        return [*words, program, "-parallel"]
 
     def variables(self) -> dict[str, str]:
         """Return the environment of a program: one thread a rank, ranks not bound to cores."""
@@ -82,7 +92,9 @@ class Installation:
         return _version(self.prefix, tuple(sorted(self.environment.items())))
 
 
-def find(search: str | None = None, debian: Path = DEBIAN) -> Installation:
+def find(
+    search: str | None = None, debian: Path = DEBIAN, *, launcher: str = MPIRUN
+) -> Installation:
     """Return the installation of this machine.
 
     Parameters
@@ -91,6 +103,8 @@ def find(search: str | None = None, debian: Path = DEBIAN) -> Installation:
         Where programs are looked for (by default ``PATH``).
     debian
         Where Debian's package has ``etc/controlDict``.
+    launcher
+        Command that starts ranks of MPI.
 
     Raises
     ------
@@ -98,6 +112,10 @@ def find(search: str | None = None, debian: Path = DEBIAN) -> Installation:
         There is none, or a part of it is missing; the message says what and how to mend it.
     """
     search = os.environ.get("PATH", "") if search is None else search
+    return replace(_found(search, debian), launcher=launcher)
+
+
+def _found(search: str, debian: Path) -> Installation:
     prefix = os.environ.get(PREFIX_VARIABLE, "")
     if prefix:
         words = tuple(shlex.split(prefix))
@@ -109,9 +127,9 @@ def find(search: str | None = None, debian: Path = DEBIAN) -> Installation:
     missing = [name for name in PROGRAMS if shutil.which(name, path=search) is None]
     if len(missing) < len(PROGRAMS):
         return _on_the_path(missing, debian)
-    launcher = _launcher(search)
-    if launcher:
-        return Installation((launcher,), {}, f"launcher {launcher}")
+    script = _script(search)
+    if script:
+        return Installation((script,), {}, f"launcher {script}")
     raise SolverError(f"OpenFOAM is not on this machine (no {PROGRAMS[0]} on the path): {_HOW}")
 
 
@@ -128,7 +146,7 @@ def _on_the_path(missing: list[str], debian: Path) -> Installation:
     )
 
 
-def _launcher(search: str) -> str | None:
+def _script(search: str) -> str | None:
     """Return the launcher of the newest version on the path."""
     names = {
         path.name

@@ -32,6 +32,9 @@ _TIME = re.compile(rb"^Time = ([-+0-9.eE]+)", re.MULTILINE)
 #: Stands in the log behind each step that was computed.
 _STEP_DONE = b"ExecutionTime = "
 
+#: Loaded before a process is made of this one, in which nothing can be loaded safely.
+_LIBC = ctypes.CDLL(None) if sys.platform == "linux" else None
+
 #: Called with the latest time in the log; true ends the run at the end of a step.
 Watch = Callable[[float], bool]
 #: Called with what tells whether a program runs, and with what asks it to end.
@@ -145,7 +148,8 @@ def _started(
             stdout=output,
             stderr=subprocess.STDOUT,
             start_new_session=True,
-            preexec_fn=_die_with_parent,  # noqa: PLW1509 (a job has one thread)
+            # the job's other thread only touches a file, and holds nothing that is needed here
+            preexec_fn=_die_with_parent,  # noqa: PLW1509
         )
     except OSError as error:
         raise SolverError(f"{' '.join(command)} does not start: {error}") from None
@@ -160,8 +164,8 @@ def _started(
 
 def _die_with_parent() -> None:
     """Ask the system (Linux) to end this process with the one that started it."""
-    if sys.platform == "linux":
-        ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
+    if _LIBC is not None:
+        _LIBC.prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
 def _follow(

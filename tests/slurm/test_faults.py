@@ -1,0 +1,178 @@
+"""Faults under the scheduler: nothing that was computed is lost, nothing runs twice.
+
+OpenFOAM is a stand-in here, slow enough to be disturbed.
+"""
+
+import json
+import os
+import signal
+import subprocess
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from equisection.results.netcdf import read_dataset
+from tests.processes import process_in, wait_until
+from tests.slurm.cluster_project import ClusterProject
+from tests.slurm.conftest import RESULT
+from tests.slurm.node import AS_ROOT, Node
+from tests.workflow.project import Project, has_nothing_to_do
+
+Begun = Callable[..., tuple[subprocess.Popen[str], str]]
+#: Seconds of a time step at which there is time to disturb a run of 1000 of them; SLURM takes some
+#: seconds to see that a job is over its time.
+SLOW, SLOWER = "0.006", "0.02"
+
+
+def free_folder(project: Project) -> Path | None:
+    """Return where the free section runs, once it does."""
+    return next(iter((project.folder / "results" / ".store").glob("*/case0/free")), None)
+
+
+def can_be_gone_on_with(project: Project) -> bool:
+    """Tell whether the run has written its first state (at 2 c/V) and gone on."""
+    folder = free_folder(project)
+    log = folder / "log.pimpleFoam" if folder else None
+    return log is not None and log.is_file() and "Time = 2.2\n" in log.read_text()
+
+
+@pytest.fixture
+def begun(case: ClusterProject, node: Node, monkeypatch: pytest.MonkeyPatch) -> Begun:
+    """Start a slow run and return it with the number of its job, a while into it."""
+
+    def start(*arguments: str, pace: str = SLOW) -> tuple[subprocess.Popen[str], str]:
+        monkeypatch.setenv("STAND_IN_PACE", pace)
+        workflow = case.start(*arguments, case.target(RESULT))
+        monkeypatch.delenv("STAND_IN_PACE")
+        job = node.running()
+        wait_until(lambda: can_be_gone_on_with(case), 60)
+        return workflow, job
+
+    return start
+
+
+def owners(project: Project) -> list[dict[str, Any]]:
+    """Return who had the working directory, in their order."""
+    files = (project.folder / "results" / ".store").glob("*/owners/*.json")
+    return [json.loads(path.read_text()) for path in sorted(files, key=lambda path: int(path.stem))]
+
+
+def starts(project: Project) -> list[float]:
+    """Return the times (c/V) from which the solver was started."""
+    folder = free_folder(project)
+    assert folder is not None
+    return sorted(float(path.name) for path in (folder / "postProcessing" / "loads").iterdir())
+
+
+def ends_well(workflow: subprocess.Popen[str]) -> str:
+    said_by_it, _ = workflow.communicate(timeout=240)
+    assert workflow.returncode == 0, said_by_it
+    return said_by_it
+
+
+def assert_same_result(project: Project, undisturbed: Project) -> None:
+    one, other = (read_dataset(run.results / RESULT) for run in (project, undisturbed))
+    for name in ("time", "twist", "deflection", "cl", "cm"):
+        np.testing.assert_allclose(one[name], other[name], atol=1e-12)
+    for name in ("regime", "end_time", "twist_amplitude_deg", "case_hash"):
+        assert one.attrs[name] == other.attrs[name]
+
+
+def test_case_that_is_cancelled_is_told_and_goes_on_at_the_next_start(
+    begun: Begun, case: ClusterProject, undisturbed: Project
+) -> None:
+    workflow, job = begun("--retries=0")
+    subprocess.run(["scancel", job], check=True)
+    told, _ = workflow.communicate(timeout=60)
+    assert workflow.returncode == 1
+    assert f"SLURM-job '{job}' failed, SLURM status is: 'CANCELLED'" in told
+    assert not (case.results / RESULT).exists()
+    case.run(case.target(RESULT))
+    assert_same_result(case, undisturbed)
+    first, second = owners(case)
+    assert first["job"] == job != second["job"]
+    assert first["ended"] == 0 < second["ended"]
+    assert starts(case)[1] >= 2.0
+
+
+def test_case_over_its_time_limit_goes_on_in_a_new_job(
+    begun: Begun, node: Node, case: ClusterProject, undisturbed: Project
+) -> None:
+    workflow, job = begun(pace=SLOWER)
+    subprocess.run(["scontrol", "update", f"JobId={job}", "EndTime=now"], check=True)
+    wait_until(lambda: node.jobs()[job] == "TIMEOUT", 90)
+    ends_well(workflow)
+    assert_same_result(case, undisturbed)
+    assert [owner["ended"] > 0 for owner in owners(case)] == [False, True]
+    assert starts(case)[1] >= 2.0
+
+
+def test_case_whose_node_is_lost_goes_on_when_it_returns(
+    begun: Begun, node: Node, case: ClusterProject, undisturbed: Project
+) -> None:
+    """SLURM puts the same job into the queue again (`slurm-requeue`)."""
+    workflow, job = begun()
+    node.lose_node()
+    wait_until(lambda: job not in node.jobs("running"), 60)
+    node.start_node()
+    ends_well(workflow)
+    assert_same_result(case, undisturbed)
+    assert [owner["job"] for owner in owners(case)] == [job, job]
+    assert starts(case)[1] >= 2.0
+
+
+def test_job_that_a_killed_workflow_left_is_waited_for(
+    begun: Begun, node: Node, case: ClusterProject, undisturbed: Project
+) -> None:
+    """The second workflow cannot know of the job, but its own finds the directory owned."""
+    workflow, job = begun()
+    folder = free_folder(case)
+    assert folder is not None
+    solver = process_in(folder)
+    solver.suspend()
+    os.killpg(workflow.pid, signal.SIGKILL)
+    workflow.communicate()
+    case.run("--unlock")
+    workflow = case.start(case.target(RESULT))
+    log = case.results / "logs" / "unsteady_2d_k5.log"
+    words = f"SLURM job {job}, process "
+    wait_until(lambda: log.is_file() and words in log.read_text(), 60)
+    assert job in node.jobs("running")
+    solver.resume()
+    ends_well(workflow)
+    assert_same_result(case, undisturbed)
+    first, second = owners(case)
+    assert first["job"] == job != second["job"]
+    assert 0 < first["ended"] <= second["ended"]
+    assert starts(case) == [0.0]
+    assert has_nothing_to_do(case.run(case.target(RESULT)))
+
+
+@pytest.fixture
+def small_disk(case: ClusterProject) -> Iterator[Path]:
+    """A disk of the case's store that has room for the steady flow alone."""
+    store = case.folder / "results" / ".store"
+    mount = [*AS_ROOT, "mount", "-t", "tmpfs", "-o", "size=160k,mode=777", "tmpfs", store]
+    store.mkdir(exist_ok=True)
+    if subprocess.run(mount, capture_output=True, check=False).returncode:
+        pytest.skip("needs to be allowed to mount a disk")
+    yield store
+    subprocess.run([*AS_ROOT, "umount", store], check=True)
+
+
+def test_full_disk_is_told_and_the_case_goes_on_when_there_is_space(
+    case: ClusterProject, small_disk: Path, undisturbed: Project
+) -> None:
+    stopped = case.attempt("--retries=0", case.target(RESULT))
+    assert stopped.returncode == 1
+    log = (case.results / "logs" / "unsteady_2d_k5.log").read_text()
+    assert "the disk" in log
+    assert "free some space and run again" in log
+    assert not list(small_disk.rglob("[!.]*.nc"))
+    assert not (case.results / RESULT).exists()
+    subprocess.run([*AS_ROOT, "mount", "-o", "remount,size=20m", small_disk], check=True)
+    case.run(case.target(RESULT))
+    assert_same_result(case, undisturbed)

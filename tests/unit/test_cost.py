@@ -1,0 +1,161 @@
+"""Memory and time that a job asks for, and what they are fitted to."""
+
+import json
+from pathlib import Path
+
+import pytest
+import yaml
+from tests.conftest import ROOT
+from tests.sample_cases import UNSTEADY
+
+from equisection.cases import SolverBlock, canonical, case_hash
+from equisection.command_line import main
+from equisection.config import load_config
+from equisection.errors import ConfigError
+from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.solvers import cost
+from equisection.solvers.cost import CellCost, megabytes, minutes, read_cost_model, seconds
+from equisection.solvers.cost_fit import fits, fitted
+from equisection.solvers.openfoam.adapter import Adapter
+from equisection.solvers.openfoam.work_done import work_done
+from equisection.solvers.work import Work
+
+COSTS = ROOT / "workflow" / "profiles" / "cost.yaml"
+KEPT = ROOT / "results" / "reference"
+CELL = CellCost(iteration=1e-6, step=4e-6, memory_kb=2.0)
+OPENFOAM = {
+    "solver": "openfoam",
+    "unsteady": {"duration": 100.0, "time_step": 0.02},
+    "openfoam": {"outer_correctors": 3},
+}
+
+
+def openfoam_work(dimension: str, **changes: object) -> Work:
+    raw = {**OPENFOAM, "openfoam": {"outer_correctors": 3, **changes}}
+    return cost.unsteady_work(load_config(raw), dimension)
+
+
+def test_work_of_a_section_is_that_of_its_mesh_and_steps() -> None:
+    work = openfoam_work("2d")
+    assert work.cells == 11_136
+    assert work.steps == pytest.approx(100.0 / 0.02 * 3)
+
+
+def test_work_grows_with_mesh_steps_and_correctors() -> None:
+    section, plate = openfoam_work("2d"), openfoam_work("3d")
+    assert plate.cells == 85_284
+    assert openfoam_work("2d", meshes={"coarse": "fine"}).cells > 5 * section.cells
+    assert openfoam_work("2d", outer_correctors=6).steps == pytest.approx(2 * section.steps)
+    assert openfoam_work("2d", mesh_motion="overset").steps > section.steps
+    assert openfoam_work("3d", mesh_motion="overset").steps == plate.steps
+
+
+def test_batch_of_the_embedded_solver_has_the_work_of_its_cases() -> None:
+    config = load_config({"embedded": {"strips": 10}})
+    one, many = (cost.unsteady_work(config, "3d", cases) for cases in (1, 7))
+    assert one.cells == 10
+    assert many.cells == 70
+    assert many.steps == one.steps == pytest.approx(400.0 / 0.05)
+
+
+def test_time_and_memory_by_hand() -> None:
+    work = Work(cells=1e6, iterations=1000, steps=2000)
+    assert seconds(work, CELL) == pytest.approx(1e6 * (1000 * 1e-6 + 2000 * 4e-6))
+    # 9000 s of the processors, on seven ranks 21.4 min; 1.9 GB
+    assert minutes(work, CELL, 7) == 10 + 43
+    assert megabytes(work, CELL, 7) == 400 + 700 + 2930
+
+
+def test_every_kept_result_would_have_ended_in_the_time_that_is_asked_for() -> None:
+    model, counted = read_cost_model(COSTS), 0
+    for path in KEPT.rglob("*.nc"):
+        attributes = read_dataset(path).attrs
+        case = json.loads(attributes["case"])
+        work = work_done(case, attributes)
+        if work is not None:
+            counted += 1
+            expected = seconds(work, model.of("openfoam", case["dimension"]))
+            assert attributes["cpu_seconds"] < cost.SAFETY * expected, path
+    assert counted >= 20
+
+
+def test_model_is_what_the_kept_results_say() -> None:
+    model = read_cost_model(COSTS)
+    found = fits([KEPT])
+    assert {(fit.dimension, fit.term) for fit in found} >= {("2d", "iteration"), ("2d", "step")}
+    for fit in found:
+        per_cell = model.of(fit.solver, fit.dimension)
+        assert getattr(per_cell, fit.term) == pytest.approx(fit.value, rel=0.2)
+
+
+def result(folder: Path, name: str, cpu_seconds: float, **attributes: object) -> None:
+    """Write a result of 20 c/V on the coarse mesh that took some time."""
+    settings = {"mesh": "coarse", "outer_correctors": 2}
+    block = SolverBlock(name="openfoam", version=Adapter.version, settings=settings)
+    changes = {"solver": block, "time_step": 0.02, "k_star": float(ord(name[0]))}
+    case = UNSTEADY.model_copy(update=changes)
+    data = read_dataset(next(KEPT.rglob("2d/k10.nc")))
+    data.attrs |= {
+        "case": canonical(case),
+        "case_hash": case_hash(case),
+        "cpu_seconds": cpu_seconds,
+        "end_time": 20.0,
+        **attributes,
+    }
+    write_dataset(folder / f"{name}.nc", data)
+
+
+def test_coefficient_is_the_median_of_what_results_took(tmp_path: Path) -> None:
+    amount = 11_136 * 20.0 / 0.02 * 2
+    for name, per_cell in {"a": 2e-6, "b": 3e-6, "c": 9e-6}.items():
+        result(tmp_path, name, per_cell * amount)
+    result(tmp_path / "again", "a", 2e-6 * amount)  # the same case, kept elsewhere too
+    result(tmp_path, "d", 1e-9, regime="failed", reason="it blew up")
+    (tmp_path / "broken.nc").write_text("no NetCDF")
+    (fit,) = fits([tmp_path])
+    assert fit.value == pytest.approx(3e-6)
+    assert len(fit.values) == 3
+    model = fitted(read_cost_model(COSTS), [fit])
+    assert model.of("openfoam", "2d").step == fit.value
+    assert model.of("openfoam", "3d") == read_cost_model(COSTS).of("openfoam", "3d")
+
+
+def test_command_prints_the_fit_and_writes_it_when_asked(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    result(tmp_path, "a", 2e-6 * 11_136 * 20.0 / 0.02 * 2)
+    model = tmp_path / "cost.yaml"
+    model.write_text(COSTS.read_text())
+    assert main(["cost-model", str(tmp_path)]) == 0
+    assert "openfoam 2d step: 2e-06 s per cell, from 1 results" in capsys.readouterr().out
+    assert model.read_text() == COSTS.read_text()
+    assert main(["cost-model", str(tmp_path), "--write", str(model)]) == 0
+    assert read_cost_model(model).of("openfoam", "2d").step == 2e-6
+    assert model.read_text().startswith("#")
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (None, "cannot be read"),
+        ("openfoam: [", "cannot be read"),
+        ("openfoam: {2d: {iteration: -1, step: 1, memory_kb: 1}}", "openfoam.2d.iteration: -1"),
+        ("openfoam: {2d: {iteration: 1, memory_kb: 1}}", "openfoam.2d.step"),
+    ],
+)
+def test_broken_model_is_told_with_file_and_key(
+    text: str | None, words: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "cost.yaml"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(ConfigError, match=str(path)) as raised:
+        read_cost_model(path)
+    assert words in str(raised.value)
+
+
+def test_solver_without_an_entry_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "cost.yaml"
+    path.write_text(yaml.safe_dump({"openfoam": {"2d": CELL.model_dump()}}))
+    with pytest.raises(ConfigError, match=r"openfoam\.3d.*profiles/cost\.yaml"):
+        read_cost_model(path).of("openfoam", "3d")

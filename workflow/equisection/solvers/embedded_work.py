@@ -1,0 +1,22 @@
+"""What a job of the embedded solver has to do; in the place of cells it has sections."""
+
+from __future__ import annotations
+
+from equisection.config import Config
+from equisection.solvers.work import Work
+
+
+def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
+    """Return the work of a job of rigid cases: an iteration of each section."""
+    del resolution
+    return Work(_sections(config, dimension) * cases, iterations=1)
+
+
+def unsteady_work(config: Config, dimension: str, cases: int) -> Work:
+    """Return the work of a job of free cases."""
+    steps = config.unsteady.duration / config.unsteady.time_step
+    return Work(_sections(config, dimension) * cases, steps=steps)
+
+
+def _sections(config: Config, dimension: str) -> int:
+    return config.embedded.strips if dimension == "3d" else 1

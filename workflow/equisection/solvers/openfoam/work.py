@@ -1,0 +1,35 @@
+"""What a job of OpenFOAM has to do at most: one case, to its last iteration and time step."""
+
+from __future__ import annotations
+
+from equisection.config import Config
+from equisection.config.sections.openfoam import MORPH
+from equisection.solvers.openfoam.presets import PRESETS
+from equisection.solvers.openfoam.rigid_flow import MOST, STEP
+from equisection.solvers.openfoam.section_rigid import RECORD
+from equisection.solvers.work import Work
+
+#: What a time step on overset meshes costs, with their cells, over one on the mesh that morphs.
+OVERSET = 2.0
+
+
+def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
+    """Return the work of a rigid case: a steady flow, and the unsteady one where there is none."""
+    steps = RECORD.end / STEP * config.openfoam.outer_correctors
+    return Work(cells_of(config.openfoam.meshes[resolution], dimension) * cases, MOST, steps)
+
+
+def unsteady_work(config: Config, dimension: str, cases: int) -> Work:
+    """Return the work of a free case: the steady flow that it starts from, and all of its steps."""
+    section = config.openfoam
+    steps = config.unsteady.duration / config.unsteady.time_step * section.outer_correctors
+    if dimension == "2d" and section.mesh_motion != MORPH:
+        steps *= OVERSET
+    mesh = section.meshes[config.steady.resolution]
+    return Work(cells_of(mesh, dimension) * cases, MOST, steps)
+
+
+def cells_of(mesh: str, dimension: str) -> int:
+    """Return the number of cells of a mesh, of the section or of the plate."""
+    preset = PRESETS[mesh]
+    return preset.cells if dimension == "2d" else preset.plate_cells

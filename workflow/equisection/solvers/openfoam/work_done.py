@@ -1,0 +1,46 @@
+"""What a result of OpenFOAM did in all, from its case and its own words."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+from equisection.config.sections.openfoam import MORPH
+from equisection.solvers.openfoam.adapter import Adapter
+from equisection.solvers.openfoam.work import OVERSET, cells_of
+from equisection.solvers.work import Work
+
+#: The words by which a steady result says how it was obtained.
+_STEADY = re.compile(r"steady, (\d+) iterations")
+#: The shortest free run (c/V) whose time is that of its steps.
+SHORTEST = 20.0
+
+
+def work_done(case: dict[str, Any], attributes: dict[str, Any]) -> Work | None:
+    """Return the work behind a result; None where that is not known well enough.
+
+    What another version of the adapter took says nothing of this one's iterations.
+    A mean does not say its iterations. The steady flow that a free case starts from is part of what
+    it took and is not counted: a few hundred iterations beside thousands of steps, but too many
+    beside those of a run below :data:`SHORTEST`.
+
+    Parameters
+    ----------
+    case
+        The case, as it stands in the result.
+    attributes
+        Attributes of the result.
+    """
+    if case["solver"]["version"] != Adapter.version:
+        return None
+    settings = case["solver"]["settings"]
+    cells = cells_of(settings["mesh"], case["dimension"])
+    if case["kind"] == "steady":
+        found = _STEADY.match(str(attributes.get("method", "")))
+        return Work(cells, iterations=int(found[1])) if found else None
+    if float(attributes["end_time"]) < SHORTEST:
+        return None
+    steps = float(attributes["end_time"]) / case["time_step"]
+    if case["dimension"] == "2d" and settings.get("mesh_motion", MORPH) != MORPH:
+        steps *= OVERSET
+    return Work(cells, steps=steps * settings["outer_correctors"])

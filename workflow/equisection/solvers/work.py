@@ -1,0 +1,42 @@
+"""How much a job has to do at most, by which memory and time are asked for.
+
+A solver says it from the configuration alone, so that the graph is built on a fresh clone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from equisection.config import Config
+
+
+@dataclass(frozen=True)
+class Work:
+    """What the longest run of a job comes to.
+
+    Attributes
+    ----------
+    cells
+        Cells of the mesh, or what the solver has in their place, of all cases of the job.
+    iterations
+        Iterations of a steady solver.
+    steps
+        Time steps, times the outer correctors of each.
+    """
+
+    cells: float
+    iterations: float = 0.0
+    steps: float = 0.0
+
+
+class Estimate(Protocol):
+    """What a solver's module of its work offers."""
+
+    def steady_work(self, config: Config, dimension: str, resolution: str, cases: int) -> Work:
+        """Return the work of a job of rigid cases at a resolution."""
+        ...
+
+    def unsteady_work(self, config: Config, dimension: str, cases: int) -> Work:
+        """Return the work of a job of free cases."""
+        ...

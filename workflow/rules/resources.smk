@@ -1,0 +1,58 @@
+"""Memory, time and ranks of the jobs that run a solver, from the cost model.
+
+Like everything that the graph is built from, they come from the configuration alone.
+"""
+
+from equisection.solvers import cost
+from equisection.solvers.protocol import MPIRUN
+
+try:
+    COSTS = cost.read_cost_model(PROJECT / "workflow" / "profiles" / "cost.yaml")
+    for dimension in ("2d", "3d"):
+        COSTS.of(CONFIG.solver, dimension)
+except ConfigError as error:
+    print(error, file=sys.stderr)
+    sys.exit(1)
+
+
+def dimension_of(wildcards):
+    """Return the dimension of a job's cases."""
+    if "dimension" in wildcards.keys():
+        return wildcards.dimension
+    return plan.model(wildcards.model, CONFIG.reduction).dimension
+
+
+def ranks(wildcards):
+    """Return the threads of a job, each a rank of MPI if there are more than one."""
+    return CONFIG.solver_section.threads(dimension_of(wildcards))
+
+
+def launcher(wildcards):
+    """Return what starts the ranks on one machine; nothing for a job on one rank."""
+    return MPIRUN if ranks(wildcards) > 1 else ""
+
+
+def work_of(wildcards):
+    """Return the work of a job."""
+    dimension = dimension_of(wildcards)
+    if "angle" in wildcards.keys():
+        resolution, _ = plan.angle_of(wildcards.angle)
+        return cost.steady_work(CONFIG, dimension, resolution)
+    if "case" in wildcards.keys():
+        return cost.unsteady_work(CONFIG, dimension)
+    if "batch" in wildcards.keys():
+        cases = max(len(SWEEP), CONFIG.sweep.onset_points)
+        return cost.unsteady_work(CONFIG, dimension, cases)
+    return cost.steady_work(CONFIG, dimension, CONFIG.steady.resolution, len(STEADY))
+
+
+def memory(wildcards, attempt):
+    """Return the memory of a job (MB); one that ran out of it gets as much again."""
+    costs = COSTS.of(CONFIG.solver, dimension_of(wildcards))
+    return attempt * cost.megabytes(work_of(wildcards), costs, ranks(wildcards))
+
+
+def runtime(wildcards):
+    """Return the time of a job (minutes), which goes on in the next one if that is too little."""
+    costs = COSTS.of(CONFIG.solver, dimension_of(wildcards))
+    return cost.minutes(work_of(wildcards), costs, ranks(wildcards))
