@@ -291,17 +291,17 @@ def test_growth_of_a_release_is_that_of_the_linearised_system():
 
 
 def test_limit_cycles_just_below_the_onset():
-    """The polar's stall bounds the growth: at k* = 7 a limit cycle of 6.1 deg, steady to 2 %."""
+    """The polar's stall bounds the growth: at k* = 7 a limit cycle of 6.9 deg, steady to 2 %."""
     history = release_sections(
         plate_sections(7.0), measured(), INCIDENCE, 1600.0, output_interval=0.2
     )
     amplitudes = np.degrees(cycle_amplitudes(history, 0))
-    assert amplitudes[-1] == pytest.approx(6.14, rel=0.02)
+    assert amplitudes[-1] == pytest.approx(6.85, rel=0.02)
     np.testing.assert_allclose(amplitudes[-10:], amplitudes[-1], rtol=0.02)
 
 
 @pytest.mark.parametrize(
-    ("incidence_deg", "onset"), [(1.0, 3.65), (2.0, 5.76), (2.5, 8.92), (3.0, 9.09), (5.0, 11.9)]
+    ("incidence_deg", "onset"), [(1.0, 3.65), (2.0, 5.76), (2.5, 9.10), (3.0, 9.28), (5.0, 12.2)]
 )
 def test_onset_of_the_uncorrected_section(incidence_deg, onset):
     """Growth passes zero there: the table of docs/embedded.md."""
@@ -311,7 +311,7 @@ def test_onset_of_the_uncorrected_section(incidence_deg, onset):
 def test_onset_with_the_polar_of_the_whole_plate():
     """The section with the loads of the paper's Table 1, docs/embedded.md."""
     whole = UnsteadyLoads.from_polar(read_polar(POLARS / "paper_plate_3d.csv"))
-    assert section_onset(whole, 2.5) == pytest.approx(6.16, rel=0.01)
+    assert section_onset(whole, 2.5) == pytest.approx(6.28, rel=0.01)
 
 
 def section_onset(loads: UnsteadyLoads, incidence_deg: float) -> float:

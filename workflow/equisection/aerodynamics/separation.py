@@ -105,9 +105,9 @@ class Branches:
 
 
 IDENTIFIED_LAGS = SeparationLags(
-    relaxation=2.64,
+    relaxation=2.58,
     delay=0.64,
-    lift_lag=0.54,
+    lift_lag=0.55,
     provenance=(
         "identified from the loads of two free releases of the plate (h = 0.04 c, sharp edges, "
         "Re 1.27e5, theta_0 = 2.5 deg, k* = 5 and 10): OpenFOAM v1912, k-omega SST, 11136 cells, "
