@@ -29,7 +29,8 @@ class Entry:
 SOLVERS: dict[str, Entry] = {
     "embedded": Entry("equisection.solvers.embedded", frozenset({Capability.BATCH})),
     "openfoam": Entry(
-        "equisection.solvers.openfoam.adapter", frozenset({Capability.MESH, Capability.SURFACE})
+        "equisection.solvers.openfoam.adapter",
+        frozenset({Capability.MESH, Capability.SURFACE, Capability.FIELDS}),
     ),
 }
 
