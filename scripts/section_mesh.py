@@ -6,7 +6,7 @@ from typing import cast
 
 from equisection.cases import SteadyCase, case_hash, read_cases
 from equisection.files import written_whole
-from equisection.results.kept import kept_mesh
+from equisection.results.kept import SECTION_MESH, kept_mesh
 from equisection.results.netcdf import write_dataset
 from equisection.results.section_mesh import no_mesh
 from equisection.script import logged
@@ -38,7 +38,7 @@ def take_kept(cases: Path, time_step: float, reuse: Path, output: Path) -> None:
     """Take the mesh that is kept of the one case of ``cases``, or one without cells."""
     ((_, case),) = read_cases(cases).items()
     wanted = {"solver": case.solver.name, "resolution": case.resolution, "time_step": time_step}
-    kept = kept_mesh(reuse, {**wanted, "incidence_deg": case.incidence_deg})
+    kept = kept_mesh(reuse, SECTION_MESH, {**wanted, "incidence_deg": case.incidence_deg})
     if kept is None:
         write_dataset(output, no_mesh(case.incidence_deg, time_step).to_dataset())
         return

@@ -12,6 +12,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,13 +21,21 @@ from tests.sample_cases import STEADY_PLATE, UNSTEADY_PLATE, beam_modes
 
 from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
+from equisection.results.plate_surface import PlateSurface
+from equisection.results.section_mesh import cell_areas
+from equisection.results.steady import SteadyResult
+from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.openfoam import plate_free, plate_rigid
 from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import read_loads
 from equisection.solvers.openfoam.plate_free import PlateRun
+from equisection.solvers.openfoam.plate_grid import plate_grid
+from equisection.solvers.openfoam.plate_mesh import PlateMesh
 from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of
+from equisection.solvers.openfoam.rigid_flow import Record
+from equisection.solvers.openfoam.tip_flow import sample_tip_flow
 
 #: Coarser than any preset, 15,128 cells.
 VERY_COARSE = 0.3
@@ -46,7 +55,7 @@ def rigid(
 
 @pytest.fixture(scope="module")
 def steady(installation: Installation, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A rigid plate at 2.5 deg that has converged."""
+    """A rigid plate at 2.5 deg that has converged, with what is stored of it."""
     work = tmp_path_factory.mktemp("steady")
     flow = rigid(installation, work)
     result = flow.result(nothing)
@@ -56,31 +65,119 @@ def steady(installation: Installation, tmp_path_factory: pytest.TempPathFactory)
     assert result.section_lift @ sizes == pytest.approx(result.lift, rel=1e-3)
     assert result.section_moment @ sizes == pytest.approx(result.moment, rel=1e-3)
     assert result.section_lift[0] > result.lift > result.section_lift[-1]
+    surface = assert_surface_sums_up(result, flow.mesh)
+    assert_bubble_is_shorter_at_the_tip(surface, flow.mesh.edges())
+    assert_flow_turns_around_the_tip(result.tip_flow)
     return work
+
+
+def assert_surface_sums_up(result: SteadyResult, mesh: PlateMesh) -> PlateSurface:
+    """Pressure and friction of the faces give the coefficients again, on a plate that is closed."""
+    surface = result.surface
+    assert isinstance(surface, PlateSurface)
+    incidence_deg = np.degrees(mesh.section.incidence)
+    assert surface.loads(incidence_deg) == pytest.approx(
+        (result.drag, result.lift, result.moment), rel=5e-3, abs=1e-4
+    )
+    areas = {str(side): surface.on(side).area.sum() for side in np.unique(surface.side)}
+    sides, thickness = mesh.span, mesh.section.channel.thickness
+    assert areas == pytest.approx(
+        {
+            "upper": sides,
+            "lower": sides,
+            "leading edge": sides * thickness,
+            "trailing edge": sides * thickness,
+            "tip": thickness,
+        }
+    )
+    return surface
+
+
+def assert_bubble_is_shorter_at_the_tip(surface: PlateSurface, edges: np.ndarray) -> None:
+    z, bubble = surface.reattachment("upper")
+    np.testing.assert_allclose(z, 0.5 * (edges[1:] + edges[:-1]), rtol=1e-7)
+    assert bubble[0] > bubble[-1] > 0
+
+
+def assert_flow_turns_around_the_tip(flow: TipFlow | None) -> None:
+    """From the pressure side outwards, up beyond the tip, inwards above it; none in the plate."""
+    assert flow is not None
+    up, out = np.meshgrid(flow.y, flow.z, indexing="ij")
+    inside = (np.abs(up) < 0.019) & (out < 3.699)
+    assert (np.isnan(flow.turbulence[0]) == inside).all()
+    assert np.isfinite(flow.turbulence[1:]).all()
+    around = np.abs(out - 3.7) < 0.15
+    velocity = flow.velocity[0]
+    below, above = (around & (sign * up > 0.05) & (sign * up < 0.3) for sign in (-1, 1))
+    beyond = (out > 3.75) & (np.abs(up) < 0.2)
+    assert velocity[below, 2].mean() > 0.02
+    assert velocity[above, 2].mean() < -0.02
+    assert velocity[beyond, 1].mean() > 0.02
+    # next to the stream's own turbulence, that of the bubble is large
+    assert 0.005 < np.nanmax(flow.turbulence) < 0.1
+    np.testing.assert_allclose(flow.chord_line[0, flow.z < 3.7], 0.0, atol=1e-12)
+    assert np.isnan(flow.chord_line[1:]).all()
+
+
+def test_plate_from_wall_to_wall_has_no_flow_near_a_tip(
+    installation: Installation, tmp_path: Path
+) -> None:
+    mesh = replace(rigid(installation, tmp_path).mesh, gap=0.0)
+    assert sample_tip_flow(installation, tmp_path, mesh, state="") is None
+
+
+def test_grid_of_the_plate_is_the_mesh_that_was_made(
+    installation: Installation, tmp_path: Path
+) -> None:
+    flow = rigid(installation, tmp_path)
+    grid = plate_grid(flow)
+    assert grid.cells == flow.mesh.cells
+    np.testing.assert_allclose(grid.levels[: flow.mesh.edges().size], flow.mesh.edges())
+    assert (grid.levels[-1], grid.levels.size) == (pytest.approx(4.0), flow.mesh.layers + 1)
+    assert grid.corners.shape == (flow.mesh.section.cells, 4)
+    areas = cell_areas(grid.points, grid.corners)
+    assert areas.sum() == pytest.approx(4.0 * 20.0 - 0.04)
 
 
 def test_no_lift_and_no_moment_at_zero_incidence_on_two_ranks(
     installation: Installation, tmp_path: Path
 ) -> None:
-    result = rigid(installation, tmp_path, 0.0, ranks=2).result(nothing)
+    flow = rigid(installation, tmp_path, 0.0, ranks=2)
+    result = flow.result(nothing)
     assert result.method.startswith("steady")
     assert abs(result.lift) < 1e-3
     assert abs(result.moment) < 5e-4
     assert result.drag > 0.03
+    # faces and points of both ranks, in one order: as much above as below
+    surface = assert_surface_sums_up(result, flow.mesh)
+    upper, lower = surface.on("upper"), surface.on("lower")
+    np.testing.assert_allclose(upper.z, lower.z, atol=1e-9)
+    np.testing.assert_allclose(upper.pressure, lower.pressure, atol=2e-3)
+    assert result.tip_flow is not None
+    velocity = result.tip_flow.velocity
+    assert np.isnan(velocity[0]).any()
+    mirrored = velocity[:, ::-1] * [1.0, -1.0, 1.0]
+    # between cells OpenFOAM interpolates in tetrahedra, which are no mirror images
+    assert np.nanmean(np.abs(velocity - mirrored)) < 1e-3 < np.nanmean(np.abs(velocity[..., 1:]))
 
 
 def test_mean_of_an_unsteady_flow_has_loads_along_the_span(
     installation: Installation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Steady iterations that are too few, and a record that is short."""
-    for name, value in {"MOST": 60, "DISCARDED": 0.1, "SHORTEST": 0.2, "LONGEST": 0.4}.items():
-        monkeypatch.setattr(plate_rigid, name, value)
+    monkeypatch.setattr(plate_rigid, "MOST", 60)
+    monkeypatch.setattr(plate_rigid, "RECORD", Record(0.1, 0.4, 0.4))
     flow = rigid(installation, tmp_path)
     result = flow.result(nothing)
     assert result.method.startswith("mean of unsteady")
     sizes = np.diff(flow.mesh.edges()) / flow.mesh.span
     assert result.section_lift @ sizes == pytest.approx(result.lift, rel=0.01)
     assert result.section_moment @ sizes == pytest.approx(result.moment, rel=0.01)
+    surface, tip_flow = result.surface, result.tip_flow
+    assert isinstance(surface, PlateSurface)
+    assert surface.loads(2.5)[1] == pytest.approx(result.lift, rel=0.02)
+    assert tip_flow is not None
+    assert tip_flow.state == f"2.5 deg, {result.method}"
 
 
 def free(duration: float, k_star: float = 6.44, mass: float = 1.0) -> UnsteadyCase:
@@ -143,6 +240,26 @@ def test_result_holds_the_tip_and_its_modes(released: tuple[PlateRun, UnsteadyRe
     np.testing.assert_allclose(result.tip_deflection, tip)
     np.testing.assert_allclose(result.incidence[0], np.radians(2.5))
     assert result.tip_twist[-1] > 0 < result.tip_deflection[-1]
+
+
+@pytest.mark.usefixtures("short_interval")
+def test_flow_near_the_tip_is_around_the_plate_where_it_has_moved_to(
+    installation: Installation, steady: Path, tmp_path: Path
+) -> None:
+    """A light plate, which the lift carries away: there is none of the flow where it then is."""
+    run = run_of(installation, free(1.0, k_star=0.5, mass=0.05), tmp_path, steady)
+    result = run.run(nothing)
+    flow = result.tip_flow
+    assert flow is not None
+    assert flow.state.startswith("1 c/V after the release")
+    there = flow.z < 3.7
+    middle = flow.chord_line[0, there]
+    assert middle[-1] > 0.005 < result.tip_deflection[-1]
+    # the places of points beside the surface at rest and now differ by more than what is let pass
+    distance = np.abs(flow.y[:, None] - middle)
+    within = np.isnan(flow.turbulence[0][:, there])
+    assert within[distance < 0.0185].all()
+    assert not within[distance > 0.0215].any()
 
 
 @pytest.mark.usefixtures("short_interval")

@@ -17,6 +17,7 @@ from equisection.cases import SectionProperties, UnsteadyCase
 from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.histories import read_history
 from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.rigid_flow import Record
 from equisection.solvers.openfoam.section_free import SectionRun
 from equisection.solvers.openfoam.section_history import read_section
 from equisection.solvers.openfoam.section_rigid import (
@@ -102,9 +103,8 @@ def test_mean_pressure_and_friction_add_up_to_the_mean_loads(
     installation: Installation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The start of an unsteady run, which drifts: means over the same time are needed."""
-    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.DISCARDED", 0.5)
-    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.SHORTEST", 5.0)
-    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.KNOWN", math.inf)
+    record = Record(0.5, 5.0, 5.0)
+    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.RECORD", record)
     case = STEADY.model_copy(update={"incidence_deg": 10.0})
     mesh = mesh_of(case, VERY_COARSE)
     monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.MOST", 200)

@@ -2,8 +2,8 @@
 
 The prints (pytest -s) are the record. Coefficients are compared with the paper's Table 1 (15e6
 cells; gap of 0.3 c to the wall, 4 c by 4 c). The section's polar is that of a mesh of 11,136 cells,
-so a part of the difference is that of the meshes and not of the theory. The bounds asserted are what was found, not what
-would be wished.
+so a part of the difference is that of the meshes and not of the theory. The bounds asserted are
+what was found, not what would be wished.
 """
 
 from __future__ import annotations

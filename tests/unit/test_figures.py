@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
 from matplotlib.text import Text
 
 import equisection
@@ -22,7 +23,10 @@ from equisection.figures import (
     fig06_section_polar,
     fig07_surface,
     fig08_courant_number,
+    fig09_plate_mesh,
     fig10_spanwise_loads,
+    fig11_plate_surface,
+    fig12_tip_flow,
     fig13_lift_correction,
     fig14_moment_correction,
     fig15_modal_contributions,
@@ -31,14 +35,18 @@ from equisection.figures import (
     growth_rate,
 )
 from equisection.figures.correction import SteadyData
+from equisection.figures.incidences import nearest_incidences
 from equisection.figures.rule_graph import RuleGraph, RuleText
 from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import write_dataset
+from equisection.results.plate_grid import PlateGrid
+from equisection.results.plate_surface import PlateSurface
 from equisection.results.polar import gather_polar
 from equisection.results.section_mesh import SectionMesh, no_mesh
 from equisection.results.steady import SteadyResult
 from equisection.results.surface import SectionSurface
+from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady import UnsteadyResult
 from equisection.structure.plate import Plate
 
@@ -111,6 +119,57 @@ def section_mesh() -> xr.Dataset:
     }
     mesh = SectionMesh(points, corners, 1.0 + first % 5, 0.02, 2.5, "made up", quality)
     return mesh.to_dataset().assign_attrs(solver_description=SOLVER, resolution="coarse")
+
+
+def plate_mesh() -> xr.Dataset:
+    """Return the section's squares over four layers, the plate in the middle two."""
+    mesh = section_mesh()
+    points = np.stack([mesh["x"].values, mesh["y"].values], axis=-1)
+    quality = {name: mesh.attrs[name] for name in mesh.attrs if name.startswith(("max", "mean"))}
+    levels = np.array([0.0, 1.0, 1.8, 2.0, 2.3])
+    grid = PlateGrid(points, mesh["corners"].values, levels, 2.0, 1.0, 0.0, 64, quality)
+    return grid.to_dataset().assign_attrs(solver_description=SOLVER, resolution="coarse")
+
+
+def plate_surface(reattachment=0.5) -> PlateSurface:
+    """Return two sides of 10 x 6 faces, c_p falling to the tip, the friction that of a bubble."""
+    x, z, side = (
+        part.ravel()
+        for part in np.meshgrid(
+            np.arange(10) / 10 + 0.05, np.arange(6) / 3 + 1 / 6, ["lower", "upper"]
+        )
+    )
+    order = np.lexsort((x, z, side))
+    x, z, side, one = x[order], z[order], side[order], np.ones(120)
+    y, friction = np.where(side == "upper", 0.02, -0.02), 1e-3 * (x - reattachment)
+    return PlateSurface(x, y, z, one / 30, side, -0.1 * z, friction, 1e-4 * z, one)
+
+
+def on_plate(**reattachments) -> dict[float, fig11_plate_surface.ShownSurface]:
+    return {
+        float(name.removeprefix("at")): fig11_plate_surface.ShownSurface(plate_surface(end), "mean")
+        for name, end in reattachments.items()
+    }
+
+
+def tip_result(kind="steady", flow=True) -> xr.Dataset:
+    """Return a result with a flow near the tip that turns about a line along the stream."""
+    y, z = np.linspace(-0.4, 0.6, 20), np.linspace(3.1, 4.0, 18)
+    up, out = np.meshgrid(y, z - 3.7, indexing="ij")
+    velocity = np.stack([np.ones_like(up), out, -up], axis=-1)[None].repeat(2, axis=0)
+    velocity[0, np.abs(y) < 0.02, :12] = np.nan
+    line = np.full((2, 18), np.nan)
+    line[0, :12] = 0.0
+    near = TipFlow(
+        np.array([0.0, 1.0]), y, z, velocity, velocity[..., 1] ** 2, line, 3.7, 0.04, "9 c/V"
+    )
+    near = near if flow else None
+    if kind == "steady":
+        made = SteadyResult(0.1, 0.2, 0.3, *[np.empty(0)] * 3, "steady", tip_flow=near).to_dataset()
+    else:
+        verdict = {"regime": kind, "reason": "it tangled"}
+        made = UnsteadyResult(*[np.empty(0)] * 8, verdict, tip_flow=near).to_dataset(0.1)
+    return made.assign_attrs(solver_description=SOLVER, resolution="coarse")
 
 
 def surface(reattachment=0.5) -> SectionSurface:
@@ -215,6 +274,14 @@ def figures_of_data():
             {1.0: 0.5},
         ),
         "fig08": lambda: fig08_courant_number.draw(section_mesh()),
+        "fig09": lambda: fig09_plate_mesh.draw(plate_mesh(), "solid", (4, 8, 1)),
+        "fig11": lambda: fig11_plate_surface.draw(on_plate(at2=0.3, at10=2.0), [], SOLVER),
+        "fig12": lambda: fig12_tip_flow.draw(
+            [
+                fig12_tip_flow.column_of("rigid", tip_result()),
+                fig12_tip_flow.column_of("flexible", tip_result("settled")),
+            ]
+        ),
         "fig10": lambda: fig10_spanwise_loads.draw(beam_polar(), "coarse"),
         "fig13": lambda: fig13_lift_correction.draw(whole),
         "fig14": lambda: fig14_moment_correction.draw(whole),
@@ -329,6 +396,70 @@ def test_courant_number_says_how_much_of_the_area_is_below_the_limit():
     assert "mean 2.5" in words(figure)
 
 
+def test_mesh_of_the_plate_has_a_line_for_each_element_and_layer():
+    figure = fig09_plate_mesh.draw(plate_mesh(), "solid", (4, 8, 1))
+    counts = [len(axes.collections[0].get_segments()) for axes in figure.axes[:2]]
+    # elements and one, along and across; layers and one, points on the plate's upper side
+    assert counts == [8 + 1 + 4 + 1, 5 + 3]
+    assert "4 x 8 x 1 quadratic hexahedra" in words(figure).replace("\n", " ")
+
+
+@pytest.mark.parametrize(
+    ("method", "said"), [("beam", "8 beam elements"), ("analytic", "the solid has no mesh")]
+)
+def test_mesh_of_a_plate_whose_solid_has_none(method, said):
+    figure = fig09_plate_mesh.draw(plate_mesh(), method, (4, 8, 1))
+    assert said in words(figure).replace("\n", " ")
+    lay_out(figure)
+
+
+def test_plates_surface_on_a_grid_is_linear_where_it_is_linear_over_the_faces():
+    side = fig11_plate_surface.on_grid(plate_surface(0.3).on("upper"))
+    z, x = np.meshgrid(side.z, side.x)
+    assert (side.z[0], side.z[-1]) == pytest.approx((0.01, 1.99))
+    inside = (np.abs(x - 0.5) < 0.44) & (np.abs(z - 1.0) < 1.0 - 1 / 6)
+    np.testing.assert_allclose(side.pressure[inside], -0.1 * z[inside], atol=1e-9)
+    np.testing.assert_allclose(side.friction[inside], 1e-3 * (x[inside] - 0.3), atol=1e-9)
+    np.testing.assert_allclose(side.spanwise_friction[inside], 1e-4 * z[inside], atol=1e-9)
+    assert np.isfinite(side.pressure).all()
+
+
+def test_plates_surface_says_how_long_the_bubble_is_and_what_is_missing():
+    figure = fig11_plate_surface.draw(on_plate(at2=0.3, at10=2.0), ["none at 5 deg"], SOLVER)
+    titles = [axes.get_title(loc="left") for axes in figure.axes[:4]]
+    assert [title.split("bubble ")[-1] for title in titles[1::2]] == ["0.30 c", "1.00 c"]
+    assert "none at 5 deg" in words(figure)
+
+
+def test_plate_without_surface_data_says_so():
+    figure = fig11_plate_surface.draw({}, ["no surface data at 2.5 deg"], SOLVER)
+    found = words(figure).replace("\n", " ")
+    assert "No incidence has surface data of the plate." in found
+    assert "no surface data at 2.5 deg" in found
+    lay_out(figure)
+
+
+def test_flow_near_the_tip_has_a_plane_for_each_place_and_the_plate_where_it_is():
+    figure = figures_of_data()["fig12"]()
+    titles = [axes.get_title(loc="left") for axes in figure.axes[:4]]
+    assert titles[0].endswith("rigid, 0.5 c from the leading edge")
+    assert titles[3].endswith("flexible, 1.5 c from the leading edge")
+    outlines = [[p for p in axes.patches if isinstance(p, Polygon)] for axes in figure.axes[:4]]
+    assert [len(found) for found in outlines] == [1, 1, 0, 0]
+    np.testing.assert_allclose(outlines[0][0].get_xy().max(axis=0), [3.7, 0.02])
+
+
+@pytest.mark.parametrize(
+    ("kind", "said"), [("settled", "docs/files.md"), ("failed", "it failed (it tangled)")]
+)
+def test_flow_near_the_tip_that_is_missing_is_told(kind, said):
+    missing = fig12_tip_flow.column_of("flexible", tip_result(kind, flow=False))
+    for columns in ([fig12_tip_flow.column_of("rigid", tip_result()), missing], [missing, missing]):
+        figure = fig12_tip_flow.draw(columns)
+        assert said in words(figure).replace("\n", " ")
+        lay_out(figure)
+
+
 def test_polars_may_be_empty():
     nothing = range(6)
     for figure in (
@@ -357,7 +488,7 @@ def test_polars_may_be_empty():
     ],
 )
 def test_incidences_shown(available, shown):
-    assert fig10_spanwise_loads.incidences_shown(available) == shown
+    assert nearest_incidences(available, fig10_spanwise_loads.WANTED_DEG) == shown
 
 
 def test_modal_parts_add_up_and_compare():

@@ -2,6 +2,7 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -162,6 +163,16 @@ def test_surface_is_shown_where_the_solver_has_it() -> None:
     raw = {"solver": "openfoam", "sweep": {"models": ["2d"]}, "unsteady": {"time_step": 0.02}}
     cfd = load_config(raw)
     assert "fig07-surface" in plan.figures(cfd)
+
+
+def test_mesh_surface_and_flow_of_the_beam_are_shown_where_the_solver_runs_it() -> None:
+    of_beam = {"fig09-plate-mesh", "fig11-plate-surface", "fig12-tip-flow"}
+    assert not of_beam & set(plan.figures(load_config({})))
+    raw: dict[str, Any] = {"solver": "openfoam", "unsteady": {"time_step": 0.02}}
+    raw["sweep"] = {"models": ["2d"]}
+    assert of_beam <= set(plan.figures(load_config(raw)))
+    raw["steady"] = {"beam_polar": "polar.csv"}
+    assert not of_beam & set(plan.figures(load_config(raw)))
 
 
 def test_plan_needs_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -56,8 +56,14 @@ def test_section_mesh_is_kept_and_found_by_what_it_is_of(run: Path, tmp_path: Pa
     write_dataset(run / SECTION_MESH, mesh)
     keep_results(run, tmp_path / "kept/my-beam")
     path = tmp_path / "kept/my-beam" / SECTION_MESH
-    assert kept_mesh(tmp_path / "kept", {"resolution": "coarse", "time_step": 0.02}) == path
-    assert kept_mesh(tmp_path / "kept", {"resolution": "fine", "time_step": 0.02}) is None
+    assert (
+        kept_mesh(tmp_path / "kept", SECTION_MESH, {"resolution": "coarse", "time_step": 0.02})
+        == path
+    )
+    assert (
+        kept_mesh(tmp_path / "kept", SECTION_MESH, {"resolution": "fine", "time_step": 0.02})
+        is None
+    )
     assert path not in {kept.path for kept in kept_results(tmp_path / "kept")}
 
 

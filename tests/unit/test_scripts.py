@@ -13,7 +13,7 @@ import pandas as pd
 import pytest
 import yaml
 from tests.conftest import ROOT
-from tests.sample_cases import STEADY
+from tests.sample_cases import STEADY, STEADY_PLATE
 
 from equisection import plan
 from equisection.cases import SteadyCase, case_hash, read_cases, write_cases
@@ -22,6 +22,7 @@ from equisection.config.sections import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
 from equisection.results.kept import kept_results
 from equisection.results.netcdf import read_dataset
+from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
 from equisection.script import logged
 
@@ -194,6 +195,49 @@ def test_mesh_of_a_case_is_not_taken_for_its_result(
     script.main(tmp_path / "case.json", 0.02, tmp_path, tmp_path / "kept" / "section_mesh.nc")
     assert read_dataset(tmp_path / "kept" / "section_mesh.nc").attrs["resolution"] == "coarse"
     assert not kept_results(tmp_path / "kept")
+
+
+def test_mesh_of_the_plate_is_written_without_the_hash_of_its_case(
+    load_script: LoadScript, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    class Meshing:
+        name, version = "made up", "1"
+
+        def describe(self, dimension: str) -> str:
+            return f"made up in {dimension}"
+
+        def plate_grid(self, case: SteadyCase, work: Path) -> PlateGrid:
+            assert work == tmp_path / case_hash(case) / "mesh"
+            points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+            corners, levels = np.arange(4)[None], np.array([0.0, 1.0])
+            return PlateGrid(points, corners, levels, 1.0, 0.1, case.incidence_deg, 1, {})
+
+    script = load_script("plate_mesh")
+    monkeypatch.setattr(script, "solver_from_case", lambda block: Meshing())
+    write_cases(tmp_path / "case.json", {"coarse_a2.5": STEADY_PLATE})
+    script.main(tmp_path / "case.json", tmp_path, tmp_path / "kept" / "plate_mesh.nc")
+    attributes = read_dataset(tmp_path / "kept" / "plate_mesh.nc").attrs
+    assert attributes["solver_description"] == "made up in 3d"
+    assert not kept_results(tmp_path / "kept")
+
+
+@pytest.mark.parametrize("beam", [True, False])
+def test_figures_of_results_from_before_there_were_fields_say_so(
+    chain: Path, load_script: LoadScript, tmp_path: Path, beam: bool
+) -> None:
+    """The embedded solver's results have none either."""
+    polar = chain / "steady" / "3d" / "polar.json"
+    style = ROOT / "envs" / "equisection.mplstyle"
+    load_script("fig11_plate_surface").main(polar, "thin", style, [tmp_path / "fig11.svg"])
+    sweep = chain / "unsteady" / "3d" / "sweep.json" if beam else None
+    load_script("fig12_tip_flow").main(
+        polar, "thin", 3.0, sweep, style=style, outputs=[tmp_path / "fig12.svg"]
+    )
+    surface, flow = ((tmp_path / f"fig{n}.svg").read_text() for n in (11, 12))
+    assert "no surface data at 0, 2.5, 5, 10 deg" in surface
+    assert "has no flow near" in flow
+    assert ("is not among the" in flow) == (not beam)
+    assert ("= 9" in flow) == beam  # of 9 and 21 the one nearer 6.44
 
 
 def test_missing_input_is_named(load_script: LoadScript, tmp_path: Path) -> None:

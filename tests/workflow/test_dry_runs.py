@@ -45,6 +45,13 @@ ONCE_WITH_MESH = ("section_mesh", "fig05_section_mesh", "fig08_courant_number")
 #: Rules that run once where the solver has surface data.
 ONCE_WITH_SURFACE = ("bubble", "fig07_surface")
 
+#: Rules that run once where the solver has mesh, surface data and flow of the beam.
+ONCE_WITH_BEAM_AND = {
+    Capability.MESH: ("plate_mesh", "fig09_plate_mesh"),
+    Capability.SURFACE: ("fig11_plate_surface",),
+    Capability.FIELDS: ("fig12_tip_flow",),
+}
+
 
 def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
     """Return the jobs of a run on a fresh clone, counted from its configuration alone.
@@ -65,6 +72,9 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
         jobs.update(ONCE_WITH_MESH)
     if plan.has_surface(config):
         jobs.update(ONCE_WITH_SURFACE)
+    if dimensions == 2:
+        for capability in SOLVERS[config.solver].provides & ONCE_WITH_BEAM_AND.keys():
+            jobs.update(ONCE_WITH_BEAM_AND[capability])
     jobs.update(
         polar=dimensions,
         given_beam_polar=bool(config.steady.beam_polar),

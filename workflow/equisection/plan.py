@@ -145,6 +145,12 @@ FIGURES_OF_CORRECTION = ("fig13-lift-correction", "fig14-moment-correction")
 FIGURES_OF_MESH = ("fig05-section-mesh", "fig08-courant-number")
 #: Figures of pressure and friction along the section, drawn only where the solver has them.
 FIGURES_OF_SURFACE = ("fig07-surface",)
+#: Figures of mesh, surface and flow of the rigid beam, drawn only where the solver has them and it.
+FIGURES_OF_BEAM_BY_CAPABILITY = {
+    "fig09-plate-mesh": Capability.MESH,
+    "fig11-plate-surface": Capability.SURFACE,
+    "fig12-tip-flow": Capability.FIELDS,
+}
 #: Figures of one dimension, drawn only where a model of it is run.
 FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
 
@@ -153,12 +159,16 @@ def figures(config: Config) -> list[str]:
     """Return the names of the run's figures."""
     of_beam = FIGURES_OF_CORRECTION if has_beam_polar(config) else ()
     if "3d" in steady_dimensions(config):
-        of_beam = (*FIGURES_OF_BEAM, *of_beam)
+        provided = SOLVERS[config.solver].provides
+        shown = (
+            name for name, wanted in FIGURES_OF_BEAM_BY_CAPABILITY.items() if wanted in provided
+        )
+        of_beam = (*FIGURES_OF_BEAM, *shown, *of_beam)
     of_mesh = FIGURES_OF_MESH if has_mesh(config) else ()
     of_surface = FIGURES_OF_SURFACE if has_surface(config) else ()
     run = {model(name, config.reduction).dimension for name in config.sweep.shown}
-    shown = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
-    return sorted([*FIGURES, *of_beam, *of_mesh, *of_surface, *shown])
+    of_models = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
+    return sorted([*FIGURES, *of_beam, *of_mesh, *of_surface, *of_models])
 
 
 def steady_dimensions(config: Config) -> tuple[str, ...]:

@@ -118,7 +118,12 @@ rule fig05_section_mesh:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig05_section_mesh.py", "results/section_mesh.py"),
+        code=code(
+            *DRAWING,
+            "figures/fig05_section_mesh.py",
+            "figures/mesh_lines.py",
+            "results/section_mesh.py",
+        ),
     message:
         "Fig. 5, mesh of the section"
     script:
@@ -230,6 +235,43 @@ rule fig08_courant_number:
         "../../scripts/fig08_courant_number.py"
 
 
+rule fig09_plate_mesh:
+    """The meshes of the plate: solid, and flow around it (Fig. 9)."""
+    input:
+        plate_mesh=f"{RESULTS}/steady/plate_mesh.nc",
+        style=STYLE,
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig09-plate-mesh.png",
+            caption="../report/fig09.rst",
+            category="Figures",
+            labels={"figure": "9", "shows": "meshes of the plate"},
+        ),
+        svg=f"{RESULTS}/figures/fig09-plate-mesh.svg",
+        pdf=f"{RESULTS}/figures/fig09-plate-mesh.pdf",
+    log:
+        f"{LOGS}/fig09_plate_mesh.log",
+    localrule: True
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code(
+            *DRAWING,
+            "figures/fig09_plate_mesh.py",
+            "figures/mesh_lines.py",
+            "results/section_mesh.py",
+        ),
+        structure=RESOLVED["structure"],
+    message:
+        "Fig. 9, meshes of the plate"
+    script:
+        "../../scripts/fig09_plate_mesh.py"
+
+
 rule fig10_spanwise_loads:
     """Lift and moment along the span (Fig. 10)."""
     input:
@@ -254,12 +296,87 @@ rule fig10_spanwise_loads:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig10_spanwise_loads.py"),
+        code=code(*DRAWING, "figures/fig10_spanwise_loads.py", "figures/incidences.py"),
         resolution=CONFIG.steady.resolution,
     message:
         "Fig. 10, spanwise loads"
     script:
         "../../scripts/fig10_spanwise_loads.py"
+
+
+rule fig11_plate_surface:
+    """Pressure and wall shear stress over the rigid plate (Fig. 11)."""
+    input:
+        index=f"{RESULTS}/steady/3d/polar.json",
+        style=STYLE,
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig11-plate-surface.png",
+            caption="../report/fig11.rst",
+            category="Figures",
+            labels={
+                "figure": "11",
+                "shows": "pressure and shear stress over the plate",
+            },
+        ),
+        svg=f"{RESULTS}/figures/fig11-plate-surface.svg",
+        pdf=f"{RESULTS}/figures/fig11-plate-surface.pdf",
+    log:
+        f"{LOGS}/fig11_plate_surface.log",
+    localrule: True
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code(
+            *DRAWING,
+            "figures/fig11_plate_surface.py",
+            "figures/incidences.py",
+            "results/plate_surface.py",
+            "results/surface.py",
+        ),
+        resolution=CONFIG.steady.resolution,
+    message:
+        "Fig. 11, surface of the plate"
+    script:
+        "../../scripts/fig11_plate_surface.py"
+
+
+rule fig12_tip_flow:
+    """Flow and turbulence near the tip, rigid and flexible (Fig. 12)."""
+    input:
+        rigid=f"{RESULTS}/steady/3d/polar.json",
+        flexible=index_of_beam(),
+        style=STYLE,
+    output:
+        png=report(
+            f"{RESULTS}/figures/fig12-tip-flow.png",
+            caption="../report/fig12.rst",
+            category="Figures",
+            labels={"figure": "12", "shows": "flow near the tip"},
+        ),
+        svg=f"{RESULTS}/figures/fig12-tip-flow.svg",
+        pdf=f"{RESULTS}/figures/fig12-tip-flow.pdf",
+    log:
+        f"{LOGS}/fig12_tip_flow.log",
+    localrule: True
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code(*DRAWING, "figures/fig12_tip_flow.py", "results/tip_flow.py"),
+        resolution=CONFIG.steady.resolution,
+        incidence_deg=CONFIG.flow.incidence_deg,
+    message:
+        "Fig. 12, flow near the tip"
+    script:
+        "../../scripts/fig12_tip_flow.py"
 
 
 rule fig13_lift_correction:

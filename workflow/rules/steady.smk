@@ -218,6 +218,31 @@ rule section_mesh:
         "../../scripts/section_mesh.py"
 
 
+rule plate_mesh:
+    """Make the mesh of the rigid beam at the run's incidence."""
+    input:
+        case=f"{RESULTS}/cases/steady/3d/{MESH_CASE}.json",
+        kept=kept_files(),
+    output:
+        f"{RESULTS}/steady/plate_mesh.nc",
+    log:
+        f"{LOGS}/plate_mesh.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=4000,
+        runtime=60,
+    params:
+        store=STORE,
+        reuse=CONFIG.reuse,
+        compute=CONFIG.compute,
+    message:
+        "mesh of the beam"
+    script:
+        "../../scripts/plate_mesh.py"
+
+
 rule grid_study:
     """Observed order and grid convergence index of the section's polar."""
     input:

@@ -6,14 +6,12 @@ import math
 
 import numpy as np
 import xarray as xr
-from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from equisection.figures.mesh_lines import draw_lines, quality_in_words
 from equisection.figures.panels import letter, without_data
 from equisection.figures.provenance import add_provenance, solver_of
-from equisection.figures.style import BLUE, PAGE_WIDTH
+from equisection.figures.style import PAGE_WIDTH
 from equisection.results.section_mesh import edges
 
 #: Half widths of the near field and of the leading edge's detail (chords).
@@ -42,27 +40,14 @@ def draw(mesh: xr.Dataset) -> Figure:
         ("b", "near field", (0.0, 0.0), NEAR_FIELD),
         ("c", "leading edge", edge, LEADING_EDGE),
     ):
-        _panel(panels[place], lines, np.asarray(centre), np.asarray(half))
+        middle, reach = np.asarray(centre), np.asarray(half)
+        draw_lines(panels[place], lines, middle - reach, middle + reach)
+        panels[place].set(xlabel="$x/c$", ylabel="$y/c$")
         letter(panels[place], place, title)
     add_provenance(
         figure,
         solver_of(str(mesh.attrs["solver_description"]), str(mesh.attrs["resolution"])),
         rf"{float(mesh.attrs['incidence_deg']):g} deg",
-        f"aspect ratio up to {mesh.attrs['max_aspect_ratio']:.0f}, non-orthogonality up to "
-        f"{mesh.attrs['max_non_orthogonality_deg']:.0f} deg, skewness up to "
-        f"{mesh.attrs['max_skewness']:.2f}",
+        quality_in_words(mesh.attrs),
     )
     return figure
-
-
-def _panel(
-    axes: Axes, lines: NDArray[np.float64], centre: NDArray[np.float64], half: NDArray[np.float64]
-) -> None:
-    """Draw the lines that reach into a window."""
-    low, high = centre - half, centre + half
-    inside = ((lines.max(axis=1) >= low) & (lines.min(axis=1) <= high)).all(axis=1)
-    drawn = LineCollection(list(lines[inside]), colors=BLUE, linewidths=0.25, rasterized=True)
-    axes.add_collection(drawn)
-    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), xlabel="$x/c$", ylabel="$y/c$")
-    axes.set_aspect("equal")
-    axes.grid(visible=False)

@@ -2,30 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from equisection.figures.incidences import nearest_incidences
 from equisection.figures.panels import letter, say, without_data
 from equisection.figures.provenance import add_provenance, solver_of
 from equisection.figures.style import COLOURS, DASHES, GREY, MARKERS, PAGE_WIDTH
 
 #: Two low incidences and a moderate one (deg), as in the paper.
 WANTED_DEG = (1.0, 2.5, 7.0)
-
-
-def incidences_shown(available_deg: Sequence[float]) -> list[float]:
-    """Return the incidences (deg) nearest to those wanted, each once, ascending.
-
-    Of two that are as near the larger one is taken: at zero there is nothing to see.
-    """
-    if not available_deg:
-        return []
-    nearest = (min(available_deg, key=lambda a: (abs(a - w), -a)) for w in WANTED_DEG)
-    return sorted(set(nearest))
 
 
 def draw(polar: xr.Dataset, resolution: str) -> Figure:
@@ -42,7 +30,8 @@ def draw(polar: xr.Dataset, resolution: str) -> Figure:
         return without_data(f"No rigid beam was run at resolution '{resolution}'.")
     chosen = polar.sel(resolution=resolution)
     finite = np.isfinite(chosen["cl"].values)
-    angles = incidences_shown([float(a) for a in chosen["incidence_deg"].values[finite]])
+    available = [float(a) for a in chosen["incidence_deg"].values[finite]]
+    angles = nearest_incidences(available, WANTED_DEG)
     figure = Figure(figsize=(PAGE_WIDTH, 3.1))
     panels = figure.subplots(1, 2)
     names = (("cl", "$c_l$", "lift"), ("cm", "$c_m$ about mid-chord", "moment"))

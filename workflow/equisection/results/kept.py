@@ -21,8 +21,8 @@ from equisection.results.netcdf import read_attributes
 
 #: Where a run has the results of its cases.
 _KINDS = ("steady", "unsteady")
-#: Where a run has the mesh of the section, which is the result of no case.
-SECTION_MESH = Path("steady/section_mesh.nc")
+#: Where a run has the meshes of section and plate, which are results of no case.
+SECTION_MESH, PLATE_MESH = Path("steady/section_mesh.nc"), Path("steady/plate_mesh.nc")
 
 
 @dataclass(frozen=True)
@@ -83,7 +83,7 @@ def keep_results(run: Path, folder: Path) -> list[Path]:
     for kind in _KINDS:
         for path in sorted((run / kind).rglob("*.nc")):
             attributes = _attributes(path)
-            is_mesh = path == run / SECTION_MESH
+            is_mesh = path in (run / SECTION_MESH, run / PLATE_MESH)
             if is_mesh or (attributes.get("case_hash") and not failure_of(attributes)):
                 copy = folder / path.relative_to(run)
                 copy.parent.mkdir(parents=True, exist_ok=True)
@@ -95,9 +95,9 @@ def keep_results(run: Path, folder: Path) -> list[Path]:
     return copies
 
 
-def kept_mesh(folder: Path, attributes: dict[str, Any]) -> Path | None:
-    """Return the first section mesh below a folder that has some attributes, if there is one."""
-    for path in sorted(folder.rglob(str(SECTION_MESH))):
+def kept_mesh(folder: Path, name: Path, attributes: dict[str, Any]) -> Path | None:
+    """Return the first mesh of a name below a folder that has some attributes, if there is one."""
+    for path in sorted(folder.rglob(str(name))):
         found = _attributes(path)
         if found and all(found.get(name) == value for name, value in attributes.items()):
             return path

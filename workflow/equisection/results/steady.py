@@ -8,8 +8,10 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.results.plate_surface import PlateSurface
 from equisection.results.spent import Spent
 from equisection.results.surface import SectionSurface
+from equisection.results.tip_flow import TipFlow
 
 
 @dataclass(frozen=True)
@@ -29,7 +31,9 @@ class SteadyResult:
     failure
         Why there is no value, empty if there is one. Coefficients are then NaN.
     surface
-        Pressure and friction around the section, where the solver has them.
+        Pressure and friction around the section or over the plate, where the solver has them.
+    tip_flow
+        Flow near the tip, where the solver has it.
     spent
         What the case took, where the solver knows it better than its job does.
     """
@@ -42,7 +46,8 @@ class SteadyResult:
     section_moment: NDArray[np.float64]
     method: str
     failure: str = ""
-    surface: SectionSurface | None = None
+    surface: SectionSurface | PlateSurface | None = None
+    tip_flow: TipFlow | None = None
     spent: Spent | None = None
 
     def to_dataset(self) -> xr.Dataset:
@@ -78,4 +83,6 @@ class SteadyResult:
             )
         if self.surface is not None:
             data |= self.surface.variables()  # type: ignore[arg-type]
-        return xr.Dataset(data, coordinates, attrs={"method": self.method, "failure": self.failure})
+        attributes = {"method": self.method, "failure": self.failure}
+        dataset = xr.Dataset(data, coordinates, attrs=attributes)
+        return self.tip_flow.with_dataset(dataset) if self.tip_flow is not None else dataset

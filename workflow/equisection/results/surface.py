@@ -8,6 +8,7 @@ follow from them.
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -90,18 +91,9 @@ class SectionSurface:
         )
 
     def reattachment(self, side: str) -> float:
-        """Return x/c where the bubble from the leading edge ends: 0 for none, 1 for all the chord.
-
-        There c_f changes from negative to positive. Of several such places (the small vortices at
-        the corners of the edges have their own) it is the one up to which the integral of c_f over
-        x is smallest.
-        """
+        """Return x/c where the bubble of a side ends; see :func:`reattachment`."""
         faces = self.on(side)
-        reversed_faces = int(np.argmin(np.cumsum(np.append(0.0, faces.friction * faces.length))))
-        if reversed_faces in (0, faces.x.size):
-            return float(reversed_faces > 0)
-        both = slice(reversed_faces - 1, reversed_faces + 1)
-        return float(np.interp(0.0, faces.friction[both], faces.x[both]))
+        return reattachment(faces.x, faces.length, faces.friction)
 
     def loads(self, incidence_deg: float) -> tuple[float, float, float]:
         """Return c_d, c_l and c_m about mid-chord, nose up, summed over the contour.
@@ -116,12 +108,35 @@ class SectionSurface:
         force = traction * self.length[:, None]
         along, across = force.sum(axis=0)
         moment = (self.y * force[:, 0] - (self.x - 0.5) * force[:, 1]).sum()
-        cosine, sine = math.cos(math.radians(incidence_deg)), math.sin(math.radians(incidence_deg))
-        return (
-            float(along * cosine + across * sine),
-            float(across * cosine - along * sine),
-            float(moment),
-        )
+        return in_stream(float(along), float(across), float(moment), incidence_deg)
+
+
+def reattachment(x: Floats, length: Floats, friction: Floats) -> float:
+    """Return x/c where the bubble from the leading edge ends: 0 for none, 1 for all the chord.
+
+    There c_f changes from negative to positive. Of several such places (the small vortices at the
+    corners of the edges have their own) it is the one up to which the integral of c_f over x is
+    smallest.
+
+    Parameters
+    ----------
+    x, length, friction
+        Middle and length over the chord, and c_f, of the faces from the leading edge to the
+        trailing edge, shape (n,).
+    """
+    reversed_faces = int(np.argmin(np.cumsum(np.append(0.0, friction * length))))
+    if reversed_faces in (0, x.size):
+        return float(reversed_faces > 0)
+    both = slice(reversed_faces - 1, reversed_faces + 1)
+    return float(np.interp(0.0, friction[both], x[both]))
+
+
+def in_stream(
+    along: float, across: float, moment: float, incidence_deg: float
+) -> tuple[float, float, float]:
+    """Return drag, lift and moment of a force along the chord and across it, and a moment."""
+    cosine, sine = math.cos(math.radians(incidence_deg)), math.sin(math.radians(incidence_deg))
+    return along * cosine + across * sine, across * cosine - along * sine, moment
 
 
 def suction_side(incidence_deg: float) -> str:
@@ -130,18 +145,36 @@ def suction_side(incidence_deg: float) -> str:
 
 
 def surface_from_dataset(dataset: xr.Dataset) -> SectionSurface | None:
-    """Return the surface data of a steady result; None if it has none."""
+    """Return the surface data of a steady result of the section; None if it has none.
+
+    Raises
+    ------
+    ResultFileError
+        A side is unknown.
+    """
     if "cp" not in dataset:
         return None
-    side = dataset["side"].values.astype(str)
-    unknown = sorted(set(side) - set(NORMALS))
-    if unknown:
-        raise ResultFileError(
-            f"side: {', '.join(unknown)}; allowed are {', '.join(NORMALS)}; run the case again"
-        )
+    side = known_sides(dataset, NORMALS)
     names = ("x", "y", "length", "cp", "cf", "y_plus")
     x, y, length, pressure, friction, y_plus = (dataset[name].values for name in names)
     return SectionSurface(x, y, length, side, pressure, friction, y_plus)
+
+
+def known_sides(dataset: xr.Dataset, allowed: Collection[str]) -> NDArray[np.str_]:
+    """Return the side of each face.
+
+    Raises
+    ------
+    ResultFileError
+        One of them is not among those allowed.
+    """
+    side: NDArray[np.str_] = dataset["side"].values.astype(str)
+    unknown = sorted(set(side) - set(allowed))
+    if unknown:
+        raise ResultFileError(
+            f"side: {', '.join(unknown)}; allowed are {', '.join(allowed)}; run the case again"
+        )
+    return side
 
 
 def _says(long_name: str) -> dict[str, str]:

@@ -10,6 +10,7 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from equisection.results.spent import Spent
+from equisection.results.tip_flow import TipFlow
 
 
 class Regime(StrEnum):
@@ -53,6 +54,8 @@ class UnsteadyResult:
         theta_0 + twist of the section or tip (rad), shape (n,).
     torsion_amplitudes, bending_amplitudes
         Theta_i (rad) and W_i (chords), shape (modes, n); empty in 2D.
+    tip_flow
+        Flow near the tip at the end, where the solver has it.
     spent
         What the case took, where the solver knows it better than its job does.
     verdict
@@ -70,6 +73,7 @@ class UnsteadyResult:
     verdict: dict[str, str | float | int]
     torsion_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     bending_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
+    tip_flow: TipFlow | None = None
     spent: Spent | None = None
 
     def to_dataset(self, chord: float) -> xr.Dataset:
@@ -101,8 +105,9 @@ class UnsteadyResult:
             "chord": chord,
             "end_time": float(self.time[-1]) if self.time.size else 0.0,
         }
-        return xr.Dataset(
+        dataset = xr.Dataset(
             variables,
             {"time": ("time", self.time, {"units": "c/V", "long_name": "convective time t V/c"})},
             attrs={**attributes, **self.verdict},
         )
+        return self.tip_flow.with_dataset(dataset) if self.tip_flow is not None else dataset

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
@@ -18,9 +19,9 @@ class Capability(StrEnum):
     """What a solver can provide beside coefficients and histories."""
 
     BATCH = "batch"  # many cases in one job cost less than one by one
-    SURFACE = "surface"  # pressure and friction along the section
-    FIELDS = "fields"  # the flow field
-    MESH = "mesh"  # a mesh of the section, which can be shown and refined
+    SURFACE = "surface"  # pressure and friction along the section and over the beam
+    FIELDS = "fields"  # the flow near the tip of the beam
+    MESH = "mesh"  # a mesh of section and beam, which can be shown and refined
 
 
 #: What starts the ranks of MPI where no scheduler says otherwise.
@@ -107,6 +108,16 @@ class MeshingSolver(Solver, Protocol):
 
     def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
         """Return the mesh of a rigid section, with its Courant number at a time step (c/V).
+
+        Raises
+        ------
+        SolverError
+            The mesh is not sound, or the solver could not run.
+        """
+        ...
+
+    def plate_grid(self, case: SteadyCase, work: Path) -> PlateGrid:
+        """Return the mesh of a rigid beam.
 
         Raises
         ------

@@ -38,7 +38,7 @@ SOLVERS: dict[str, Entry] = {
     ),
     "openfoam": Entry(
         "equisection.solvers.openfoam.adapter",
-        frozenset({Capability.MESH, Capability.SURFACE}),
+        frozenset({Capability.MESH, Capability.SURFACE, Capability.FIELDS}),
         work="equisection.solvers.openfoam.work",
     ),
 }

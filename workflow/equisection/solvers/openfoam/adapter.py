@@ -17,6 +17,7 @@ import numpy as np
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.sections.openfoam import MORPH
+from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
@@ -26,6 +27,7 @@ from equisection.solvers.openfoam.settings import Settings
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 if TYPE_CHECKING:
+    from equisection.solvers.openfoam.plate_rigid import PlateFlow
     from equisection.solvers.openfoam.section_rigid import RigidLoads
 
 logger = logging.getLogger(__name__)
@@ -36,7 +38,7 @@ class Adapter:
 
     name = "openfoam"
     version = "4"
-    provides = frozenset({Capability.MESH, Capability.SURFACE})
+    provides = frozenset({Capability.MESH, Capability.SURFACE, Capability.FIELDS})
 
     def __init__(self, settings: Settings, allocation: Allocation = ONE_THREAD) -> None:
         self._settings = settings
@@ -95,6 +97,12 @@ class Adapter:
         mesh = mesh_of(case, preset.refinement, preset.spacing)
         return section_mesh(find(), case, mesh, time_step, work)
 
+    def plate_grid(self, case: SteadyCase, work: Path) -> PlateGrid:
+        """Return the mesh of a rigid plate."""
+        from equisection.solvers.openfoam.plate_grid import plate_grid  # noqa: PLC0415
+
+        return plate_grid(self._plate_flow(find(), case, work))
+
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
     ) -> list[SteadyResult]:
@@ -128,12 +136,14 @@ class Adapter:
     def _rigid_plate(
         self, installation: Installation, case: SteadyCase, place: Path, tell: Progress
     ) -> SteadyResult:
+        return self._plate_flow(installation, case, place).result(tell)
+
+    def _plate_flow(self, installation: Installation, case: SteadyCase, place: Path) -> PlateFlow:
         from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
-        coupling, ranks = self._settings.coupling, self._ranks
-        return PlateFlow(installation, case, mesh, coupling, ranks, place).result(tell)
+        return PlateFlow(installation, case, mesh, self._settings.coupling, self._ranks, place)
 
     def run_unsteady(
         self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress

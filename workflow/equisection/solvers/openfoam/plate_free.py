@@ -20,6 +20,7 @@ import numpy as np
 from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
 from equisection.motion.modal_response import ModalStep, Staggered
+from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.case_folder import (
@@ -62,6 +63,7 @@ from equisection.solvers.openfoam.rigid_flow import Tell
 from equisection.solvers.openfoam.section_free import STATE_INTERVAL
 from equisection.solvers.openfoam.section_rigid import require_sound_mesh
 from equisection.solvers.openfoam.spent import spent
+from equisection.solvers.openfoam.tip_flow import Pose, sample_tip_flow
 from equisection.solvers.verdicts import (
     LOOKS_EVERY,
     Motion,
@@ -154,7 +156,8 @@ class PlateRun:
             failure = f"{error}{self._where()}"
             if not is_ready(self.folder):
                 return refused(case.model_copy(update={"refusal": failure}))
-        return replace(self._result(failure), spent=spent(self.work))
+        tip_flow = None if failure else self._tip_flow()
+        return replace(self._result(failure), tip_flow=tip_flow, spent=spent(self.work))
 
     def _set_up(self, tell: Tell) -> None:
         """Make the folder of the free run from the rigid steady flow, converged or not."""
@@ -245,6 +248,24 @@ class PlateRun:
         except SolverError as error:
             return f"; at {last} c/V {error}"
         return f"; at {last} c/V the mesh was sound"
+
+    def _tip_flow(self) -> TipFlow | None:
+        """Return the flow near the tip in the last state that was written."""
+        time, history = float(states(parts(self.folder)[0])[-1].name), self.history()
+        position = history.position[np.abs(history.time - time).argmin()]
+        points, edges = self.points, self.mesh.edges()  # the mesh's points stand at the edges
+        at_edges = (
+            np.interp(edges, points.locations, motion(position))
+            for motion in (points.twist, points.deflection)
+        )
+        twist, deflection = points.tip(position)
+        state = (
+            f"{time:.4g} c/V after the release, the tip at {math.degrees(twist):.2f} deg and "
+            f"{deflection:.3f} c"
+        )
+        return sample_tip_flow(
+            self.installation, self.folder, self.mesh, state=state, pose=Pose(edges, *at_edges)
+        )
 
     def tip_motion(self, history: PlateHistory) -> Motion:
         """Return the motion of the tip."""

@@ -29,6 +29,7 @@ from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.loads import Loads
 from equisection.solvers.openfoam.mesh import OF_PLATE, Spacing
 from equisection.solvers.openfoam.plate_mesh import SIDE_WALLS, PlateMesh
+from equisection.solvers.openfoam.plate_surface import plate_surface
 from equisection.solvers.openfoam.process import run_program
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, divide, parts
 from equisection.solvers.openfoam.rigid_flow import (
@@ -44,9 +45,11 @@ from equisection.solvers.openfoam.rigid_flow import (
     method_of_mean,
     write_at_rest,
 )
-from equisection.solvers.openfoam.section_rigid import make_mesh, mesh_of
+from equisection.solvers.openfoam.section_rigid import SAMPLED, make_mesh, mesh_of
 from equisection.solvers.openfoam.span_loads import read_span_loads, surface_output
 from equisection.solvers.openfoam.spent import spent
+from equisection.solvers.openfoam.surface import averaging, write_wall_fields
+from equisection.solvers.openfoam.tip_flow import SAMPLED_FIELDS, sample_tip_flow
 
 logger = logging.getLogger(__name__)
 
@@ -99,13 +102,8 @@ class PlateFlow:
     ranks: int
     work: Path
 
-    def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
-        """Make the mesh and run the steady solver until it has converged, or for long enough.
-
-        Returns
-        -------
-        tuple
-            Folder of the run, its loads over the iterations, and whether it has converged.
+    def set_up(self) -> Path:
+        """Make the folder of the steady run with its mesh, not yet divided, and return it.
 
         Raises
         ------
@@ -119,6 +117,22 @@ class PlateFlow:
         entries["functions"] |= surface_output({"executeControl": "onEnd", "writeControl": "onEnd"})
         write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
         make_mesh(self.installation, folder)
+        return folder
+
+    def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
+        """Make the mesh and run the steady solver until it has converged, or for long enough.
+
+        Returns
+        -------
+        tuple
+            Folder of the run, its loads over the iterations, and whether it has converged.
+
+        Raises
+        ------
+        SolverError
+            A program failed, or the mesh is not sound.
+        """
+        folder = self.set_up()
         divide(self.installation, folder, self.ranks, self.mesh.layers)
         loads, has_converged = follow_iterations(
             folder,
@@ -141,6 +155,7 @@ class PlateFlow:
         folder, steady, converged = self.steady(tell)
         if converged:
             record, mean = steady.last(WINDOW // 3), False
+            write_wall_fields(self.installation, folder, self.ranks)
             method = f"steady, {steady.time.size} iterations"
         else:
             logger.info("%g deg: the steady solver does not converge", self.case.incidence_deg)
@@ -150,6 +165,8 @@ class PlateFlow:
         drag, lift, moment = record.means()
         last = states(parts(folder)[0])[-1].name
         span = read_span_loads(folder, last, self.mesh.edges(), mean=mean)
+        state = f"{self.case.incidence_deg:g} deg, {method}"
+        tip_flow = sample_tip_flow(self.installation, folder, self.mesh, state=state, mean=mean)
         return SteadyResult(
             drag,
             lift,
@@ -158,6 +175,8 @@ class PlateFlow:
             span.lift,
             span.moment,
             method,
+            surface=plate_surface(folder, self.mesh.section.incidence, mean=mean),
+            tip_flow=tip_flow,
             spent=spent(self.work),
         )
 
@@ -171,7 +190,8 @@ class PlateFlow:
         entries["functions"] |= surface_output(
             {"executeControl": "timeStep", "writeControl": "onEnd"}
         )
-        entries["functions"]["means"] = _means()
+        entries["functions"]["force_means"] = _force_means()
+        entries["functions"] |= averaging(RECORD.discarded, SAMPLED, ("p", *SAMPLED_FIELDS))
         write_system(
             folder, entries, flow.schemes(steady=False), flow.unsteady_solution(self.coupling)
         )
@@ -197,7 +217,7 @@ def _has_converged(loads: Loads) -> bool:
     )
 
 
-def _means() -> Entries:
+def _force_means() -> Entries:
     """Return the function object that averages the force on each face over the record."""
     averaged = {"mean": True, "prime2Mean": False, "base": "time"}
     return {

@@ -15,7 +15,7 @@ from equisection.results.section_mesh import SectionMesh
 from equisection.solvers.openfoam.case_folder import states
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh import Mesh
-from equisection.solvers.openfoam.poly_mesh import read_poly_mesh
+from equisection.solvers.openfoam.poly_mesh import PolyMesh, read_poly_mesh
 from equisection.solvers.openfoam.process import run_program
 from equisection.solvers.openfoam.section_rigid import run_steady
 
@@ -26,6 +26,9 @@ _QUALITY = {
     "mean_non_orthogonality_deg": r"non-orthogonality Max: .* average: ([\d.e+-]+)",
     "max_skewness": r"Max skewness = ([\d.e+-]+)",
 }
+
+#: Distance within which points are in one plane (chords).
+SAME_PLANE = 1e-6
 
 Floats = NDArray[np.float64]
 
@@ -82,12 +85,17 @@ def quality(log: Path) -> dict[str, float]:
 
 
 def read_cells(folder: Path) -> tuple[Floats, NDArray[np.int64]]:
-    """Return points (n, 2) and corners of the cells (m, 4) of a plane mesh.
+    """Return points (n, 2) and corners of the cells (m, 4) of the layer of lowest z.
 
-    A cell of one layer has one face in the plane of negative z, which shows the cell.
+    A cell has one face in the plane that bounds the mesh there, which shows the cell.
     """
-    mesh = read_poly_mesh(folder)
-    low = mesh.points[:, 2] < 0
+    return cells_of_first_layer(read_poly_mesh(folder))
+
+
+def cells_of_first_layer(mesh: PolyMesh) -> tuple[Floats, NDArray[np.int64]]:
+    """Return what :func:`read_cells` does, of a mesh that was read."""
+    z = mesh.points[:, 2]
+    low = z < z.min() + SAME_PLANE
     shown = np.flatnonzero(low[mesh.faces].all(axis=1))
     corners = mesh.faces[shown][np.argsort(mesh.owner[shown])]
     numbers = np.cumsum(low) - 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +21,8 @@ from equisection.solvers.openfoam.process import run_program
 
 Floats = NDArray[np.float64]
 
+_AT_WALL = ("wallShearStress", "yPlus")
+
 
 def surface_of_steady(installation: Installation, folder: Path, mesh: Mesh) -> SectionSurface:
     """Return the surface data of the last state of a steady run.
@@ -29,13 +32,24 @@ def surface_of_steady(installation: Installation, folder: Path, mesh: Mesh) -> S
     SolverError
         The program that makes them failed.
     """
-    functions = ("-postProcess", "-latestTime", "-funcs", "(wallShearStress yPlus)")
-    run_program(installation, "simpleFoam", folder, arguments=functions)
+    write_wall_fields(installation, folder)
     return _read(folder, mesh, "")
 
 
-def averaging(start: float, every: int) -> dict[str, Any]:
-    """Return the function objects that average what :func:`surface_of_mean` reads.
+def write_wall_fields(installation: Installation, folder: Path, ranks: int = 1) -> None:
+    """Have shear stress and y+ at the wall written into the last state of a steady run.
+
+    Raises
+    ------
+    SolverError
+        The program failed.
+    """
+    functions = ("-postProcess", "-latestTime", "-funcs", "(wallShearStress yPlus)")
+    run_program(installation, "simpleFoam", folder, arguments=functions, ranks=ranks)
+
+
+def averaging(start: float, every: int, fields: Sequence[str] = ("p",)) -> dict[str, Any]:
+    """Return the function objects that average the flow at the wall, and fields beside.
 
     Parameters
     ----------
@@ -43,6 +57,8 @@ def averaging(start: float, every: int) -> dict[str, Any]:
         Time of the first sample (c/V).
     every
         Time steps from one sample to the next.
+    fields
+        Fields of the flow that are averaged too.
     """
     common = {
         "libs": ['"libfieldFunctionObjects.so"'],
@@ -51,15 +67,16 @@ def averaging(start: float, every: int) -> dict[str, Any]:
         "executeInterval": every,
         "log": False,
     }
-    fields = " ".join(
-        f"{name} {{ mean on; prime2Mean off; base time; }}"
-        for name in ("p", "wallShearStress", "yPlus")
+    averaged = " ".join(
+        f"{name} {{ mean on; prime2Mean off; base time; }}" for name in (*fields, *_AT_WALL)
     )
-    at_wall = {
-        name: {"type": name, **common, "writeControl": "none"}
-        for name in ("wallShearStress", "yPlus")
+    at_wall = {name: {"type": name, **common, "writeControl": "none"} for name in _AT_WALL}
+    mean = {
+        "type": "fieldAverage",
+        **common,
+        "writeControl": "writeTime",
+        "fields": f"({averaged})",
     }
-    mean = {"type": "fieldAverage", **common, "writeControl": "writeTime", "fields": f"({fields})"}
     return {**at_wall, "means": mean}
 
 
@@ -77,7 +94,7 @@ def _read(folder: Path, mesh: Mesh, suffix: str) -> SectionSurface:
     poly, state = read_poly_mesh(folder), states(folder)[-1]
     faces = poly.patches[PLATE]
     pressure = np.asarray(FoamFieldFile(state / f"p{suffix}").internal_field)[poly.owner[faces]]
-    friction = -_on_plate(state / f"wallShearStress{suffix}")[:, :2]
+    friction = -on_plate(state / f"wallShearStress{suffix}")[:, :2]
     x, y, length, side = _contour(poly, faces, mesh.incidence)
     tangent = _to_flow(np.array([TANGENTS[name] for name in side]), mesh.incidence)
     order = np.lexsort((y, x, side))
@@ -88,11 +105,12 @@ def _read(folder: Path, mesh: Mesh, suffix: str) -> SectionSurface:
         side=side[order],
         pressure=2.0 * pressure[order],
         friction=2.0 * (friction * tangent).sum(axis=1)[order],
-        y_plus=_on_plate(state / f"yPlus{suffix}")[order],
+        y_plus=on_plate(state / f"yPlus{suffix}")[order],
     )
 
 
-def _on_plate(path: Path) -> Floats:
+def on_plate(path: Path) -> Floats:
+    """Return the values of a field on the plate's faces, shape (n,) or (n, 3)."""
     patch: Any = FoamFieldFile(path).boundary_field[PLATE]
     return np.asarray(patch.value, dtype=float)
 
@@ -105,8 +123,8 @@ def _contour(
     # of the four corners of a face two and two stand behind each other
     low, high = in_flow.min(axis=1), in_flow.max(axis=1)
     length = np.hypot(*(high - low).T)
-    middle = _to_section(in_flow.mean(axis=1), incidence)
-    lengthwise = np.ptp(_to_section(in_flow, incidence), axis=1)
+    middle = to_section(in_flow.mean(axis=1), incidence)
+    lengthwise = np.ptp(to_section(in_flow, incidence), axis=1)
     is_edge = lengthwise[:, 0] < lengthwise[:, 1]
     side = np.where(
         is_edge,
@@ -116,11 +134,11 @@ def _contour(
     return middle[:, 0] + 0.5, middle[:, 1], length, side
 
 
-def _to_section(vectors: Floats, incidence: float) -> Floats:
+def to_section(vectors: Floats, incidence: float) -> Floats:
     """Turn vectors of the flow's frame, shape (..., 2), into that of the section."""
     cosine, sine = math.cos(incidence), math.sin(incidence)
     return np.asarray(vectors @ np.array([[cosine, sine], [-sine, cosine]]))
 
 
 def _to_flow(vectors: Floats, incidence: float) -> Floats:
-    return _to_section(vectors, -incidence)
+    return to_section(vectors, -incidence)

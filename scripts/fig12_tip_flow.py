@@ -1,0 +1,57 @@
+"""Fig. 12: the flow near the tip of the rigid and of the flexible plate."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from equisection import plan
+from equisection.figures.fig12_tip_flow import K_STAR, Column, column_of, draw
+from equisection.figures.save import save_figure
+from equisection.figures.style import drawing_style
+from equisection.results.failures import failure_of
+from equisection.results.index import read_index, result_file
+from equisection.results.netcdf import read_dataset
+from equisection.script import logged
+
+
+def main(
+    rigid: Path,
+    resolution: str,
+    incidence_deg: float,
+    flexible: Path | None,
+    *,
+    style: Path,
+    outputs: Sequence[Path],
+) -> None:
+    """Draw the rigid plate at the incidence nearest the run's, and the flexible one.
+
+    ``rigid`` and ``flexible`` are the indices of the polar and of the sweep; there is none of the
+    sweep where the beam is not run. Of the sweep the k* nearest the paper's is shown.
+    """
+    names = [name for name in read_index(rigid) if plan.angle_of(name)[0] == resolution]
+    name = min(names, key=lambda name: abs(plan.angle_of(name)[1] - incidence_deg))
+    of_rigid = column_of("rigid", read_dataset(result_file(rigid, name)))
+    with drawing_style(style):
+        save_figure(draw([of_rigid, _of_flexible(flexible)]), outputs)
+
+
+def _of_flexible(index: Path | None) -> Column:
+    if index is None:
+        return Column("flexible", "The flexible plate is not among the models of the sweep.")
+    runs = [name for name, result in read_index(index).items() if not failure_of(result)]
+    if not runs:
+        return Column("flexible", "Every run of the flexible plate failed.")
+    name = min(runs, key=lambda name: abs(plan.k_star_of(name) - K_STAR))
+    title = f"k* = {plan.k_star_of(name):g}"
+    return column_of(title, read_dataset(result_file(index, name)))
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0]):
+        main(
+            Path(snakemake.input.rigid),
+            snakemake.params.resolution,
+            snakemake.params.incidence_deg,
+            Path(snakemake.input.flexible[0]) if snakemake.input.flexible else None,
+            style=Path(snakemake.input.style),
+            outputs=[Path(path) for path in snakemake.output],
+        )
