@@ -80,8 +80,8 @@ def test_another_time_step_computes_the_sweep_again(section: Project) -> None:
 def test_another_value_in_the_polar_computes_the_sweep_again(section: Project) -> None:
     polar = section.folder / "config" / "polars" / "plate_2d_11136.csv"
     text = polar.read_text()
-    assert "\n3,0.45674," in text
-    polar.write_text(text.replace("\n3,0.45674,", "\n3,0.41674,"))
+    assert "\n3,0.45675," in text
+    polar.write_text(text.replace("\n3,0.45675,", "\n3,0.41675,"))
 
     done = jobs_run(section.run(section.target(SUMMARY)))
 

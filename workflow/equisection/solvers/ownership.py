@@ -155,6 +155,8 @@ def claimed(work: Path) -> Iterator[Claim]:
     folder = work / FOLDER
     folder.mkdir(parents=True, exist_ok=True)
     claim = _wait(folder, Owner.this())
+    # a job that a shell has started in the background ignores interrupts
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Thread(target=claim.show_life, daemon=True).start()
     try:
         yield claim
@@ -163,6 +165,7 @@ def claimed(work: Path) -> Iterator[Claim]:
         raise
     finally:
         claim.end()
+        signal.signal(signal.SIGINT, before)
 
 
 def _wait(folder: Path, this: Owner) -> Claim:
