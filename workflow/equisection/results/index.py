@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from equisection.errors import ResultFileError
-from equisection.files import write_text
+from equisection.files import require_plain_names, write_text
 
 SCHEMA_VERSION = 1
 
@@ -49,6 +49,7 @@ def read_index(path: Path) -> dict[str, dict[str, Any]]:
         document = json.loads(path.read_text(encoding="utf-8"))
         found = document["schema_version"]
         results = document["results"].items()
+        require_plain_names(document["results"])
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise ResultFileError(
             f"{path}: cannot be read as an index of results ({error!r}); delete it and run again"
@@ -72,6 +73,11 @@ def result_file(index: Path, name: str) -> Path:
 def result_files(indices: Sequence[Path]) -> list[Path]:
     """Return the result files that some indices name."""
     return [result_file(index, name) for index in indices for name in read_index(index)]
+
+
+def is_index(path: Path) -> bool:
+    """Tell whether a file, by its place in the folder of a run, is an index of results."""
+    return path.suffix == ".json" and path.parts[0] in ("steady", "unsteady")
 
 
 def _plain(value: Any) -> Any:
