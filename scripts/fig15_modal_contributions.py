@@ -18,7 +18,7 @@ def main(modes: Path, run: Path, style: Path, outputs: Sequence[Path]) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.modes),
             result_file(Path(snakemake.input.index), snakemake.params.case),

@@ -16,5 +16,5 @@ def main(summary: Path, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(Path(snakemake.input.summary), Path(snakemake.output[0]))

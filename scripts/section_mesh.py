@@ -31,7 +31,7 @@ def main(cases: Path, time_step: float, store: Path, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.case),
             snakemake.params.time_step,
