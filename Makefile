@@ -32,6 +32,7 @@ cost-model: $(ENV)/run
 
 status: $(ENV)/run
 	$(BIN)/equisection status
+	@echo "as a page: $(BIN)/equisection status --html status.html"
 
 test: $(ENV)/test
 	$(BIN)/python -m pytest

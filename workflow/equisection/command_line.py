@@ -20,13 +20,14 @@ examples:
   equisection status                     how far the runs in results/ are
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
+  equisection status --html status.html  the same as a page for a browser
   equisection cost-model                 what a cell of a mesh costs, by the results
   equisection polar results/my-beam/steady/2d/coarse_a*.nc > my_section.csv
 """
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command and return its exit status: 0, 1 on an error, 2 on a wrong usage."""
+    """Run the command; return its exit status: 0, 1 if something is wrong, 2 on a wrong usage."""
     parser = _parser()
     options = parser.parse_args(arguments)
     if options.command is None:
@@ -42,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         elif options.command == "cost-model":
             _cost_model(options.folder, options.write)
         else:
-            _status(options.run_folder, options.plain)
+            _status(options.run_folder, options.plain, options.html)
     except EquisectionError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
@@ -82,6 +83,12 @@ def _parser() -> argparse.ArgumentParser:
         "--plain",
         action="store_true",
         help="tab-separated lines with every case, for pipes; the first names the columns",
+    )
+    status.add_argument(
+        "--html",
+        type=Path,
+        metavar="FILE",
+        help="write a page that needs neither network nor script, with every case",
     )
     folder = commands.add_parser(
         "folder",
@@ -192,21 +199,29 @@ def _folder(files: Sequence[Path]) -> Path:
     return Path("results") / load_config(raw).run
 
 
-def _status(folders: Sequence[Path], plain: bool) -> None:
+def _status(folders: Sequence[Path], plain: bool, page: Path | None) -> None:
     # Imported here, so that --help and --version come at once.
     from rich.console import Console  # noqa: PLC0415
 
-    from equisection.status import find_runs, run_status  # noqa: PLC0415
+    from equisection.status import StatusError, find_runs, run_status  # noqa: PLC0415
+    from equisection.status_page import write_page  # noqa: PLC0415
     from equisection.status_text import plain_lines, print_status  # noqa: PLC0415
 
     default = Path("results")
     places = list(folders) or ([default] if default.is_dir() else [])
     runs = [run_status(run) for place in places for run in find_runs(place)]
+    where = ", ".join(map(str, places)) or f"{Path.cwd()} (it has no folder 'results')"
+    if page is not None:
+        try:
+            write_page(page, runs, where)
+        except OSError as error:
+            raise StatusError(f"{page}: the page cannot be written there ({error})") from None
+        print(f"page: {page}")
+        return
     if plain:
         print("\n".join(plain_lines(runs)), flush=True)
         return
     if not runs:
-        where = ", ".join(map(str, places)) or f"{Path.cwd()} (it has no folder 'results')"
         print(f"There is no run in {where} yet. Start one with 'snakemake --cores 2'.")
     console = Console(highlight=False)
     for run in runs:
