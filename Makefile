@@ -9,7 +9,7 @@ BIN := $(ENV)/bin
 SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profiles/default \
 	$(if $(CONFIG),--configfile $(CONFIG))
 
-.PHONY: run report identification cost-model status test lint bench openfoam slurm clean
+.PHONY: run report identification cost-model status verify test lint bench openfoam slurm clean
 
 run: $(ENV)/run
 	$(SNAKEMAKE)
@@ -33,6 +33,9 @@ cost-model: $(ENV)/run
 status: $(ENV)/run
 	$(BIN)/equisection status
 	@echo "as a page: $(BIN)/equisection status --html status.html"
+
+verify: $(ENV)/run
+	$(BIN)/equisection verify
 
 test: $(ENV)/test
 	$(BIN)/python -m pytest

@@ -21,6 +21,7 @@ examples:
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
   equisection status --html status.html  the same as a page for a browser
+  equisection verify                     whether results, figures and tables are what they say
   equisection cost-model                 what a cell of a mesh costs, by the results
   equisection polar results/my-beam/steady/2d/coarse_a*.nc > my_section.csv
 """
@@ -42,6 +43,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             _keep(options.run_folder, options.folder)
         elif options.command == "cost-model":
             _cost_model(options.folder, options.write)
+        elif options.command == "verify":
+            return 0 if _verify(options.folder) else 1
         else:
             _status(options.run_folder, options.plain, options.html)
     except EquisectionError as error:
@@ -89,6 +92,19 @@ def _parser() -> argparse.ArgumentParser:
         type=Path,
         metavar="FILE",
         help="write a page that needs neither network nor script, with every case",
+    )
+    verify = commands.add_parser(
+        "verify",
+        help="whether results, figures and tables are what they say",
+        description="Compute the hashes again of everything that figures and tables are made of, "
+        "and name what is stale, foreign, missing or broken. The exit status is 0 if nothing is.",
+    )
+    verify.add_argument(
+        "folder",
+        nargs="*",
+        type=Path,
+        metavar="FOLDER",
+        help="folder of a run, or one with kept results (default: all in results/)",
     )
     folder = commands.add_parser(
         "folder",
@@ -227,6 +243,21 @@ def _status(folders: Sequence[Path], plain: bool, page: Path | None) -> None:
     for run in runs:
         print_status(console, run)
     sys.stdout.flush()
+
+
+def _verify(folders: Sequence[Path]) -> bool:
+    # Imported here, so that --help and --version come at once.
+    from equisection.verify import verify_folder, words  # noqa: PLC0415
+
+    found = [
+        verified for folder in folders or [Path("results")] for verified in verify_folder(folder)
+    ]
+    for verified in found:
+        print("\n".join(words(verified)))
+    if not found:
+        print("there is no run and no kept result to verify")
+    sys.stdout.flush()
+    return not any(verified.faults for verified in found)
 
 
 if __name__ == "__main__":
