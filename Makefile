@@ -18,7 +18,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run report paper cost identification cost-model status test lint docs bench openfoam slurm clean
+.PHONY: run report paper cost identification cost-model status verify test lint docs bench openfoam slurm clean
 
 run: $(ENV)/run
 	$(SNAKEMAKE)
@@ -54,6 +54,10 @@ cost-model: $(ENV)/run
 
 status: $(ENV)/run
 	$(BIN)/equisection status
+	@echo "as a page: $(BIN)/equisection status --html status.html"
+
+verify: $(ENV)/run
+	$(BIN)/equisection verify
 
 test: $(ENV)/test
 	$(BIN)/python -m pytest

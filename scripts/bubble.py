@@ -21,5 +21,5 @@ def main(index: Path, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(Path(snakemake.input.index), Path(snakemake.output[0]))

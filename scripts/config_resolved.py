@@ -3,17 +3,20 @@
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from equisection.files import write_text
+from equisection.provenance import config_hash, config_text
 from equisection.script import logged
 
 
 def main(config: dict[str, Any], output: Path) -> None:
-    """Write the resolved configuration as YAML."""
-    write_text(output, yaml.safe_dump(config, sort_keys=False))
+    """Write the resolved configuration as YAML, and keep it under its hash.
+
+    By the hash a file names the configuration that it was made with, also after a later one.
+    """
+    write_text(output, config_text(config))
+    write_text(output.parent / "configs" / f"{config_hash(config)}.yaml", config_text(config))
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(dict(snakemake.params.config), Path(snakemake.output[0]))

@@ -17,7 +17,7 @@ def main(polar_2d: Path, polar_3d: Path, resolution: str, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.polar_2d),
             Path(snakemake.input.polar_3d),

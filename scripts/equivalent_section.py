@@ -34,7 +34,7 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Beam(**snakemake.params.beam),
             Flow(**snakemake.params.flow),

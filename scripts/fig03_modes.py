@@ -18,7 +18,7 @@ def main(modes: Path, plate: Plate, style: Path, outputs: Sequence[Path]) -> Non
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.modes),
             Plate(**snakemake.params.beam),

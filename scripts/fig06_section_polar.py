@@ -20,7 +20,7 @@ def main(polar_2d: Path, grid_study: Sequence[Path], style: Path, outputs: Seque
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.polar_2d),
             [Path(path) for path in snakemake.input.grid_study],

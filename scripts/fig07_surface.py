@@ -41,7 +41,7 @@ def main(
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.index),
             Path(snakemake.input.bubble),

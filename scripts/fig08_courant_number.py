@@ -17,7 +17,7 @@ def main(section_mesh: Path, style: Path, outputs: Sequence[Path]) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.section_mesh),
             Path(snakemake.input.style),

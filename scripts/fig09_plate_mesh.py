@@ -20,7 +20,7 @@ def main(plate_mesh: Path, structure: Structure, style: Path, outputs: Sequence[
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.plate_mesh),
             Structure(**snakemake.params.structure),

@@ -17,7 +17,7 @@ def main(polar_3d: Path, resolution: str, style: Path, outputs: Sequence[Path]) 
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.polar_3d),
             snakemake.params.resolution,

@@ -34,7 +34,7 @@ def main(index: Path, resolution: str, style: Path, outputs: Sequence[Path]) -> 
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.index),
             snakemake.params.resolution,

@@ -46,7 +46,7 @@ def _of_flexible(index: Path | None) -> Column:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.rigid),
             snakemake.params.resolution,

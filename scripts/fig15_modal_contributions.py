@@ -25,7 +25,7 @@ def main(modes: Path, index: Path, style: Path, outputs: Sequence[Path]) -> None
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         (index,) = snakemake.input.index
         main(
             Path(snakemake.input.modes),

@@ -14,5 +14,5 @@ def main(polar: Path, resolution: str, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(Path(snakemake.input[0]), snakemake.params.resolution, Path(snakemake.output[0]))

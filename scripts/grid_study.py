@@ -26,7 +26,7 @@ def main(raw_config: dict[str, Any], polar_2d: Path, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             dict(snakemake.params.config),
             Path(snakemake.input.polar_2d),

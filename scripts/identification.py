@@ -57,7 +57,7 @@ def main(
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Embedded(**snakemake.params.embedded),
             snakemake.params.resolution,

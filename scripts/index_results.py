@@ -19,7 +19,7 @@ def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             [Path(path) for path in snakemake.input.get("cases", [])],
             [Path(path) for path in snakemake.input.get("results", [])],

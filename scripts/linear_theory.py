@@ -18,7 +18,7 @@ def main(equivalent: Path, k_star: Sequence[float], output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.equivalent),
             list(snakemake.params.k_star),

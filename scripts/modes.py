@@ -33,7 +33,7 @@ def main(beam: Beam, structure: Structure, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Beam(**snakemake.params.beam),
             Structure(**snakemake.params.structure),

@@ -45,7 +45,7 @@ def main(
 
 if __name__ == "__main__":
     WANTED = ("modes", "equivalent", "mesh_study", "summary", "onset")
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         inputs = {name: Path(snakemake.input[name]) for name in WANTED}
         for name in ("polar_3d", "correction", "bubble"):
             for path in snakemake.input[name]:

@@ -57,7 +57,7 @@ def take_kept(cases: Path, reuse: Path, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         case = Path(snakemake.input.case)
         if snakemake.params.compute:
             main(case, Path(snakemake.params.store), Path(snakemake.output[0]))

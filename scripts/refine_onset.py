@@ -22,7 +22,7 @@ def main(indices: Sequence[Path], tolerance: float, points: int, output: Path) -
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             [Path(path) for path in snakemake.input.indices],
             snakemake.params.tolerance,

@@ -16,7 +16,7 @@ def main(polar_3d: Path, is_paper_case: bool, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.polar_3d),
             snakemake.params.is_paper_case,

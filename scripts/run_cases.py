@@ -44,7 +44,7 @@ def take_kept(cases: Path, output: Path, store: Path, reuse: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         arguments = (
             Path(snakemake.input[0]),
             Path(snakemake.output[0]),

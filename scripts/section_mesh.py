@@ -47,7 +47,7 @@ def take_kept(cases: Path, time_step: float, reuse: Path, output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         case, step = Path(snakemake.input.case), snakemake.params.time_step
         if snakemake.params.compute:
             main(case, step, Path(snakemake.params.store), Path(snakemake.output[0]))

@@ -24,7 +24,7 @@ def main(raw_config: dict[str, Any], dimension: str, names: Sequence[str], outpu
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             snakemake.params.config,
             snakemake.wildcards.dimension,

@@ -21,5 +21,5 @@ def main(indices: Sequence[Path], output: Path) -> None:
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main([Path(path) for path in snakemake.input.indices], Path(snakemake.output[0]))

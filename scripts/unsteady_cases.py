@@ -36,7 +36,7 @@ def main(
 
 
 if __name__ == "__main__":
-    with logged(snakemake.log[0]):
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
         made_from = {"modes", "equivalent", "correction"} & set(snakemake.input.keys())
         main(
             snakemake.params.config,

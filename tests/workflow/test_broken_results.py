@@ -16,10 +16,10 @@ SUMMARY = "comparison/summary.csv"
 
 
 def values(path: Path) -> xr.Dataset:
-    """Return a result without what it cost, which differs from one computation to the next."""
+    """Return a result without cost and command, which differ from one computation to the next."""
     with xr.open_dataset(path) as opened:
         data = opened.load()
-    for name in ("wall_seconds", "cpu_seconds", "batch_cases"):
+    for name in ("wall_seconds", "cpu_seconds", "batch_cases", "command"):
         del data.attrs[name]
     return data
 

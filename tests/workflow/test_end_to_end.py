@@ -1,3 +1,4 @@
+import hashlib
 import re
 from pathlib import Path
 
@@ -11,6 +12,8 @@ import equisection
 from equisection.cases import case_hash, read_cases
 from equisection.config import load_config
 from equisection.results.index import read_index
+from equisection.results.netcdf import read_attributes
+from equisection.verify import verify_run
 from tests.workflow.project import ROOT, Project, has_nothing_to_do, small
 
 MODELS = ("2d", "2d-corrected", "3d")
@@ -70,9 +73,12 @@ def batch_of(name: str) -> str:
     return next(batch for batch in BATCHES if batch.startswith(f"{folder}/"))
 
 
-def wanted_files() -> set[str]:
+def wanted_files(run: Path) -> set[str]:
+    config = hashlib.sha256((run / "config.resolved.yaml").read_bytes()).hexdigest()
     return {
         "config.resolved.yaml",
+        f"configs/{config}.yaml",
+        *(f"provenance/{log.stem}.json" for log in (run / "logs").glob("*.log")),
         *GATHERED,
         *COLUMNS,
         "tables/table1.csv",
@@ -85,7 +91,19 @@ def wanted_files() -> set[str]:
 
 
 def test_a_run_leaves_the_files_of_the_contract_and_nothing_else(finished: Project) -> None:
-    assert set(finished.files()) == wanted_files()
+    assert set(finished.files()) == wanted_files(finished.results)
+
+
+def test_it_is_sound_and_says_what_made_it(finished: Project) -> None:
+    found = verify_run(finished.results)
+    assert found.faults == {}
+    assert found.unrecorded == []
+    assert found.checked >= len(FIGURES) * 3 + len(RESULTS_OF_CASES) + len(GATHERED)
+    config = hashlib.sha256((finished.results / "config.resolved.yaml").read_bytes()).hexdigest()
+    for name in (*GATHERED, *(f"{case}.nc" for case in RESULTS_OF_CASES)):
+        attributes = read_attributes(finished.results / name)
+        assert attributes["config_hash"] == config
+        assert attributes["command"].startswith("snakemake --cores 2")
 
 
 def test_results_beside_the_run_are_the_store_alone(finished: Project) -> None:

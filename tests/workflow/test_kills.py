@@ -56,7 +56,7 @@ def test_killed_run_goes_on_to_the_results_of_an_undisturbed_one(
     project.run("--rerun-incomplete", target)
 
     assert has_nothing_to_do(project.run(target))
-    cost = ("wall_seconds", "cpu_seconds", "batch_cases")
+    cost = ("wall_seconds", "cpu_seconds", "batch_cases", "command")
     for name in ("k6", "k10", "k21"):
         there, undisturbed = (
             xr.load_dataset(run.results / "unsteady" / "2d" / f"{name}.nc")

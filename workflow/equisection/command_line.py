@@ -20,13 +20,15 @@ examples:
   equisection status                     how far the runs in results/ are
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
+  equisection status --html status.html  the same as a page for a browser
+  equisection verify                     whether results, figures and tables are what they say
   equisection cost-model                 what a cell of a mesh costs, by the results
   equisection polar results/my-beam/steady/2d/coarse_a*.nc > my_section.csv
 """
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run the command and return its exit status: 0, 1 on an error, 2 on a wrong usage."""
+    """Run the command; return its exit status: 0, 1 if something is wrong, 2 on a wrong usage."""
     parser = _parser()
     options = parser.parse_args(arguments)
     if options.command is None:
@@ -41,8 +43,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
             _keep(options.run_folder, options.folder)
         elif options.command == "cost-model":
             _cost_model(options.folder, options.write)
+        elif options.command == "verify":
+            return 0 if _verify(options.folder) else 1
         else:
-            _status(options.run_folder, options.plain)
+            _status(options.run_folder, options.plain, options.html)
     except EquisectionError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
@@ -82,6 +86,25 @@ def _parser() -> argparse.ArgumentParser:
         "--plain",
         action="store_true",
         help="tab-separated lines with every case, for pipes; the first names the columns",
+    )
+    status.add_argument(
+        "--html",
+        type=Path,
+        metavar="FILE",
+        help="write a page that needs neither network nor script, with every case",
+    )
+    verify = commands.add_parser(
+        "verify",
+        help="whether results, figures and tables are what they say",
+        description="Compute the hashes again of everything that figures and tables are made of, "
+        "and name what is stale, foreign, missing or broken. The exit status is 0 if nothing is.",
+    )
+    verify.add_argument(
+        "folder",
+        nargs="*",
+        type=Path,
+        metavar="FOLDER",
+        help="folder of a run, or one with kept results (default: all in results/)",
     )
     folder = commands.add_parser(
         "folder",
@@ -192,26 +215,49 @@ def _folder(files: Sequence[Path]) -> Path:
     return Path("results") / load_config(raw).run
 
 
-def _status(folders: Sequence[Path], plain: bool) -> None:
+def _status(folders: Sequence[Path], plain: bool, page: Path | None) -> None:
     # Imported here, so that --help and --version come at once.
     from rich.console import Console  # noqa: PLC0415
 
-    from equisection.status import find_runs, run_status  # noqa: PLC0415
+    from equisection.status import StatusError, find_runs, run_status  # noqa: PLC0415
+    from equisection.status_page import write_page  # noqa: PLC0415
     from equisection.status_text import plain_lines, print_status  # noqa: PLC0415
 
     default = Path("results")
     places = list(folders) or ([default] if default.is_dir() else [])
     runs = [run_status(run) for place in places for run in find_runs(place)]
+    where = ", ".join(map(str, places)) or f"{Path.cwd()} (it has no folder 'results')"
+    if page is not None:
+        try:
+            write_page(page, runs, where)
+        except OSError as error:
+            raise StatusError(f"{page}: the page cannot be written there ({error})") from None
+        print(f"page: {page}")
+        return
     if plain:
         print("\n".join(plain_lines(runs)), flush=True)
         return
     if not runs:
-        where = ", ".join(map(str, places)) or f"{Path.cwd()} (it has no folder 'results')"
         print(f"There is no run in {where} yet. Start one with 'snakemake --cores 2'.")
     console = Console(highlight=False)
     for run in runs:
         print_status(console, run)
     sys.stdout.flush()
+
+
+def _verify(folders: Sequence[Path]) -> bool:
+    # Imported here, so that --help and --version come at once.
+    from equisection.verify import verify_folder, words  # noqa: PLC0415
+
+    found = [
+        verified for folder in folders or [Path("results")] for verified in verify_folder(folder)
+    ]
+    for verified in found:
+        print("\n".join(words(verified)))
+    if not found:
+        print("there is no run and no kept result to verify")
+    sys.stdout.flush()
+    return not any(verified.faults for verified in found)
 
 
 if __name__ == "__main__":

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
@@ -35,6 +36,25 @@ def write_text(path: Path, text: str) -> None:
     """Write a text file, whole or not at all."""
     with written_whole(path) as aside:
         aside.write_text(text, encoding="utf-8")
+
+
+#: Names of files that stay in their folder, whatever reads them.
+_PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
+
+
+def require_plain_names(names: Iterable[str]) -> None:
+    """Refuse names, from a file, that would lead out of the folder that they are to stand in.
+
+    Raises
+    ------
+    ValueError
+        One does, or would be more than a name to a shell.
+    """
+    for name in names:
+        if not _PLAIN_NAME.fullmatch(name) or len(name) > 200:
+            raise ValueError(
+                f"{name[:60]!r}: no name of a case; allowed are letters, digits and '_.+-'"
+            )
 
 
 def _umask() -> int:

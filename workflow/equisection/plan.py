@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.config import Config
-from equisection.files import write_text
+from equisection.files import require_plain_names, write_text
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
 
@@ -126,6 +126,7 @@ def write_refinement(path: Path, k_star: Sequence[float]) -> None:
 def read_refinement(path: Path) -> list[str]:
     """Return the names of the cases that a round of refinement chose."""
     names: list[str] = json.loads(path.read_text(encoding="utf-8"))["cases"]
+    require_plain_names(names)
     return names
 
 

@@ -6,19 +6,22 @@ import errno
 import logging
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from equisection.errors import EquisectionError
+from equisection.made_from import write_record
 
 #: No space left on the device, quota exceeded, file too large.
 _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 @contextmanager
-def logged(log: str) -> Iterator[None]:
+def logged(log: str, inputs: Iterable[str] = (), outputs: Iterable[str] = ()) -> Iterator[None]:
     """Send the log of the block to a file; end with status 1 on an error a user can mend.
+
+    What the block has made is recorded with the hashes of its inputs and outputs, if it has any.
 
     Such an error, a full disk among them, is printed and logged as its message alone. Anything
     else is a fault of the program and keeps its traceback, in the log and on the terminal.
@@ -35,6 +38,9 @@ def logged(log: str) -> Iterator[None]:
     logging.raiseExceptions = False  # a log without space must not hide what was to stand in it
     try:
         yield
+        made = [Path(name) for name in outputs]
+        if made:
+            write_record(path, map(Path, inputs), made)
     except Exception as error:
         message = _message(error)
         if message:

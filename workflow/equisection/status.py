@@ -6,23 +6,26 @@ be read while a sweep runs, after a crash, and on a copy of the folder.
 
 from __future__ import annotations
 
-import math
 from collections import Counter
-from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
-import yaml
+import numpy as np
 
-from equisection import plan
-from equisection.cases import case_hash, read_cases
-from equisection.config import load_config
-from equisection.errors import CaseFileError, ConfigError, EquisectionError, ResultFileError
-from equisection.progress import SUFFIX, Snapshot, read_snapshot
+from equisection.cases import UnsteadyCase
+from equisection.errors import EquisectionError, ResultFileError
+from equisection.listing import Listed, cases_of_run, config_of_run
+from equisection.progress import Snapshot
 from equisection.results.failures import failure_of
+from equisection.results.index import read_index
 from equisection.results.netcdf import read_attributes
+from equisection.results.whole import is_whole
+from equisection.solvers.ownership import Owner, living_owner
+from equisection.solvers.result_store import ResultStore, runs_batches, task_of
+from equisection.status_cost import CostOfRun
+from equisection.status_logs import LINES, JobsOfRun, last_lines, printable
 
 
 class StatusError(EquisectionError):
@@ -36,6 +39,7 @@ class State(StrEnum):
     FAILED = "failed"  # ran and has no result, or its job ended with an error
     RUNNING = "running"
     STOPPED = "stopped"  # its job is gone without a word
+    STALE = "stale"  # its result is that of another case
     BROKEN = "broken"  # a file that cannot be used
     WAITING = "waiting"
 
@@ -54,8 +58,17 @@ class Entry:
         What a finished unsteady run turned out to be.
     job
         Progress of the job that runs it, or ran it last.
+    owner
+        Who runs it, where a job says so in its working directory.
     text
         The reason of a verdict or failure, or what to do.
+    last_lines
+        The last lines of the log of what failed or stopped.
+    simulated, duration
+        How long its history is, and the longest that it may be (c/V); none of a steady case.
+    core_seconds_used, core_seconds_to_come
+        What it took of all its processors, and what the cost model expects of the rest at most;
+        none where nobody knows.
     """
 
     model: str
@@ -63,7 +76,13 @@ class Entry:
     state: State
     regime: str = ""
     job: Snapshot | None = None
+    owner: Owner | None = None
     text: str = ""
+    last_lines: tuple[str, ...] = ()
+    simulated: float | None = None
+    duration: float | None = None
+    core_seconds_used: float | None = None
+    core_seconds_to_come: float | None = None
 
     @property
     def steady(self) -> bool:
@@ -83,15 +102,14 @@ class RunStatus:
         """Return how many cases are in each state."""
         return Counter(entry.state for entry in self.entries if entry.steady is steady)
 
+    def core_seconds_used(self) -> float:
+        """Return what the results have taken, over all processors (s)."""
+        return sum(entry.core_seconds_used or 0.0 for entry in self.entries)
 
-@dataclass(frozen=True)
-class _Listed:
-    """A case of a case file, or what is wrong with the file."""
-
-    file: Path
-    name: str
-    hash: str
-    problem: str = ""
+    def core_seconds_to_come(self) -> float | None:
+        """Return what is to come at most (s); none where the cost of a case is not known."""
+        to_come = [entry.core_seconds_to_come for entry in self.entries]
+        return None if None in to_come else sum(value or 0.0 for value in to_come)
 
 
 def find_runs(folder: Path) -> list[Path]:
@@ -114,174 +132,126 @@ def find_runs(folder: Path) -> list[Path]:
 
 def run_status(run: Path) -> RunStatus:
     """Read how far a run is."""
-    jobs = _Jobs(run)
-    earlier = _earlier_sweep(run)
-    entries = []
-    for dimension in ("2d", "3d"):
-        place = f"steady/{dimension}"
-        for listed in _cases_in(run / "cases" / place, _by_angle):
-            entries.append(_entry(run, f"steady {dimension}", place, listed, jobs))
-    for model in sorted((run / "cases" / "unsteady").glob("*/")):
-        place = f"unsteady/{model.name}"
-        for listed in _cases_in(model, _by_k_star):
-            if not earlier(listed.file, listed.name):
-                entries.append(_entry(run, model.name, place, listed, jobs))
-    return RunStatus(run.name, tuple(entries), tuple(jobs.troubles()))
+    reader = _Reader(run)
+    entries = tuple(reader.entry(listed) for listed in cases_of_run(run))
+    return RunStatus(run.name, entries, tuple(reader.jobs.troubles()))
 
 
-class _Jobs:
-    """Progress files and logs of a run."""
+class _Indices:
+    """Attributes of the results that the indices of a run name, so that none need be opened."""
 
     def __init__(self, run: Path) -> None:
-        self._folder = run / "logs"
-        self._errors: dict[Path, str] = {}
-        self._asked: set[Path] = set()
-        self._of_case: dict[str, Snapshot] = {}
-        for path in self._folder.glob("*" + SUFFIX):
-            snapshot = read_snapshot(path)
-            for case in snapshot.cases if snapshot else ():
-                before = self._of_case.get(case)
-                if snapshot and (before is None or before.updated < snapshot.updated):
-                    self._of_case[case] = snapshot
+        self._run = run
+        self._of: dict[str, tuple[dict[str, Any], int]] = {}
+        for index in [*run.glob("steady/*/*.json"), *run.glob("unsteady/*/*.json")]:
+            try:
+                written, entries = index.stat().st_mtime_ns, read_index(index)
+            except (OSError, ResultFileError):
+                continue
+            place = index.parent.relative_to(run).as_posix()
+            for name, attributes in entries.items():
+                self._of[f"{place}/{name}.nc"] = attributes, written
 
-    def of(self, hash_of_case: str) -> Snapshot | None:
-        """Return the progress of the job that last said it runs a case."""
-        return self._of_case.get(hash_of_case)
+    def attributes(self, result: str, wanted: str) -> dict[str, Any]:
+        """Return the attributes of the result of a case.
 
-    def error(self, place: str, case: Path) -> str:
-        """Return the error with which a case's last job ended, if it did.
-
-        A log older than the case file is that of an earlier case of the same name.
+        Raises
+        ------
+        ResultFileError
+            It cannot be read. Its case is for the caller to look at.
         """
-        job = place.replace("/", "_")
-        logs = [self._folder / f"{job}_{case.stem}.log", self._folder / f"{job}.log"]
-        there = [path for path in logs if path.is_file()]
-        self._asked.update(there)
-        if not there:
-            return ""
-        log = max(there, key=lambda path: path.stat().st_mtime)
-        return self._error_of(log) if log.stat().st_mtime >= case.stat().st_mtime else ""
-
-    def troubles(self) -> list[str]:
-        """Return the errors of the jobs that run no case, each with its log."""
-        logs = sorted(set(self._folder.glob("*.log")) - self._asked)
-        found = ((path, self._error_of(path)) for path in logs)
-        return [f"{path}: {error}" for path, error in found if error]
-
-    def _error_of(self, log: Path) -> str:
-        if log not in self._errors:
-            self._errors[log] = last_error(log)
-        return self._errors[log]
+        path = self._run / result
+        attributes, written = self._of.get(result, ({}, 0))
+        sound = attributes.get("case_hash") == wanted and path.stat().st_mtime_ns <= written
+        return attributes if sound and is_whole(path) else read_attributes(path)
 
 
-def last_error(log: Path) -> str:
-    """Return the message of the last error in a log; for a fault of the program its last line."""
-    try:
-        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError:
-        return ""
-    numbers = [number for number, line in enumerate(lines) if " ERROR " in line[:40]]
-    if not numbers:
-        return ""
-    after = [line for line in lines[numbers[-1] :] if line.strip()]
-    if any(line.startswith("Traceback") for line in after):
-        return f"a fault of the program: {after[-1].strip()} (see {log})"
-    return after[0].split(" ERROR ", 1)[1]
+class _Reader:
+    """Reads how far the cases of a run are."""
+
+    def __init__(self, run: Path) -> None:
+        self._run = run
+        self._store = ResultStore(run.parent / ".store")
+        self._indices = _Indices(run)
+        self._cost = CostOfRun(config_of_run(run))
+        self.jobs = JobsOfRun(run)
+
+    def entry(self, listed: Listed) -> Entry:
+        """Return how far one case is."""
+        error, log = self.jobs.error(listed.place, listed.file)
+        entry = Entry(listed.model, listed.name, State.BROKEN, text=printable(listed.problem))
+        if listed.case is None:
+            return entry
+        duration = listed.case.duration if isinstance(listed.case, UnsteadyCase) else None
+        entry = replace(entry, duration=duration)
+        fault = State.BROKEN, ""
+        if (self._run / listed.result).exists():
+            try:
+                attributes = self._indices.attributes(listed.result, listed.hash)
+            except ResultFileError as problem:
+                path = self._run / listed.result
+                fault = State.BROKEN, str(problem).removeprefix(f"{path}: ")
+            else:
+                if attributes.get("case_hash") == listed.hash:
+                    return _finished(entry, attributes)
+                fault = State.STALE, "its result is that of another case; run again"
+        return self._unfinished(entry, listed, fault, error, log)
+
+    def _unfinished(
+        self, entry: Entry, listed: Listed, fault: tuple[State, str], error: str, log: Path | None
+    ) -> Entry:
+        """Return how far a case without a usable result is."""
+        assert listed.case is not None
+        task = task_of(listed.case)
+        job = self.jobs.of(listed.hash)
+        owner = None if runs_batches(listed.case) else living_owner(self._store.work(task))
+        expected = self._cost.core_seconds(listed)
+        done = job.fraction if job else 0.0
+        entry = replace(
+            entry,
+            job=job,
+            owner=owner,
+            simulated=done * entry.duration if job and entry.duration is not None else None,
+            core_seconds_to_come=None if expected is None else (1 - done) * expected,
+        )
+        runs_here = job is not None and job.lives()
+        if runs_here or owner is not None:
+            text = "" if runs_here else "by another workflow in this store"
+            return replace(entry, state=State.RUNNING, text=text)
+        if fault[1]:
+            return replace(entry, state=fault[0], text=printable(fault[1]))
+        lines = last_lines(self._store.work(task), log)
+        if error:
+            return replace(entry, state=State.FAILED, text=printable(error), last_lines=lines)
+        if self._store.result(task).exists():
+            return replace(entry, state=State.WAITING, text="its result is in the store")
+        if job is not None:
+            text = f"its process ended at {100 * done:.0f} % without a word; run again"
+            return replace(entry, state=State.STOPPED, text=text, last_lines=lines)
+        return replace(entry, state=State.WAITING)
 
 
-def _earlier_sweep(run: Path) -> Callable[[Path, str], bool]:
-    """Return what tells whether a case file was left behind by an earlier sweep of the run.
-
-    The run's configuration says which are wanted; of a case file that is newer it knows nothing.
-    """
-    resolved = run / "config.resolved.yaml"
-    try:
-        config = load_config(yaml.safe_load(resolved.read_text(encoding="utf-8")))
-        written = resolved.stat().st_mtime
-        rounds = (run / "comparison" / "refine").glob("*.json")
-        refined = [name for chosen in rounds for name in plan.read_refinement(chosen)]
-    except (OSError, ValueError, KeyError, yaml.YAMLError, ConfigError):
-        return lambda file, name: False
-    wanted = {*plan.sweep_cases(config), *refined}
-    return lambda file, name: name not in wanted and file.stat().st_mtime < written
-
-
-def _entry(run: Path, model: str, place: str, listed: _Listed, jobs: _Jobs) -> Entry:
-    """Return how far one case is."""
-    name, wanted = listed.name, listed.hash
-    error = jobs.error(place, listed.file)
-    if listed.problem:
-        return Entry(model, name, State.BROKEN, text=listed.problem)
-    job = jobs.of(wanted)
-    broken = ""
-    result = run / place / f"{name}.nc"
-    if result.exists():
-        try:
-            return _finished(model, name, read_attributes(result, wanted))
-        except ResultFileError as problem:
-            broken = str(problem).removeprefix(f"{result}: ")
-    in_store = (run.parent / ".store" / wanted / "result.nc").exists()
-    state, text = _unfinished(job, broken, error, in_store)
-    return Entry(model, name, state, job=job, text=text)
-
-
-def _unfinished(job: Snapshot | None, broken: str, error: str, in_store: bool) -> tuple[State, str]:
-    """Return how far a case without a usable result is, and what to say of it."""
-    if job is not None and job.lives():
-        return State.RUNNING, ""
-    if broken:
-        return State.BROKEN, broken
-    if error:
-        return State.FAILED, error
-    if in_store:
-        return State.WAITING, "its result is in the store"
-    if job is not None:
-        share = f"{100 * job.fraction:.0f} %"
-        return State.STOPPED, f"its process ended at {share} without a word; run again"
-    return State.WAITING, ""
-
-
-def _finished(model: str, case: str, attributes: dict[str, Any]) -> Entry:
+def _finished(entry: Entry, attributes: dict[str, Any]) -> Entry:
     """Return the entry of a result; a steady one has no regime, only perhaps a failure."""
-    regime = str(attributes.get("regime", ""))
     failure = failure_of(attributes)
-    if failure:
-        return Entry(model, case, State.FAILED, regime, text=failure)
-    return Entry(model, case, State.DONE, regime, text=str(attributes.get("reason", "")))
+    reason = failure or str(attributes.get("reason", ""))
+    return replace(
+        entry,
+        state=State.FAILED if failure else State.DONE,
+        regime=str(attributes.get("regime", "")),
+        text=printable(reason),
+        last_lines=tuple(map(printable, reason.splitlines()[-LINES:])) if failure else (),
+        simulated=_number(attributes.get("end_time")),
+        core_seconds_used=_number(attributes.get("cpu_seconds")),
+        core_seconds_to_come=0.0,
+    )
+
+
+def _number(value: Any) -> float | None:
+    return float(value) if isinstance(value, (int, float, np.floating)) else None
 
 
 def _is_run(folder: Path) -> bool:
     if folder.name.startswith("."):
         return False
     return any((folder / name).exists() for name in ("cases", "logs", "config.resolved.yaml"))
-
-
-def _cases_in(folder: Path, order: Callable[[str], tuple[Any, ...]]) -> list[_Listed]:
-    """Return the cases of a folder's case files.
-
-    A case that stands in several files, of a batch and of its own, is listed once.
-    """
-    found: dict[str, _Listed] = {}
-    for file in sorted(folder.glob("*.json")):
-        if file.name.startswith("."):
-            continue
-        try:
-            for name, case in read_cases(file).items():
-                found[name] = _Listed(file, name, case_hash(case))
-        except CaseFileError as problem:
-            found[file.stem] = _Listed(file, file.stem, "", str(problem))
-    return [found[name] for name in sorted(found, key=order)]
-
-
-def _by_k_star(name: str) -> tuple[float, str]:
-    try:
-        return plan.k_star_of(name), name
-    except ValueError:
-        return math.inf, name
-
-
-def _by_angle(name: str) -> tuple[str, float]:
-    try:
-        return plan.angle_of(name)
-    except ValueError:
-        return name, math.inf

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable
 from datetime import datetime
 
@@ -11,26 +10,24 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from equisection.progress import clock
 from equisection.status import Entry, RunStatus, State
+from equisection.status_words import remarks_of, simulated_of, state_of, summary, where_of
 
 #: Columns of the plain form.
 PLAIN_COLUMNS = (
-    "run",
-    "model",
-    "case",
-    "state",
-    "regime",
-    "percent",
-    "since",
-    "estimated_end",
-    "text",
+    *("run", "model", "case", "state", "regime", "percent", "since", "estimated_end"),
+    *("simulated", "duration", "core_seconds_used", "core_seconds_to_come", "where", "text"),
 )
+#: Cases up to which a table lists all; of more, those that are neither done nor waiting.
+LONGEST_TABLE = 200
+#: Failed and stopped cases of which the last lines of a log are printed.
+MOST_LOGS = 5
 _STYLES = {
     State.DONE: "green",
     State.FAILED: "red",
     State.RUNNING: "cyan",
     State.STOPPED: "yellow",
+    State.STALE: "yellow",
     State.BROKEN: "red",
     State.WAITING: "dim",
 }
@@ -51,6 +48,11 @@ def plain_lines(runs: Iterable[RunStatus]) -> list[str]:
                 f"{100 * job.fraction:.1f}" if job else "",
                 _iso(job.started if job else None),
                 _iso(job.estimated_end if job else None),
+                _digits(entry.simulated),
+                _digits(entry.duration),
+                _digits(entry.core_seconds_used),
+                _digits(entry.core_seconds_to_come),
+                where_of(entry),
                 " ".join(entry.text.split()),
             )
             lines.append("\t".join(fields))
@@ -60,36 +62,40 @@ def plain_lines(runs: Iterable[RunStatus]) -> list[str]:
 def print_status(console: Console, run: RunStatus) -> None:
     """Print the table of a run, what went wrong beside it, and its summary."""
     shown = [entry for entry in run.entries if not entry.steady or entry.state != State.DONE]
+    if len(shown) > LONGEST_TABLE:
+        of_no_note = (State.DONE, State.WAITING)
+        listed = [entry for entry in shown if entry.state not in of_no_note]
+        left_out = f"{len(shown) - len(listed)} cases that are done or waiting are not listed"
+        shown = listed
+    else:
+        left_out = ""
     if shown:
         console.print(_table(run.name, shown))
+    _print_logs(console, shown)
     for trouble in run.troubles:
         console.print(f"[red]{escape(trouble)}[/red]", soft_wrap=True)
+    if left_out:
+        console.print(f"{left_out}; 'equisection status --plain' lists all", soft_wrap=True)
     console.print(summary(run), highlight=False, soft_wrap=True)
 
 
-def summary(run: RunStatus) -> str:
-    """Return how far a run is in one line."""
-    if not run.entries:
-        return f"{run.name}: no case has been written yet"
-    parts = []
-    steady, sweep = run.count(steady=True), run.count(steady=False)
-    if steady:
-        parts.append(f"steady {_counts(steady)}")
-    if sweep:
-        regimes = Counter(e.regime for e in run.entries if e.state == State.DONE and e.regime)
-        details = ", ".join(f"{number} {regime}" for regime, number in regimes.items())
-        parts.append(f"sweep {_counts(sweep)}" + (f" ({details})" if details else ""))
-    jobs = [entry.job for entry in run.entries if entry.state == State.RUNNING and entry.job]
-    ends = [end for job in jobs if (end := job.estimated_end) is not None]
-    if ends:
-        parts.append(f"what runs now ends about {clock(max(ends))}")
-    return f"{run.name}: " + "; ".join(parts)
+def _print_logs(console: Console, entries: list[Entry]) -> None:
+    """Print the last lines of the logs of what failed or stopped."""
+    with_log = [entry for entry in entries if entry.last_lines]
+    for entry in with_log[:MOST_LOGS]:
+        console.print(f"[bold]{escape(f'{entry.model} {entry.case}')}[/bold]")
+        for line in entry.last_lines:
+            console.print(f"  {escape(line)}", soft_wrap=True)
+    if len(with_log) > MOST_LOGS:
+        console.print(f"and the logs of {len(with_log) - MOST_LOGS} more")
 
 
 def _table(title: str, entries: list[Entry]) -> Table:
     table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
-    for name, justify in (("model", "left"), ("k*", "right"), ("state", "left")):
-        table.add_column(name, justify=justify, no_wrap=True)  # type: ignore[arg-type]
+    table.add_column("model", no_wrap=True)
+    table.add_column("k*", justify="right", no_wrap=True)
+    table.add_column("state", no_wrap=True)
+    table.add_column("c/V", justify="right", no_wrap=True)
     table.add_column("remarks", overflow="fold")
     before = ""
     for entry in entries:
@@ -99,40 +105,21 @@ def _table(title: str, entries: list[Entry]) -> Table:
         table.add_row(
             entry.model if entry.model != before else "",
             entry.case.removeprefix("k"),
-            f"[{style}]{_state(entry)}[/{style}]",
-            escape(_what(entry)),
+            f"[{style}]{state_of(entry)}[/{style}]",
+            simulated_of(entry),
+            escape(remarks_of(entry)),
         )
         before = entry.model
     return table
 
 
-def _state(entry: Entry) -> str:
-    if entry.state == State.RUNNING and entry.job:
-        return f"running {100 * entry.job.fraction:.0f} %"
-    return entry.regime if entry.state == State.DONE and entry.regime else str(entry.state)
-
-
-def _what(entry: Entry) -> str:
-    if entry.state == State.RUNNING and entry.job:
-        job, end = entry.job, entry.job.estimated_end
-        together = f" ({len(job.cases)} cases)" if len(job.cases) > 1 else ""
-        return (
-            f"since {clock(job.started)}" + (f", ends about {clock(end)}" if end else "") + together
-        )
-    return "" if entry.state == State.DONE else entry.text
-
-
-def _counts(counts: Counter[State]) -> str:
-    total = sum(counts.values())
-    if counts[State.DONE] == total:
-        return f"all {total} done"
-    others = (
-        f"{counts[state]} {state}" for state in State if state != State.DONE and counts[state]
-    )
-    return f"{counts[State.DONE]} of {total} done, " + ", ".join(others)
-
-
 def _iso(seconds: float | None) -> str:
-    if seconds is None:
-        return ""
-    return datetime.fromtimestamp(seconds).astimezone().isoformat(timespec="seconds")
+    return (
+        ""
+        if seconds is None
+        else datetime.fromtimestamp(seconds).astimezone().isoformat("T", "seconds")
+    )
+
+
+def _digits(value: float | None) -> str:
+    return "" if value is None else f"{value:.6g}"

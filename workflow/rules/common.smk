@@ -11,6 +11,12 @@ from equisection.config import check_files, load_config, resolve_config
 from equisection.config.sections import FLAT_PLATE
 from equisection.errors import ConfigError
 from equisection.figures.models_shown import beam_model, section_model
+from equisection.provenance import (
+    COMMAND_VARIABLE,
+    CONFIG_VARIABLE,
+    command_line,
+    config_hash,
+)
 from equisection.results.mend import mend
 from equisection.solvers.registry import SOLVERS, Capability, check_provided
 
@@ -41,6 +47,11 @@ MESH_CASE = plan.angle_name(CONFIG.steady.resolution, CONFIG.flow.incidence_deg)
 # Jobs inherit what tells them where the solver is on this machine.
 for name, value in CONFIG.solver_section.environment().items():
     os.environ.setdefault(name, value)
+
+# They inherit, too, what the files that they make say of where they come from.
+if workflow.is_main_process:
+    os.environ[COMMAND_VARIABLE] = command_line(sys.argv)
+    os.environ[CONFIG_VARIABLE] = config_hash(RESOLVED)
 
 # What was cut short by a crash, lost or exchanged must not pass for a finished result.
 if workflow.is_main_process:

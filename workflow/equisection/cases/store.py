@@ -19,7 +19,7 @@ from pydantic import Field, TypeAdapter, ValidationError
 
 from equisection.cases.model import SCHEMA_VERSION, Case, UnsteadyCase
 from equisection.errors import CaseFileError
-from equisection.files import write_text
+from equisection.files import require_plain_names, write_text
 
 #: Significant digits of a number in a case. Eigenvectors differ in the last digits from one
 #: machine to the next; more digits would ask for new runs without a new case.
@@ -113,6 +113,7 @@ def read_cases(path: Path) -> dict[str, Case]:
         )
     try:
         shared, entries = document["shared"], document["cases"]
+        require_plain_names(entries)
         return {name: _CASE.validate_python(_merged(shared, entries[name])) for name in entries}
     except (KeyError, TypeError, AttributeError):
         raise CaseFileError(
@@ -123,6 +124,8 @@ def read_cases(path: Path) -> dict[str, Case]:
         problem = error.errors()[0]
         where = ".".join(str(part) for part in problem["loc"])
         raise CaseFileError(f"{path}: {where}: {problem['msg']}; delete it and run again") from None
+    except ValueError as error:
+        raise CaseFileError(f"{path}: {error}; delete it and run again") from None
 
 
 def _common(first: dict[str, Any], second: dict[str, Any]) -> dict[str, Any]:

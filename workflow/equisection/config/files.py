@@ -14,10 +14,12 @@ from equisection.errors import ConfigError
 def check_files(config: Config, directory: Path | None = None) -> None:
     """Refuse polars that are no files, seen from ``directory`` (by default the working one).
 
+    Braces in a path are Snakemake's, which would take what is in them for a wildcard.
+
     Raises
     ------
     ConfigError
-        With one line for each missing file.
+        With one line for each missing file, and each path with braces.
     """
     directory = directory or Path.cwd()
     named = {}
@@ -29,6 +31,11 @@ def check_files(config: Config, directory: Path | None = None) -> None:
         Problem(key, path, _advice(path, directory, built_in=key != "steady.beam_polar"))
         for key, path in named.items()
         if path != FLAT_PLATE and not _is_file(directory / path)
+    ]
+    problems += [
+        Problem(key, path, "allowed is a path without braces; give the file or folder another name")
+        for key, path in {**named, "reuse": config.reuse}.items()
+        if {"{", "}"} & set(path)
     ]
     if problems:
         raise ConfigError("\n".join(problem.line for problem in problems))

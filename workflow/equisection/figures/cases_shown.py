@@ -15,7 +15,7 @@ from pathlib import Path
 import pandas as pd
 
 from equisection.errors import ResultFileError
-from equisection.plan import k_star_of
+from equisection.plan import case_name, k_star_of
 
 SECTION_LETTERS = ("A", "B", "C")
 BEAM_LETTERS = ("D", "E", "F")
@@ -111,6 +111,9 @@ def result_at(results: Mapping[float, Path], k_star: float) -> Path:
     ResultFileError
         No result is named by this k*.
     """
+    named = results.get(k_star_of(case_name(k_star)))
+    if named is not None:
+        return named
     nearest = min(results, key=lambda k: abs(k - k_star), default=math.nan)
     if not abs(nearest - k_star) <= _SAME * k_star:
         raise ResultFileError(

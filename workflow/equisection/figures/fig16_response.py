@@ -78,6 +78,10 @@ class Response:
     extents: Sequence[Extent] = ()
 
 
+#: Extents of the section that are read and drawn; more would not be told apart in the panel.
+MOST_EXTENTS = 200
+
+
 def read_response(
     summary: pd.DataFrame, onset: pd.DataFrame, results: Sequence[Path], i_star: float
 ) -> Response:
@@ -99,7 +103,9 @@ def read_response(
         }
         if model == section:
             bounded = summary[(summary["model"] == model) & summary["regime"].isin(_BOUNDED)]
-            extents = [read_extent(result_at(files, k_star)) for k_star in bounded["k_star"]]
+            apart = -(-len(bounded) // MOST_EXTENTS) or 1
+            k_stars = bounded["k_star"].sort_values().iloc[::apart]
+            extents = [read_extent(result_at(files, k_star)) for k_star in k_stars]
     return Response(summary, onset, cases, histories, extents)
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from equisection.errors import ResultFileError
-from equisection.files import write_text
+from equisection.files import require_plain_names, write_text
 
 SCHEMA_VERSION = 1
 
@@ -77,6 +77,8 @@ def _read(path: Path) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:
         document = json.loads(path.read_text(encoding="utf-8"))
         found = document["schema_version"]
         results, missing = dict(document["results"]), dict(document.get("missing", {}))
+        require_plain_names(results)
+        require_plain_names(missing)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
         raise ResultFileError(
             f"{path}: cannot be read as an index of results ({error!r}); delete it and run again"
@@ -97,6 +99,11 @@ def result_file(index: Path, name: str) -> Path:
 def result_files(indices: Sequence[Path]) -> list[Path]:
     """Return the result files that some indices name."""
     return [result_file(index, name) for index in indices for name in read_index(index)]
+
+
+def is_index(path: Path) -> bool:
+    """Tell whether a file, by its place in the folder of a run, is an index of results."""
+    return path.suffix == ".json" and path.parts[0] in ("steady", "unsteady")
 
 
 def _plain(value: Any) -> Any:

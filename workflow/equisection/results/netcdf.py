@@ -6,6 +6,7 @@ it and, for the result of a case, the case's hash. Attributes are strings and nu
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -13,16 +14,20 @@ import netCDF4
 import numpy as np
 import xarray as xr
 
-import equisection
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
+from equisection.provenance import made_by_this
 from equisection.results.whole import is_whole
 
 SCHEMA_VERSION = 1
 
 
-def write_dataset(path: Path, dataset: xr.Dataset) -> dict[str, Any]:
+def write_dataset(
+    path: Path, dataset: xr.Dataset, made_by: Mapping[str, str] | None = None
+) -> dict[str, Any]:
     """Write a data set as NetCDF-4, whole or not at all; return its attributes as written.
+
+    It says what made it: this process, or else ``made_by`` (:mod:`equisection.provenance`).
 
     The variables go to the netCDF library one by one: for the thousands of small files of a sweep
     that takes half the time of ``Dataset.to_netcdf``.
@@ -41,7 +46,7 @@ def write_dataset(path: Path, dataset: xr.Dataset) -> dict[str, Any]:
     attributes = {
         **{str(name): value for name, value in dataset.attrs.items()},
         "schema_version": SCHEMA_VERSION,
-        "equisection_version": equisection.__version__,
+        **(made_by_this() if made_by is None else made_by),
     }
     try:
         with written_whole(path) as aside, netCDF4.Dataset(aside, "w", format="NETCDF4") as file:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 
 
@@ -11,3 +12,9 @@ class Spent:
 
     cpu_seconds: float
     wall_seconds: float
+
+
+def cpu_seconds_so_far() -> float:
+    """Return the time (s) of this process and of the programs that it ran, on all processors."""
+    used = os.times()
+    return used.user + used.system + used.children_user + used.children_system

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-import os
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict
@@ -16,7 +15,7 @@ from equisection.cases import Case, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.progress import JobProgress
 from equisection.results.kept import kept_results
-from equisection.results.spent import Spent
+from equisection.results.spent import Spent, cpu_seconds_so_far
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
 from equisection.solvers.ownership import claimed
@@ -115,7 +114,7 @@ def _results(
 ) -> dict[str, xr.Dataset]:
     """Run cases of one solver; return the result of each by hash."""
     solver = solver_from_case(tasks[0].case.solver, allocation)
-    wall, cpu = time.perf_counter(), _cpu_seconds()
+    wall, cpu = time.perf_counter(), cpu_seconds_so_far()
     unit = "cases" if isinstance(tasks[0].case, SteadyCase) else "c/V"
     hashes = [task.hash for task in tasks]
     description = solver.describe(tasks[0].case.dimension)
@@ -126,7 +125,7 @@ def _results(
             f"solver '{solver.name}' returned {len(results)} results for {len(tasks)} cases"
         )
     shared = Spent(
-        cpu_seconds=(_cpu_seconds() - cpu) / len(tasks),
+        cpu_seconds=(cpu_seconds_so_far() - cpu) / len(tasks),
         wall_seconds=(time.perf_counter() - wall) / len(tasks),
     )
     return {
@@ -154,12 +153,6 @@ def _run(
     possible = [case for case in unsteady if not case.refusal]
     ran = iter(solver.run_unsteady(possible, work, progress.update) if possible else [])
     return [refused(case) if case.refusal else next(ran) for case in unsteady]
-
-
-def _cpu_seconds() -> float:
-    """Return the CPU time of this process and of the programs that it ran."""
-    used = os.times()
-    return used.user + used.system + used.children_user + used.children_system
 
 
 def _dataset(case: Case, result: SteadyResult | UnsteadyResult) -> xr.Dataset:

@@ -168,11 +168,29 @@ def claimed(work: Path) -> Iterator[Claim]:
         signal.signal(signal.SIGINT, before)
 
 
+def living_owner(work: Path) -> Owner | None:
+    """Return the job that runs in a working directory; None if none does, as far as is known."""
+    folder = work / FOLDER
+    last = _last(folder)
+    owner = _read(_file(folder, last)) if last else None
+    try:
+        silent = time.time() - _file(folder, last).stat().st_mtime if owner else 0.0
+    except OSError:
+        return None
+    nobody = Owner(Process("", 0, ""), 0.0)
+    return None if owner is None or owner.is_gone(nobody, silent) else owner
+
+
+def _last(folder: Path) -> int:
+    """Return the highest number that was taken; 0 for none."""
+    return max((int(path.stem) for path in folder.glob("[0-9]*.json")), default=0)
+
+
 def _wait(folder: Path, this: Owner) -> Claim:
     """Take the next number as soon as whoever has the last one is gone."""
     watched, changed, heard = 0, 0, time.monotonic()
     while True:
-        last = max((int(path.stem) for path in folder.glob("[0-9]*.json")), default=0)
+        last = _last(folder)
         beat = _file(folder, last).stat().st_mtime_ns if last else 0
         if (last, beat) != (watched, changed):
             heard = time.monotonic()

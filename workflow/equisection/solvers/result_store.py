@@ -14,7 +14,7 @@ from __future__ import annotations
 import logging
 import os
 import shutil
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,7 @@ import xarray as xr
 from equisection.cases import Case, UnsteadyCase, canonical, case_hash, history_hash
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
+from equisection.provenance import made_by
 from equisection.results.failures import failure_of
 from equisection.results.kept import Kept
 from equisection.results.netcdf import read_attributes, read_dataset, write_dataset
@@ -99,13 +100,18 @@ class ResultStore:
             return None
         return attributes
 
-    def put(self, task: Task, dataset: xr.Dataset) -> dict[str, Any]:
-        """Write a result; return its attributes. The longest of a history is the history."""
+    def put(
+        self, task: Task, dataset: xr.Dataset, made_by: Mapping[str, str] | None = None
+    ) -> dict[str, Any]:
+        """Write a result; return its attributes. The longest of a history is the history.
+
+        ``made_by`` is what made a result that was not computed now.
+        """
         path = self.result(task)
         own = {"case_hash": task.hash}
         if not runs_batches(task.case):
             own["case"] = canonical(task.case)
-        attributes = write_dataset(path, dataset.assign_attrs(own))
+        attributes = write_dataset(path, dataset.assign_attrs(own), made_by)
         if task.history and not failure_of(attributes):
             longest = self._history(task)
             if float(attributes["end_time"]) > _length(longest):
@@ -125,7 +131,7 @@ class ResultStore:
             for one in kept:
                 if one.is_of(task.case):
                     logger.info("taken from %s, whose case is alike", one.path)
-                    return self.put(task, read_dataset(one.path))
+                    return self._put_known(task, read_dataset(one.path), one.attributes)
         return None
 
     def judge_again(self, task: Task, kept: Sequence[Kept]) -> dict[str, Any] | None:
@@ -136,11 +142,19 @@ class ResultStore:
         histories = [self._history(task)] if _length(self._history(task)) else []
         histories += [one.path for one in kept if one.has_history_of(case)]
         for path in histories:
-            result = judged_again(case, read_dataset(path))
+            history = read_dataset(path)
+            result = judged_again(case, history)
             if result is not None:
                 logger.info("judged again by the history in %s", path)
-                return self.put(task, result)
+                return self._put_known(task, result, history.attrs)
         return None
+
+    def _put_known(
+        self, task: Task, dataset: xr.Dataset, source: Mapping[str, Any]
+    ) -> dict[str, Any]:
+        """Write what the result of another case answers; it says which, and what made that."""
+        taken = dataset.assign_attrs(taken_from=str(source["case_hash"]))
+        return self.put(task, taken, made_by(source))
 
 
 def _length(history: Path) -> float:
