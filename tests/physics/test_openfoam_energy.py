@@ -61,21 +61,21 @@ def test_work_that_is_missing_is_seen() -> None:
         assert cycle.imbalance == pytest.approx(-0.05 / 0.95, rel=0.01)
 
 
-@pytest.mark.parametrize("k_star", ["6.44", "8.5", "10", "14", "21"])
+@pytest.mark.parametrize("k_star", ["5", "6.44", "8.5", "10", "14", "21"])
 def test_work_of_the_air_is_the_change_of_energy(k_star: str) -> None:
-    """Over 100 c/V; later cycles at 6.44 exchange next to nothing (docs/openfoam.md)."""
-    known = read_dataset(KEPT / "2d" / f"k{k_star}.nc").sel(time=slice(None, 100.0))
+    """In all cycles, up to the largest amplitudes."""
+    known = read_dataset(KEPT / "2d" / f"k{k_star}.nc")
     case = case_of(known)
     assert case.section is not None
     found = cycles(case.section, known)
-    assert len(found) > 10
+    assert len(found) >= 10
     for cycle in found:
         assert abs(cycle.imbalance) < TOLERANCE, cycle
 
 
-@pytest.mark.parametrize("k_star", ["4", "4.5", "5", "5.5"])
-def test_energy_is_kept_until_the_flow_separates_wholly(k_star: str) -> None:
-    """Below a twist amplitude of 2 deg; beyond, the iterations in a step do not converge."""
+@pytest.mark.parametrize("k_star", ["4", "4.5", "5.5"])
+def test_version_3_keeps_energy_until_the_flow_separates_wholly(k_star: str) -> None:
+    """Below a twist amplitude of 2 deg; beyond, its iterations in a step do not converge."""
     known = read_dataset(KEPT / "2d" / f"k{k_star}.nc")
     case = case_of(known)
     assert case.section is not None
