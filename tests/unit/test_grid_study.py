@@ -55,3 +55,9 @@ def test_an_incidence_that_a_mesh_was_not_run_at_has_no_line() -> None:
     thin = polar()
     thin["is_run"].loc[{"resolution": "fine", "incidence_deg": 0.0}] = 0
     assert set(grid_study(thin, CELLS)["incidence_deg"]) == {2.5}
+
+
+def test_a_mesh_without_any_result_is_left_out() -> None:
+    """What is kept may lack a whole resolution."""
+    rest = polar().sel(resolution=["coarse", "medium", "other"])
+    assert grid_study(rest, CELLS).empty

@@ -24,10 +24,13 @@ def grid_study(polar: xr.Dataset, cells: Mapping[str, int | None]) -> pd.DataFra
         ``steady/polar_2d.nc``.
     cells
         Number of cells at each resolution; none for a mesh that is not similar to the others,
-        which is left out. The three finest of the rest are compared; there are no lines if there
+        which is left out, as is one that the polar has nothing of. The three finest of the rest are compared; there are no lines if there
         are fewer, nor of an incidence that one of the three was not run at.
     """
-    similar = {name: number for name, number in cells.items() if number is not None}
+    known = set(polar["resolution"].values)
+    similar = {
+        name: number for name, number in cells.items() if number is not None and name in known
+    }
     names = sorted(similar, key=lambda name: similar[name])[-3:]
     if len({similar[name] for name in names}) < 3:
         return pd.DataFrame(columns=COLUMNS)
