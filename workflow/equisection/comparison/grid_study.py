@@ -24,8 +24,9 @@ def grid_study(polar: xr.Dataset, cells: Mapping[str, int | None]) -> pd.DataFra
         ``steady/polar_2d.nc``.
     cells
         Number of cells at each resolution; none for a mesh that is not similar to the others,
-        which is left out, as is one that the polar has nothing of. The three finest of the rest are compared; there are no lines if there
-        are fewer, nor of an incidence that one of the three was not run at.
+        which is left out, as is one that the polar has nothing of. The three finest of the rest are
+        compared; there are no lines if there are fewer, nor of an incidence that one of the three
+        was not run at.
     """
     known = set(polar["resolution"].values)
     similar = {
