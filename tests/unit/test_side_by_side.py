@@ -199,6 +199,21 @@ def test_section_that_bends_less_than_the_plate_contradicts_the_paper() -> None:
     assert finding.verdict is Verdict.DIFFERS
 
 
+def test_decay_is_not_judged_on_runs_at_low_stiffness() -> None:
+    slow = [run for run in BEAM if run[0] < 10.0]
+    some = replace(complete(), summary=summary(m2d=SECTION, m2d_corrected=CORRECTED, m3d=slow))
+    found = response.decay_at_high_stiffness(some)
+    assert found.verdict == Verdict.PARTLY
+    assert "3d: not run from k* = 10 on" in found.here
+
+
+def test_means_of_a_large_motion_are_not_compared() -> None:
+    large = [(5.5, "growing", 6.0, 0.01, 3.0, 2.0), *CORRECTED[1:]]
+    some = replace(complete(), summary=summary(m2d=SECTION, m2d_corrected=large, m3d=BEAM))
+    assert "5.5" not in response.means_corrected(some).here
+    assert "5.5" in response.means_corrected(complete()).here
+
+
 def test_linear_theory_that_grows_at_the_onset_would_contradict_the_paper() -> None:
     linear = complete().linear.assign(growth_rate=[-0.05, 0.01])
     finding = response.not_classical_flutter(replace(complete(), linear=linear))

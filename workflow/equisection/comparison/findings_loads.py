@@ -215,7 +215,6 @@ def section_against_plate(evidence: Evidence) -> Finding:
         verdict,
         "; ".join(parts),
         f"section: {correction.attrs['section_label']}; plate: {correction.attrs['beam_label']}",
-        "Up to 5 deg the section has more of both, as the paper says. At 10 deg the section's "
-        "flow is not to be believed on this mesh and time step ([openfoam.md](openfoam.md)), and "
-        "the plate's values are interpolated between 5 and 10 deg where they come from Table 1.",
+        "Up to 5 deg the section has more of both, as the paper says. The plate's values are "
+        "interpolated between 5 and 10 deg where they come from Table 1.",
     )
