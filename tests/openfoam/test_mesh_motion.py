@@ -99,7 +99,7 @@ def whole(
 ) -> tuple[OversetRun, UnsteadyResult]:
     """The soft section on overset meshes, to where the other mesh has long tangled."""
     case, work = soft(7.6), tmp_path_factory.mktemp("whole")
-    run = OversetRun(installation, case, mesh_of(case, VERY_COARSE), 2, work)
+    run = OversetRun(installation, case, mesh_of(case, VERY_COARSE), Coupling(), work)
     return run, run.run(nothing)
 
 

@@ -52,6 +52,9 @@ logger = logging.getLogger(__name__)
 
 #: Interval of the states that a run is resumed from (c/V).
 STATE_INTERVAL = 2.0
+#: Obliqueness of a face (deg) beyond which a mesh is as good as tangled: the state that is known is
+#: that before the blow-up.
+_OBLIQUE = 80.0
 #: Loads of the rigid section at the release, beside the run that starts from them.
 _AT_RELEASE = "release.json"
 
@@ -161,7 +164,10 @@ class SectionRun:
     def mesh_fault(self, twist: float, deflection: float) -> str:
         """Return what is wrong with the mesh at a twist (rad) and a deflection (chords), if so."""
         mesh = MorphingMesh(self.installation, self.folder, self.mesh.channel.height)
-        faults = mesh.along(twist, deflection, 1, self.work / "moved")[-1].faults
+        quality = mesh.along(twist, deflection, 1, self.work / "moved")[-1]
+        faults = quality.faults
+        if not faults and quality.non_orthogonality_deg > _OBLIQUE:
+            faults = f"a face is {quality.non_orthogonality_deg:.0f} deg oblique"
         if not faults:
             return ""
         return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
