@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, model_validator
 
@@ -20,7 +20,7 @@ from equisection.config.sections import (
     Sweep,
     Unsteady,
 )
-from equisection.config.values import Name
+from equisection.config.values import EMPTY, Name
 
 #: Holds the recorded reference runs, which no run may mix with.
 RESERVED_RUN = "reference"
@@ -40,7 +40,7 @@ class Config(Section):
         description="Equivalent section of the models `2d` and `2d-corrected`: `consistent` "
         "keeps the natural frequencies, `paper` is Eq. 17 as printed.",
     )
-    reuse: str = Field(
+    reuse: Annotated[str, EMPTY] = Field(
         "results/reference",
         description="Folder with results of earlier runs: a case that one of them is the result "
         "of, by its hash, is not computed again. Empty to compute every case.",

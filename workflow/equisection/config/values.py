@@ -49,6 +49,8 @@ def _null(value: object) -> object:
 #: To follow the bounds in an annotation, so that these stay in the JSON schema.
 NUMBER = BeforeValidator(_number)
 WHOLE = BeforeValidator(_whole)
+#: A text that may be left empty: Snakemake's `--config key=""` hands over null.
+EMPTY = BeforeValidator(lambda value: "" if value is None else value)
 #: For keys that may be null.
 NULLABLE = BeforeValidator(_null)
 
