@@ -22,8 +22,7 @@ from tests.slurm.node import AS_ROOT, Node
 from tests.workflow.project import Project, has_nothing_to_do
 
 Begun = Callable[..., tuple[subprocess.Popen[str], str]]
-#: Seconds of a time step at which there is time to disturb a run of 1000 of them; SLURM takes some
-#: seconds to see that a job is over its time.
+#: Seconds of a time step at which there is time to disturb a run of 1000 of them.
 SLOW = "0.006"
 
 
@@ -43,8 +42,8 @@ def can_be_gone_on_with(project: Project) -> bool:
 def begun(case: ClusterProject, node: Node, monkeypatch: pytest.MonkeyPatch) -> Begun:
     """Start a slow run and return it with the number of its job, a while into it."""
 
-    def start(*arguments: str, pace: str = SLOW) -> tuple[subprocess.Popen[str], str]:
-        monkeypatch.setenv("STAND_IN_PACE", pace)
+    def start(*arguments: str) -> tuple[subprocess.Popen[str], str]:
+        monkeypatch.setenv("STAND_IN_PACE", SLOW)
         workflow = case.start(*arguments, case.target(RESULT))
         monkeypatch.delenv("STAND_IN_PACE")
         job = node.running()

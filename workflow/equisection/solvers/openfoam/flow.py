@@ -160,11 +160,7 @@ def steady_solution() -> dict[str, Any]:
 
 
 def unsteady_solution(coupling: Coupling = Coupling()) -> dict[str, Any]:
-    """Return ``fvSolution`` of an unsteady flow: PIMPLE with SIMPLEC's pressure equation.
-
-    One pressure correction an iteration: a second one costs as much as half an iteration, and
-    brings the loads of a time step less far.
-    """
+    """Return ``fvSolution`` of an unsteady flow: PIMPLE with SIMPLEC's pressure equation."""
     adjusted = {**_PRESSURE, "tolerance": 1e-4, "relTol": 0}
     last = {**_TRANSPORTED, "relTol": 0.01}
     return {

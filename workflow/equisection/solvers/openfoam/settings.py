@@ -27,7 +27,7 @@ class Settings:
 
     mesh: str
     outer_correctors: int
-    velocity_relaxation: float = 0.95
+    velocity_relaxation: float = Coupling.velocity_relaxation
     mesh_motion: str = MORPH
 
     @property
