@@ -175,16 +175,15 @@ def test_job_killed_at_random_moments_comes_to_the_undisturbed_result(
     seed: int, tmp_path: Path, undisturbed: xr.Dataset
 ) -> None:
     """Steady flow, free run, half a row and half a state: nothing of it is taken for whole."""
-    moments, killed = random.Random(seed), 0
-    for _ in range(4):
-        job = start_job(tmp_path, STAND_IN_PACE="0.002")
+    moments = random.Random(seed)
+    for _ in range(4):  # within 8 s, of a run whose 1,000 steps take 10 s and more
+        job = start_job(tmp_path, STAND_IN_PACE="0.01")
         assert job.stdout is not None
         assert job.stdout.readline() == "begins\n"
         time.sleep(moments.uniform(0.1, 2.0))
         job.send_signal(signal.SIGKILL)
         job.communicate()
-        killed += job.returncode == -signal.SIGKILL
-    assert killed >= 2
+        assert job.returncode == -signal.SIGKILL
     run(tmp_path)
     assert_same_history(tmp_path, undisturbed)
 
@@ -194,7 +193,7 @@ def test_solver_killed_at_random_moments_comes_to_the_undisturbed_result(
 ) -> None:
     moments = random.Random(3)
     for _ in range(3):
-        job = start_job(tmp_path, STAND_IN_PACE="0.002")
+        job = start_job(tmp_path, STAND_IN_PACE="0.01")
         assert job.stdout is not None
         assert job.stdout.readline() == "begins\n"
         program = _program_of(job)
