@@ -14,6 +14,7 @@ SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profi
 PAPER_FROM_kept := compute=false
 PAPER_FROM_scratch := compute=true reuse='""'
 PAPER_PLATE := results/paper-plate-figures
+PAPER_REDUCTIONS := results/paper-reductions
 ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
@@ -37,9 +38,12 @@ paper: $(ENV)/run
 		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
 		$(PAPER_PLATE)/figures/fig10-spanwise-loads.png
 	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER_FROM_$(FROM))
+	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml --config $(PAPER_FROM_$(FROM)) \
+		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
 	$(BIN)/python -m equisection.comparison.side_by_side
 	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Fig. 10 in $(PAPER_PLATE)/figures/" \
-		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/"
+		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \
+		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"
 
 cost: $(ENV)/run
 	$(SNAKEMAKE) --configfile config/paper/embedded.yaml -- results/paper-embedded/comparison/summary.csv

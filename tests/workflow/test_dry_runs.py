@@ -80,6 +80,7 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
         given_beam_polar=bool(config.steady.beam_polar),
         grid_study=plan.has_grid_study(config),
         refine_onset=models * rounds,
+        section_and_beam=plan.has_both(config),
         fig15_modal_contributions="3d" in config.sweep.models,
         fig17_hysteresis=any(model.startswith("2d") for model in config.sweep.models),
     )

@@ -31,6 +31,7 @@ FIGURES = (
     "fig16-response",
     "fig17-hysteresis",
     "growth-rate",
+    "section-and-beam",
 )
 GATHERED = {
     "structure/modes.nc": {"frequency", "kind", "shape", "frequency_constant"},
@@ -52,12 +53,21 @@ GATHERED = {
     "steady/polar_3d.nc": {"cd", "cl", "cm", "cl_section", "cm_section"},
     "steady/correction.nc": {"lift_factor", "moment_factor"},
 }
-REPORTED_TABLES = ("table1", "table2", "paper", "summary", "onset", "linear_theory")
+REPORTED_TABLES = (
+    "table1",
+    "table2",
+    "paper",
+    "summary",
+    "onset",
+    "linear_theory",
+    "section_and_beam",
+)
 COLUMNS = {
     "comparison/summary.csv": "model,k_star,regime,mean_twist_deg,mean_deflection_chords,"
     "twist_amplitude_deg,frequency_strouhal,growth_rate,cpu_seconds,wall_seconds",
     "comparison/onset.csv": "model,k_star_stable,k_star_unstable",
     "comparison/linear_theory.csv": "reduction,motion,k_star,growth_rate,frequency_strouhal",
+    "comparison/section_and_beam.csv": "model,k_star,twist,deflection,frequency,growth",
     "comparison/paper.csv": "quantity,paper,here,relative_difference",
 }
 RESULTS_OF_CASES = [

@@ -154,6 +154,8 @@ FIGURES_OF_BEAM_BY_CAPABILITY = {
 }
 #: Figures of one dimension, drawn only where a model of it is run.
 FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
+#: Figures of section and beam beside each other, drawn only where models of both are run.
+FIGURES_OF_BOTH = ("section-and-beam",)
 
 
 def figures(config: Config) -> list[str]:
@@ -167,9 +169,21 @@ def figures(config: Config) -> list[str]:
         of_beam = (*FIGURES_OF_BEAM, *shown, *of_beam)
     of_mesh = FIGURES_OF_MESH if has_mesh(config) else ()
     of_surface = FIGURES_OF_SURFACE if has_surface(config) else ()
-    run = {model(name, config.reduction).dimension for name in config.sweep.shown}
+    run = dimensions(config)
     of_models = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
+    if has_both(config):
+        of_models += FIGURES_OF_BOTH
     return sorted([*FIGURES, *of_beam, *of_mesh, *of_surface, *of_models])
+
+
+def dimensions(config: Config) -> set[str]:
+    """Return the dimensions of the models that are compared."""
+    return {model(name, config.reduction).dimension for name in config.sweep.shown}
+
+
+def has_both(config: Config) -> bool:
+    """Tell whether a section stands beside the beam."""
+    return dimensions(config) == {"2d", "3d"}
 
 
 def steady_dimensions(config: Config) -> tuple[str, ...]:

@@ -258,6 +258,7 @@ def comparison_files():
             "onset",
             "linear_theory",
             "paper",
+            *(("section_and_beam",) if plan.has_both(CONFIG) else ()),
             *(() if CONFIG.compute else ("missing",)),
         )
     ]

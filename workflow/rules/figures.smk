@@ -589,3 +589,47 @@ rule growth_rate:
         "growth rate and linear theory"
     script:
         "../../scripts/growth_rate.py"
+
+
+rule section_and_beam:
+    """How far each section is from the beam that it stands for."""
+    input:
+        summary=f"{RESULTS}/comparison/summary.csv",
+        style=STYLE,
+    output:
+        table=report(
+            f"{RESULTS}/comparison/section_and_beam.csv",
+            caption="../report/section-and-beam.rst",
+            category="Tables",
+            labels={
+                "table": "section and beam",
+                "shows": "how far each section is from the beam",
+            },
+        ),
+        png=report(
+            f"{RESULTS}/figures/section-and-beam.png",
+            caption="../report/section-and-beam.rst",
+            category="Figures",
+            labels={"figure": "reductions", "shows": "section against beam"},
+        ),
+        svg=f"{RESULTS}/figures/section-and-beam.svg",
+        pdf=f"{RESULTS}/figures/section-and-beam.pdf",
+    log:
+        f"{LOGS}/section_and_beam.log",
+    conda:
+        ENVIRONMENT
+    threads: 1
+    resources:
+        mem_mb=1000,
+        runtime=5,
+    params:
+        code=code(
+            *DRAWING,
+            "comparison/section_and_beam.py",
+            "figures/section_and_beam.py",
+            "figures/models.py",
+        ),
+    message:
+        "sections against the beam"
+    script:
+        "../../scripts/section_and_beam.py"

@@ -11,7 +11,18 @@ from equisection.config.checks import Problem, check
 from equisection.config.sections.base import Section
 from equisection.config.values import NUMBER, WHOLE, Name
 
-MeshName = Literal["coarse", "medium", "fine", "paper"]
+MeshName = Literal[
+    "coarse",
+    "medium",
+    "fine",
+    "paper",
+    "plate-coarse",
+    "plate-medium",
+    "plate-fine",
+    "plate-paper",
+]
+#: Meshes that have one around the plate, for overset.
+OVERSET_MESHES = ("coarse", "medium", "fine")
 
 #: A mesh that morphs around the section, and one above another that moves with it.
 MeshMotion = Literal["morph", "overset"]
@@ -30,7 +41,8 @@ class OpenFoam(Section):
         {"coarse": "coarse", "medium": "medium", "fine": "fine"},
         description="Mesh of each resolution: `coarse` (about 1e4 cells; 8e4 of the plate), "
         "`medium` (2e4; 3e5), `fine` (6e4; 1e6), which are similar, or `paper` (8e4; 5e6), which "
-        "has the paper's cell sizes in the section's plane and its number of cells in 3D.",
+        "has the paper's cell sizes in the section's plane and its number of cells in 3D. With "
+        "`plate-` before the name the section has the cells of that plate in its plane.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
         8,
@@ -107,9 +119,9 @@ def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
 @check("openfoam.mesh_motion", "openfoam.meshes")
 def _has_an_overset_mesh(motion: str, meshes: Mapping[str, str]) -> Iterator[Problem]:
     for name, mesh in meshes.items():
-        if motion == OVERSET and mesh == "paper":
+        if motion == OVERSET and mesh not in OVERSET_MESHES:
             yield Problem(
                 f"openfoam.meshes.{name}",
                 mesh,
-                "allowed are coarse, medium, fine with openfoam.mesh_motion: overset",
+                f"allowed are {', '.join(OVERSET_MESHES)} with openfoam.mesh_motion: overset",
             )

@@ -36,9 +36,14 @@ class Preset:
 
 
 #: About 1e4, 2e4 and 6e4 cells, and the paper's cell sizes; of the plate 8e4, 3e5, 1e6 and 5e6.
-PRESETS: Mapping[str, Preset] = {
+_OWN: Mapping[str, Preset] = {
     "coarse": Preset(1.0, plate=0.52),
     "medium": Preset(math.sqrt(2.0), plate=0.81),
     "fine": Preset(math.sqrt(5.0), plate=1.19),
     "paper": Preset(1.0, PAPER, plate=2.05),
+}
+#: With ``plate-`` before the name, the section has the cells that the plate has in its plane.
+PRESETS: Mapping[str, Preset] = {
+    **_OWN,
+    **{f"plate-{name}": Preset(own.plate, OF_PLATE, own.plate) for name, own in _OWN.items()},
 }

@@ -1,0 +1,72 @@
+"""How far sections are from the beam: on tables whose deviations are known."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from equisection.comparison.section_and_beam import deviations, root_mean_square
+from equisection.figures import section_and_beam
+
+K_STAR = (5.0, 10.0)
+
+
+def runs(model: str, **changes: object) -> pd.DataFrame:
+    columns = {
+        "model": model,
+        "k_star": K_STAR,
+        "regime": "settled",
+        "mean_twist_deg": [0.8, 0.4],
+        "mean_deflection_chords": [0.4, 0.2],
+        "frequency_strouhal": [0.12, 0.18],
+        "growth_rate": [0.01, -0.005],
+        "solver": "made-up",
+        "resolution": "coarse",
+    }
+    return pd.DataFrame({**columns, **changes})
+
+
+def test_section_that_moves_as_the_beam_does_has_no_deviation() -> None:
+    table = deviations(pd.concat([runs("2d"), runs("3d")]))
+    assert list(table["model"]) == ["2d", "2d"]
+    assert np.all(table[["twist", "deflection", "frequency", "growth"]] == 0.0)
+
+
+def test_ratios_are_of_the_section_over_the_beam_and_growth_is_a_difference() -> None:
+    section = runs("2d-corrected", mean_twist_deg=[1.0, 0.3], growth_rate=[0.03, -0.005])
+    table = deviations(pd.concat([section, runs("3d")])).set_index("k_star")
+    assert table["twist"].to_dict() == pytest.approx({5.0: 0.25, 10.0: -0.25})
+    assert table["growth"].to_dict() == pytest.approx({5.0: 0.02, 10.0: 0.0})
+    over_all = root_mean_square(table.reset_index()).loc["2d-corrected"]
+    assert over_all["twist"] == pytest.approx(0.25)
+    assert over_all["growth"] == pytest.approx(0.02 / np.sqrt(2))
+
+
+def test_what_failed_or_was_run_on_one_side_only_is_left_out() -> None:
+    beam = runs("3d", k_star=[5.0, 21.0])
+    section = runs("2d", regime=["failed", "settled"])
+    assert deviations(pd.concat([section, beam])).empty
+
+
+def test_number_that_a_run_does_not_have_does_not_spoil_the_others() -> None:
+    section = runs("2d", frequency_strouhal=[np.nan, 0.36])
+    over_all = root_mean_square(deviations(pd.concat([section, runs("3d")])))
+    assert over_all.loc["2d", "frequency"] == pytest.approx(1.0)
+    assert over_all.loc["2d", "twist"] == 0.0
+
+
+def test_figure_has_a_line_for_each_section_and_its_root_mean_square() -> None:
+    summary = pd.concat([runs("2d", mean_twist_deg=[0.88, 0.44]), runs("2d-corrected"), runs("3d")])
+    figure = section_and_beam.draw(deviations(summary), summary)
+    twist = figure.axes[0]
+    assert [tuple(line.get_ydata()) for line in twist.get_lines()[1:]] == [
+        pytest.approx((10.0, 10.0)),
+        pytest.approx((0.0, 0.0)),
+    ]
+    assert [text.get_text() for text in twist.texts] == ["0 %", "10 %"]
+    assert len(figure.legends[0].get_texts()) == 2
+
+
+def test_figure_without_a_common_k_star_says_so() -> None:
+    summary = pd.concat([runs("2d"), runs("3d", k_star=[4.0, 21.0])])
+    figure = section_and_beam.draw(deviations(summary), summary)
+    assert "No section and beam" in figure.axes[0].texts[-1].get_text()
