@@ -1,13 +1,15 @@
-"""Whether the work of the air is the change of the section's mechanical energy, cycle by cycle.
+"""Whether the work of the air is the change of the mechanical energy, cycle by cycle.
 
     python -m tests.benchmarks.energy [result.nc ...]
 
-The section of Eq. 18 obeys I* theta'' + k* theta = c_m and m* w'' + k_w* w = c_l, so that
+Section (Eq. 18: pitch and heave) and plate (its modes) are coordinates q of inertia M and stiffness
+K under loads Q, M q'' + K q = Q, so that
 
-    d/ds 1/2 (I* theta'^2 + k* theta^2 + m* w'^2 + k_w* w^2) = c_m theta' + c_l w'
+    d/ds sum 1/2 (M q'^2 + K q^2) = sum Q q'
 
-with w in chords, s = tV/c and c_m about the moving centre. The rates are those of cubic splines
-through the samples. Without results the kept ones of OpenFOAM at k* = 5 and 10 are taken.
+with lengths in chords, s = tV/c and moments about the moving centre. The rates are those of cubic
+splines through the samples. Without results the kept ones of the section on OpenFOAM at k* = 5 and
+10 are taken.
 """
 
 import argparse
@@ -19,11 +21,61 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import xarray as xr
+from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from equisection.cases import SectionProperties
+from equisection.cases import BeamModes, SectionProperties, UnsteadyCase
 from equisection.results.netcdf import read_dataset
+from equisection.structure.span import integrate
 from tests.benchmarks.early_verdict import KEPT, case_of
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Swing:
+    """Coordinates under loads: inertia and stiffness (n,), motion and loads (samples, n)."""
+
+    time: Floats
+    inertia: Floats
+    stiffness: Floats
+    motion: Floats
+    loads: Floats
+
+
+def section_swing(section: SectionProperties, history: xr.Dataset) -> Swing:
+    """Return pitch and heave of the section."""
+    return Swing(
+        time=history["time"].values,
+        inertia=np.array([section.inertia, section.mass]),
+        stiffness=np.array([section.torsional_stiffness, section.flexural_stiffness]),
+        motion=np.stack(
+            [history["twist"].values, history["deflection"].values / history.attrs["chord"]], axis=1
+        ),
+        loads=np.stack([history["cm"].values, history["cl"].values], axis=1),
+    )
+
+
+def plate_swing(modes: BeamModes, history: xr.Dataset) -> Swing:
+    """Return the modes of the plate, torsion before bending."""
+    frequency = np.array([*modes.torsion_frequency, *modes.bending_frequency])
+    squares = (
+        modes.inertia * integrate(np.array(modes.span), np.array(modes.torsion_shape) ** 2),
+        modes.mass * integrate(np.array(modes.span), np.array(modes.bending_shape) ** 2),
+    )
+    inertia = np.concatenate(squares)
+    names = ("torsion", "bending")
+    motion = np.concatenate([history[f"{name}_amplitude"].values for name in names]).T
+    loads = np.concatenate([history[f"{name}_load"].values for name in names]).T
+    return Swing(history["time"].values, inertia, inertia * frequency**2, motion, inertia * loads)
+
+
+def swing_of(case: UnsteadyCase, history: xr.Dataset) -> Swing:
+    """Return what swings in a result."""
+    if case.beam is not None:
+        return plate_swing(case.beam, history)
+    assert case.section is not None
+    return section_swing(case.section, history)
 
 
 @dataclass(frozen=True)
@@ -35,7 +87,7 @@ class Cycle:
     start, period
         c/V.
     work, change
-        Of the air on the section, and of the section's energy (rho V^2 c^2/4 per unit span).
+        Of the air, and of the energy of what swings (of the section rho V^2 c^2/2 per unit span).
     swing
         Mean energy of the motion about its mean position, by which a small work is judged.
     """
@@ -55,34 +107,29 @@ class Cycle:
         return (self.change - self.work) / max(abs(self.work), 0.01 * self.swing)
 
 
-def cycles(section: SectionProperties, history: xr.Dataset) -> list[Cycle]:
-    """Return the balance of each whole cycle of a history; the first, from rest, is left out."""
-    time = history["time"].values
-    twist = CubicSpline(time, history["twist"].values)
-    rise = CubicSpline(time, history["deflection"].values / history.attrs["chord"])
-    power = history["cm"].values * twist(time, 1) + history["cl"].values * rise(time, 1)
-    work = CubicSpline(time, power).antiderivative()
+def cycles(swing: Swing) -> list[Cycle]:
+    """Return the balance of each whole cycle of the twist; the first, from rest, is left out."""
+    motion = CubicSpline(swing.time, swing.motion)
+    power = (swing.loads * motion(swing.time, 1)).sum(axis=1)
+    work = CubicSpline(swing.time, power).antiderivative()
 
-    def energy(s: np.ndarray | float, *mean: float) -> np.ndarray:
-        theta, w = mean or (0.0, 0.0)
-        pitch = section.inertia * twist(s, 1) ** 2
-        pitch += section.torsional_stiffness * (twist(s) - theta) ** 2
-        heave = section.mass * rise(s, 1) ** 2 + section.flexural_stiffness * (rise(s) - w) ** 2
-        return np.asarray((pitch + heave) / 2)
+    def energy(s: Floats | float, mean: Floats | float = 0.0) -> Floats:
+        squares = swing.inertia * motion(s, 1) ** 2 + swing.stiffness * (motion(s) - mean) ** 2
+        return np.asarray(squares.sum(axis=-1) / 2)
 
+    twist = CubicSpline(swing.time, swing.motion[:, 0])
     turns = twist.derivative().roots(extrapolate=False)
     bottoms = turns[twist(turns, 2) > 0]
     found = []
     for start, end in itertools.pairwise(bottoms[1:]):
         inside = np.linspace(start, end, 200)
-        mean = (float(twist(inside).mean()), float(rise(inside).mean()))
         found.append(
             Cycle(
                 start=float(start),
                 period=float(end - start),
                 work=float(work(end) - work(start)),
                 change=float(energy(end) - energy(start)),
-                swing=float(energy(inside, *mean).mean()),
+                swing=float(energy(inside, motion(inside).mean(axis=0)).mean()),
             )
         )
     return found
@@ -94,8 +141,7 @@ def table(paths: Sequence[Path]) -> pd.DataFrame:
     for path in paths:
         history = read_dataset(path)
         case = case_of(history)
-        assert case.section is not None
-        for cycle in cycles(case.section, history):
+        for cycle in cycles(swing_of(case, history)):
             rows.append(
                 {"k_star": case.k_star, **vars(cycle), "imbalance_%": 100 * cycle.imbalance}
             )

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import xarray as xr
 from tests.benchmarks.early_verdict import KEPT, case_of
-from tests.benchmarks.energy import cycles
+from tests.benchmarks.energy import cycles, section_swing, swing_of
 
 from equisection.cases import SectionProperties
 from equisection.results.netcdf import read_dataset
@@ -47,7 +47,7 @@ def history(damping: float, lost: float = 0.0) -> xr.Dataset:
 
 
 def test_damped_swing_loses_what_the_moment_takes() -> None:
-    found = cycles(SECTION, history(damping=0.2))
+    found = cycles(section_swing(SECTION, history(damping=0.2)))
     assert len(found) > 5
     for cycle in found:
         assert cycle.work == pytest.approx(
@@ -57,7 +57,7 @@ def test_damped_swing_loses_what_the_moment_takes() -> None:
 
 
 def test_work_that_is_missing_is_seen() -> None:
-    for cycle in cycles(SECTION, history(damping=0.2, lost=0.05)):
+    for cycle in cycles(section_swing(SECTION, history(damping=0.2, lost=0.05))):
         assert cycle.imbalance == pytest.approx(-0.05 / 0.95, rel=0.01)
 
 
@@ -66,8 +66,7 @@ def test_work_of_the_air_is_the_change_of_energy(k_star: str) -> None:
     """In all cycles, up to the largest amplitudes."""
     known = read_dataset(KEPT / "2d" / f"k{k_star}.nc")
     case = case_of(known)
-    assert case.section is not None
-    found = cycles(case.section, known)
+    found = cycles(swing_of(case, known))
     assert len(found) >= 10
     for cycle in found:
         assert abs(cycle.imbalance) < TOLERANCE, cycle
@@ -78,10 +77,9 @@ def test_version_3_keeps_energy_until_the_flow_separates_wholly(k_star: str) -> 
     """Below a twist amplitude of 2 deg; beyond, its iterations in a step do not converge."""
     known = read_dataset(KEPT / "2d" / f"k{k_star}.nc")
     case = case_of(known)
-    assert case.section is not None
     small = [
         cycle
-        for cycle in cycles(case.section, known)
+        for cycle in cycles(swing_of(case, known))
         if _range_deg(known, cycle.start, cycle.start + cycle.period) < 4.0
     ]
     assert len(small) >= 2

@@ -54,6 +54,9 @@ class UnsteadyResult:
         theta_0 + twist of the section or tip (rad), shape (n,).
     torsion_amplitudes, bending_amplitudes
         Theta_i (rad) and W_i (chords), shape (modes, n); empty in 2D.
+    torsion_loads, bending_loads
+        Loads of these modes over their generalised inertia (rad and chords, times (V/c)^2), shape
+        (modes, n); empty where the solver does not have them.
     tip_flow
         Flow near the tip at the end, where the solver has it.
     spent
@@ -73,6 +76,8 @@ class UnsteadyResult:
     verdict: dict[str, str | float | int]
     torsion_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     bending_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
+    torsion_loads: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
+    bending_loads: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     tip_flow: TipFlow | None = None
     spent: Spent | None = None
 
@@ -94,6 +99,13 @@ class UnsteadyResult:
         for name, values, units, text in (
             ("torsion_amplitude", self.torsion_amplitudes, "rad", "amplitude of torsion modes"),
             ("bending_amplitude", self.bending_amplitudes, "1", "amplitude W_i of bending modes"),
+            (
+                "torsion_load",
+                self.torsion_loads,
+                "rad (V/c)^2",
+                "loads of torsion modes, over inertia",
+            ),
+            ("bending_load", self.bending_loads, "(V/c)^2", "loads of bending modes, over inertia"),
         ):
             if values.size:
                 variables[name] = (

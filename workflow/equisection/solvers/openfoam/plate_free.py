@@ -290,6 +290,8 @@ class PlateRun:
             verdict=judge(case, tip, failure),
             torsion_amplitudes=history.position[:, :torsion].T,
             bending_amplitudes=history.position[:, torsion:].T,
+            torsion_loads=history.load[:, :torsion].T,
+            bending_loads=history.load[:, torsion:].T,
         )
 
 
