@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from equisection.comparison.bubble import plate_bubble_table
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.plate_surface import PlateSurface, joined, plate_surface_from_dataset
@@ -145,3 +146,24 @@ def test_unknown_side_is_refused() -> None:
     dataset = result(plate()).assign(side=("face", ["root"] * plate().x.size))
     with pytest.raises(ResultFileError, match=r"root; allowed are upper, lower, .*, tip"):
         plate_surface_from_dataset(dataset)
+
+
+def test_table_has_the_ends_of_the_bubble_on_the_suction_side_by_incidence() -> None:
+    whole = plate()
+    end = 0.4 - 0.2 * whole.z / SPAN  # of the bubble; 0.3 on the lower side
+    friction = np.where(whole.side == "upper", whole.x - end, whole.x - 0.3)
+    made = {"solver_description": "a solver"}
+    results = [
+        result(surface).assign_attrs(made, incidence_deg=angle)
+        for angle, surface in (
+            (4.0, loaded(friction=friction)),
+            (-2.0, loaded(friction=friction)),
+            (0.0, loaded(friction=friction)),
+            (5.0, None),
+        )
+    ]
+    table = plate_bubble_table(results)
+    assert table["incidence_deg"].tolist() == [-2.0, 4.0]
+    half_a_face = 0.5 / ALONG
+    assert table["root"].tolist() == pytest.approx([0.3, 0.4], abs=half_a_face)
+    assert table["tip"].tolist() == pytest.approx([0.3, 0.2], abs=half_a_face)

@@ -1,21 +1,23 @@
-"""Recirculation bubble and wall distance of the rigid section, from its surface data."""
+"""Recirculation bubble of rigid section and plate, and wall distance, from their surface data."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.results.plate_surface import plate_surface_from_dataset
 from equisection.results.surface import SectionSurface, suction_side, surface_from_dataset
 
 COLUMNS = (
     "resolution", "incidence_deg", "side", "bubble", "y_plus_mean", "y_plus_largest",
     "y_plus_below_1", "method", "solver", "note",
 )  # fmt: skip
+PLATE_COLUMNS = ("incidence_deg", "root", "tip", "solver")
 #: Says of a result that was made before surface data were stored how to have them.
 MISSING = (
     "no surface data, which results made by an earlier version lack; to have them delete "
@@ -37,6 +39,31 @@ def bubble_table(results: Mapping[tuple[str, float], xr.Dataset]) -> pd.DataFram
         for (resolution, angle), result in results.items()
     ]
     return pd.DataFrame(rows, columns=COLUMNS)
+
+
+def plate_bubble_table(results: Iterable[xr.Dataset]) -> pd.DataFrame:
+    """Return where the bubble of the plate ends on its suction side, at the root and at the tip.
+
+    Parameters
+    ----------
+    results
+        Steady results of the plate; those without surface data, or without incidence, have no line.
+
+    Returns
+    -------
+    pd.DataFrame
+        ``incidence_deg``, ``root`` and ``tip`` (x/c; 0 without a bubble, 1 for the whole chord) and
+        ``solver``, by ascending incidence.
+    """
+    rows = []
+    for result in results:
+        surface = plate_surface_from_dataset(result)
+        angle = float(result.attrs["incidence_deg"])
+        if surface is None or angle == 0.0:
+            continue
+        _, ends = surface.reattachment(suction_side(angle))
+        rows.append((angle, ends[0], ends[-1], str(result.attrs["solver_description"])))
+    return pd.DataFrame(rows, columns=PLATE_COLUMNS).sort_values("incidence_deg")
 
 
 def _line(surface: SectionSurface | None, angle: float, result: xr.Dataset) -> tuple[object, ...]:

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from equisection.comparison.bubble import plate_bubble_table
 from equisection.comparison.kept_runs import kept_runs
 from equisection.comparison.missing import missing_table
 from equisection.errors import ResultFileError
@@ -32,6 +33,8 @@ class Evidence:
         ``steady/*.nc`` of it.
     table_1
         ``tables/table1.csv`` of the run of the rigid plate.
+    plate_bubble
+        Ends of the bubble in the steady results of that run.
     kept
         Every unsteady run that is kept.
     embedded
@@ -48,6 +51,7 @@ class Evidence:
     correction: xr.Dataset
     section_mesh: xr.Dataset
     table_1: pd.DataFrame
+    plate_bubble: pd.DataFrame
     kept: pd.DataFrame
     embedded: pd.DataFrame
 
@@ -100,6 +104,9 @@ def read_evidence(figures: Path, plate: Path, reference: Path) -> Evidence:
         correction=read_dataset(figures / "steady" / "correction.nc"),
         section_mesh=read_dataset(figures / "steady" / "section_mesh.nc"),
         table_1=_table(plate / "tables" / "table1.csv"),
+        plate_bubble=plate_bubble_table(
+            read_dataset(path) for path in sorted((plate / "steady" / "3d").glob("*.nc"))
+        ),
         kept=kept_runs(reference),
         embedded=_table(reference / "embedded-cost.csv"),
     )

@@ -6,7 +6,7 @@ import numpy as np
 
 from equisection.comparison.evidence import Evidence
 from equisection.comparison.findings import Finding, Verdict, graded, open_finding, percent
-from equisection.comparison.paper_values import BUBBLE_2D, COEFFICIENTS, TABLE_1
+from equisection.comparison.paper_values import BUBBLE_2D, BUBBLE_AT_ROOT, COEFFICIENTS, TABLE_1
 from equisection.results.section_mesh import share_below
 
 #: The finest mesh of Table 1, which is the one to judge by.
@@ -157,15 +157,24 @@ def bubble_of_the_section(evidence: Evidence) -> Finding:
 
 
 def bubble_of_the_plate(evidence: Evidence) -> Finding:
-    """Say what the section has where the paper speaks of the plate's root."""
-    rows = evidence.bubble.dropna(subset=["bubble"])
-    at = rows[rows["incidence_deg"].isin([2.0, 4.0])]
+    """Judge the bubble at the root at 2 and 4 deg, with that of the section beside it."""
+    rows, section = evidence.plate_bubble, evidence.bubble.dropna(subset=["bubble"])
     of_section = ", ".join(
         f"{row.bubble:.2g} c at {row.incidence_deg:g} deg ({row.resolution})"
-        for row in at.itertuples()
+        for row in section[section["incidence_deg"].isin(BUBBLE_AT_ROOT)].itertuples()
     )
-    return open_finding(
-        "surface data of the plate, which are not stored yet", f"Section: {of_section}."
+    note = f"Section: {of_section}."
+    parts, differences, used = [], [], []
+    for row in rows[rows["incidence_deg"].isin(BUBBLE_AT_ROOT)].itertuples():
+        differences.append(row.root - BUBBLE_AT_ROOT[row.incidence_deg])
+        parts.append(
+            f"{row.incidence_deg:g} deg: {row.root:.2g} c at the root, {row.tip:.2g} c at the tip"
+        )
+        used.append(row.solver)
+    if not parts:
+        return open_finding("surface data of the plate at 2 and 4 deg", note)
+    return Finding(
+        graded(differences, 0.05, 0.2), "; ".join(parts), "; ".join(dict.fromkeys(used)), note
     )
 
 

@@ -174,6 +174,8 @@ _RESPONSE = (
 
 #: Length of the section's bubble over the chord, by incidence (deg).
 BUBBLE_2D = {1.0: 0.5, 5.0: 1.0}
+#: The same at the root of the plate (Section 5.1, on Fig. 11).
+BUBBLE_AT_ROOT = {2.0: 0.25, 4.0: 0.8}
 
 _SURFACE = (
     Published("bubble over chord, 2D at 1 deg", BUBBLE_2D[1.0], "Section 4.1, on Fig. 7", "about"),
