@@ -36,12 +36,13 @@ report: run
 paper: $(ENV)/run
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
-		$(PAPER_PLATE)/figures/fig10-spanwise-loads.png
+		$(PAPER_PLATE)/figures/fig09-plate-mesh.png $(PAPER_PLATE)/figures/fig10-spanwise-loads.png \
+		$(PAPER_PLATE)/figures/fig11-plate-surface.png $(PAPER_PLATE)/figures/fig12-tip-flow.png
 	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER_FROM_$(FROM))
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
 	$(BIN)/python -m equisection.comparison.side_by_side
-	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Fig. 10 in $(PAPER_PLATE)/figures/" \
+	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Figs. 9 to 12 in $(PAPER_PLATE)/figures/" \
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \
 		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"
 

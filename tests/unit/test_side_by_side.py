@@ -57,6 +57,12 @@ def summary(**models: list[Run]) -> pd.DataFrame:
     return pd.concat(frames, ignore_index=True)
 
 
+def reductions(corrected: list[Run] = CORRECTED, beam: list[Run] = BEAM) -> pd.DataFrame:
+    """Return runs of the paper's section, as it is with the plate's twist, and of the plate."""
+    section = [(*run[:4], there[4], run[5]) for run, there in zip(SECTION, BEAM, strict=True)]
+    return summary(m2d_paper=section, m2d_corrected_paper=corrected, m3d=beam)
+
+
 def kept(*rows: tuple[str, float, float, float, float]) -> pd.DataFrame:
     """Return kept runs from model, cells, time step, k* and processor seconds over 100 c/V."""
     columns = ["model", "cells", "time_step", "k_star", "cpu_seconds"]
@@ -145,6 +151,7 @@ def complete() -> Evidence:
         plate_bubble=pd.DataFrame(
             {"incidence_deg": [2.0, 4.0], "root": [0.26, 0.79], "tip": 0.1, "solver": "a solver"}
         ),
+        reductions=reductions(),
         kept=kept(("2d", 1e4, 0.02, 8.0, 400.0), ("3d", 1e6, 0.02, 8.0, 80000.0)),
         embedded=summary(m2d=SECTION, m3d=BEAM).assign(cpu_seconds=0.02),
     )
@@ -156,6 +163,7 @@ def without_plate() -> Evidence:
         whole,
         summary=whole.summary[whole.summary["model"] != "3d"],
         onset=whole.onset[whole.onset["model"] != "3d"],
+        reductions=whole.reductions[whole.reductions["model"] != "3d"],
         kept=whole.kept[whole.kept["model"] != "3d"],
         paper=whole.paper[~whole.paper["quantity"].str.startswith("first")],
         table_1=whole.table_1[["incidence_deg"]].assign(made_by=np.nan),
@@ -198,8 +206,8 @@ def test_onset_far_from_the_papers_is_not_borne_out() -> None:
 
 def test_section_that_bends_less_than_the_plate_contradicts_the_paper() -> None:
     bending = [(*run[:5], 2 * run[5]) for run in BEAM]
-    changed = summary(m2d=SECTION, m2d_corrected=CORRECTED, m3d=bending)
-    finding = response.mean_bending_uncorrected(replace(complete(), summary=changed))
+    changed = replace(complete(), reductions=reductions(beam=bending))
+    finding = response.mean_bending_uncorrected(changed)
     assert finding.verdict is Verdict.DIFFERS
 
 
@@ -211,9 +219,17 @@ def test_decay_is_not_judged_on_runs_at_low_stiffness() -> None:
     assert "3d: not run from k* = 10 on" in found.here
 
 
+def test_other_reduction_stands_beside_the_papers_and_is_not_judged() -> None:
+    far = [(*run[:4], 3 * run[4], run[5]) for run in SECTION]
+    both = pd.concat([reductions(), summary(m2d_consistent=far)])
+    finding = response.mean_twist_uncorrected(replace(complete(), reductions=both))
+    assert finding.verdict is Verdict.AGREES
+    assert "With the consistent reduction mean twist: +219 % at 8" in finding.why
+
+
 def test_means_of_a_large_motion_are_not_compared() -> None:
     large = [(5.5, "growing", 6.0, 0.01, 3.0, 2.0), *CORRECTED[1:]]
-    some = replace(complete(), summary=summary(m2d=SECTION, m2d_corrected=large, m3d=BEAM))
+    some = replace(complete(), reductions=reductions(corrected=large))
     assert "5.5" not in response.means_corrected(some).here
     assert "5.5" in response.means_corrected(complete()).here
 
@@ -296,6 +312,6 @@ def test_missing_evidence_is_an_error_that_says_what_makes_it(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     with pytest.raises(ResultFileError, match="make paper"):
-        read_evidence(tmp_path, tmp_path, tmp_path)
+        read_evidence(tmp_path, tmp_path, tmp_path, tmp_path)
     assert main(["--figures", str(tmp_path), "--plate", str(tmp_path)]) == 1
     assert "paper.csv: missing" in capsys.readouterr().err

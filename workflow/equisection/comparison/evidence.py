@@ -26,7 +26,7 @@ class Evidence:
     paper, summary, onset, linear
         ``comparison/*.csv`` of the run that the paper's figures are drawn from.
     missing
-        The cases of both runs of ``make paper`` that have no result.
+        The cases of the three runs of ``make paper`` that have no result.
     bubble, grid_study
         ``tables/*.csv`` of it.
     correction, section_mesh
@@ -35,6 +35,8 @@ class Evidence:
         ``tables/table1.csv`` of the run of the rigid plate.
     plate_bubble
         Ends of the bubble in the steady results of that run.
+    reductions
+        ``comparison/summary.csv`` of plate and sections of both reductions on the plate's cells.
     kept
         Every unsteady run that is kept.
     embedded
@@ -52,6 +54,7 @@ class Evidence:
     section_mesh: xr.Dataset
     table_1: pd.DataFrame
     plate_bubble: pd.DataFrame
+    reductions: pd.DataFrame
     kept: pd.DataFrame
     embedded: pd.DataFrame
 
@@ -79,8 +82,8 @@ class Evidence:
         return float(row["k_star_unstable"].iloc[0]), float(row["k_star_stable"].iloc[0])
 
 
-def read_evidence(figures: Path, plate: Path, reference: Path) -> Evidence:
-    """Read the evidence from the two runs of ``make paper`` and the folder of kept results.
+def read_evidence(figures: Path, plate: Path, reductions: Path, reference: Path) -> Evidence:
+    """Read the evidence from the three runs of ``make paper`` and the folder of kept results.
 
     Raises
     ------
@@ -95,7 +98,7 @@ def read_evidence(figures: Path, plate: Path, reference: Path) -> Evidence:
         linear=_table(comparison / "linear_theory.csv"),
         missing=missing_table(
             index
-            for run in (figures, plate)
+            for run in (figures, plate, reductions)
             for kind in ("steady", "unsteady")
             for index in sorted((run / kind).glob("*/*.json"))
         ),
@@ -107,6 +110,7 @@ def read_evidence(figures: Path, plate: Path, reference: Path) -> Evidence:
         plate_bubble=plate_bubble_table(
             read_dataset(path) for path in sorted((plate / "steady" / "3d").glob("*.nc"))
         ),
+        reductions=_table(reductions / "comparison" / "summary.csv"),
         kept=kept_runs(reference),
         embedded=_table(reference / "embedded-cost.csv"),
     )

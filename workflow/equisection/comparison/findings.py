@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-
-from equisection.comparison.evidence import Evidence
+import pandas as pd
 
 
 class Verdict(StrEnum):
@@ -60,9 +59,9 @@ def percent(difference: float) -> str:
     return f"{100 * difference:+.2g} %" if abs(difference) < 0.1 else f"{100 * difference:+.0f} %"
 
 
-def resolution_of(evidence: Evidence, *models: str) -> str:
-    """Say on what mesh some models were run, and what that cost."""
-    runs = evidence.summary[evidence.summary["model"].isin(models)]
+def resolution_of(summary: pd.DataFrame, *models: str) -> str:
+    """Say on what mesh some models of a ``summary.csv`` were run, and what that cost."""
+    runs = summary[summary["model"].isin(models)]
     if runs.empty:
         return ""
     meshes = ", ".join(sorted(set(runs["resolution"])))

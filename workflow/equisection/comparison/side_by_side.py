@@ -165,12 +165,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog=COMMAND, description="The paper's claims, judged here.")
     parser.add_argument("--figures", type=Path, default=Path("results/paper-figures"))
     parser.add_argument("--plate", type=Path, default=Path("results/paper-plate-figures"))
+    parser.add_argument("--reductions", type=Path, default=Path("results/paper-reductions"))
     parser.add_argument("--reference", type=Path, default=Path("results/reference"))
     parser.add_argument("--page", type=Path, default=PAGE)
     parser.add_argument("--check", action="store_true", help="only tell whether it is up to date")
     options = parser.parse_args(arguments)
     try:
-        text = page(read_evidence(options.figures, options.plate, options.reference))
+        runs = (options.figures, options.plate, options.reductions)
+        text = page(read_evidence(*runs, options.reference))
     except EquisectionError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
