@@ -21,8 +21,8 @@ from tests.sample_cases import STEADY_PLATE, UNSTEADY_PLATE, beam_modes
 
 from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
+from equisection.results.plane_mesh import cell_areas
 from equisection.results.plate_surface import PlateSurface
-from equisection.results.section_mesh import cell_areas
 from equisection.results.steady import SteadyResult
 from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady import UnsteadyResult
