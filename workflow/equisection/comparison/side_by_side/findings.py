@@ -8,7 +8,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from equisection.comparison.evidence import Evidence
+from equisection.comparison.side_by_side.evidence import Evidence
 
 
 class Verdict(StrEnum):

@@ -10,8 +10,8 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from equisection.comparison.kept_runs import kept_runs
 from equisection.comparison.missing import missing_table
+from equisection.comparison.side_by_side.kept_runs import kept_runs
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset
 

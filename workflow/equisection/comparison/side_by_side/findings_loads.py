@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from equisection.comparison.evidence import Evidence
-from equisection.comparison.findings import Finding, Verdict, graded, open_finding, percent
 from equisection.comparison.paper_values import BUBBLE_2D, COEFFICIENTS, TABLE_1
+from equisection.comparison.side_by_side.evidence import Evidence
+from equisection.comparison.side_by_side.findings import (
+    Finding,
+    Verdict,
+    graded,
+    open_finding,
+    percent,
+)
 from equisection.results.section_mesh import share_below
 
 #: The finest mesh of Table 1, which is the one to judge by.
