@@ -46,7 +46,7 @@ def openfoam() -> Iterator[str]:
     preset = PRESETS["coarse"]
     with tempfile.TemporaryDirectory() as folder:
         PlateRun(
-            find(), plate, plate_mesh_of(plate, preset.plate), Coupling(1), 1, Path(folder)
+            find(), plate, plate_mesh_of(plate, preset.plate), Coupling(1), Path(folder), 1
         ).run(_nothing)
     yield f"plate, coarse, {preset.plate_cells} cells: {_memory(resource.RUSAGE_CHILDREN):.0f} kB"
 

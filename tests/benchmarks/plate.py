@@ -88,7 +88,7 @@ def seconds_a_step(exchange: type, ranks: int, steps: int) -> float:
 
     with tempfile.TemporaryDirectory() as folder:
         mesh = plate_mesh_of(case, PRESETS["coarse"].plate)
-        PlateRun(find(), case, mesh, COUPLING, ranks, Path(folder)).run(tell)
+        PlateRun(find(), case, mesh, COUPLING, Path(folder), ranks).run(tell)
     return (started[-1] - started[0]) / (len(started) - 1)
 
 

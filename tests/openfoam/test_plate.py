@@ -21,8 +21,8 @@ from tests.sample_cases import STEADY_PLATE, UNSTEADY_PLATE, beam_modes
 
 from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
+from equisection.results.plane_mesh import cell_areas
 from equisection.results.plate_surface import PlateSurface
-from equisection.results.section_mesh import cell_areas
 from equisection.results.steady import SteadyResult
 from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady import UnsteadyResult
@@ -191,7 +191,7 @@ def free(duration: float, k_star: float = 6.44, mass: float = 1.0) -> UnsteadyCa
 def run_of(installation: Installation, case: UnsteadyCase, work: Path, steady: Path) -> PlateRun:
     """Return a run that starts from the rigid steady flow, which is the same for all."""
     shutil.copytree(steady, work, dirs_exist_ok=True)
-    return PlateRun(installation, case, plate_mesh_of(case, VERY_COARSE), COUPLING, 1, work)
+    return PlateRun(installation, case, plate_mesh_of(case, VERY_COARSE), COUPLING, work, 1)
 
 
 @pytest.fixture
@@ -339,7 +339,7 @@ def test_solver_ends_with_the_structure_that_is_killed(
     case = free(2.0)
     mesh = plate_mesh_of(case, 0.2)
     (tmp_path / "run").write_bytes(
-        pickle.dumps(PlateRun(installation, case, mesh, COUPLING, ranks, tmp_path))
+        pickle.dumps(PlateRun(installation, case, mesh, COUPLING, tmp_path, ranks))
     )
     structure = subprocess.Popen(
         [sys.executable, "-c", STRUCTURE, str(tmp_path / "run")], stdout=subprocess.PIPE, text=True
@@ -365,7 +365,7 @@ def test_plate_that_diverges_ends_before_it_meets_the_wall(
 
 def test_other_versions_are_refused(installation: Installation, tmp_path: Path) -> None:
     later = LaterVersion(installation.prefix, installation.environment)
-    run = PlateRun(later, free(1.0), plate_mesh_of(free(1.0), VERY_COARSE), COUPLING, 1, tmp_path)
+    run = PlateRun(later, free(1.0), plate_mesh_of(free(1.0), VERY_COARSE), COUPLING, tmp_path, 1)
     with pytest.raises(SolverError, match=r"OpenFOAM v2312: .* v1912"):
         run.run(nothing)
 

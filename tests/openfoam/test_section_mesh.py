@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.sample_cases import GEOMETRY, STEADY
 
-from equisection.results.section_mesh import cell_areas, edges
+from equisection.results.plane_mesh import cell_areas, edges
 from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.dictionaries import (
     control,

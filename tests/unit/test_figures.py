@@ -117,7 +117,9 @@ def section_mesh() -> xr.Dataset:
         "mean_non_orthogonality_deg": 0.0,
         "max_skewness": 0.0,
     }
-    mesh = SectionMesh(points, corners, 1.0 + first % 5, 0.02, 2.5, "made up", quality)
+    mesh = SectionMesh(
+        points, corners, 2.5, quality, courant=1.0 + first % 5, time_step=0.02, flow="made up"
+    )
     return mesh.to_dataset().assign_attrs(solver_description=SOLVER, resolution="coarse")
 
 
@@ -127,7 +129,10 @@ def plate_mesh() -> xr.Dataset:
     points = np.stack([mesh["x"].values, mesh["y"].values], axis=-1)
     quality = {name: mesh.attrs[name] for name in mesh.attrs if name.startswith(("max", "mean"))}
     levels = np.array([0.0, 1.0, 1.8, 2.0, 2.3])
-    grid = PlateGrid(points, mesh["corners"].values, levels, 2.0, 1.0, 0.0, 64, quality)
+    corners = mesh["corners"].values
+    grid = PlateGrid(
+        points, corners, 0.0, quality, levels=levels, span=2.0, thickness=1.0, cells=64
+    )
     return grid.to_dataset().assign_attrs(solver_description=SOLVER, resolution="coarse")
 
 

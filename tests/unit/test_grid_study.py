@@ -33,10 +33,17 @@ def test_order_and_limit_stand_at_every_incidence() -> None:
     table = grid_study(polar(), CELLS).set_index(["coefficient", "incidence_deg"])
     assert table.loc[("cl", 2.5), "observed_order"] == pytest.approx(2.0)
     assert table.loc[("cl", 2.5), "extrapolated"] == pytest.approx(0.5)
-    assert table.loc[("cm", 0.0), "extrapolated"] == pytest.approx(0.0, abs=1e-12)
+    assert table.loc[("cm", 2.5), "extrapolated"] == pytest.approx(-0.5)
     assert table.loc[("cl", 2.5), "gci"] == pytest.approx(table.loc[("cl", 2.5)].gci_second_order)
     assert table.loc[("cd", 0.0), "convergence"] == "order undefined"
     assert math.isnan(table.loc[("cd", 0.0), "observed_order"])
+
+
+def test_what_is_nil_by_symmetry_has_no_line() -> None:
+    """Lift and moment at 0 deg are the iterations' remainders; drag there is not nil."""
+    table = grid_study(polar(), CELLS)
+    assert set(table.loc[table["incidence_deg"] == 0.0, "coefficient"]) == {"cd"}
+    assert set(table.loc[table["incidence_deg"] == 2.5, "coefficient"]) == {"cl", "cm", "cd"}
 
 
 def test_only_similar_meshes_are_compared_by_their_cells() -> None:

@@ -10,7 +10,7 @@ from equisection.solvers.openfoam import rigid_flow
 from equisection.solvers.openfoam.loads import Loads
 from equisection.solvers.openfoam.process import Watch
 from equisection.solvers.openfoam.rigid_flow import (
-    LOOKS_EVERY,
+    ITERATIONS_TO_LOOK,
     MOST,
     Record,
     follow_iterations,
@@ -58,9 +58,9 @@ def test_steady_loads_end_at_the_first_look_that_finds_them_converged(
     run = polled(monkeypatch, whole, interval)
     loads, converged = follow_iterations(tmp_path, has_converged, nothing, run)
     assert converged
-    assert loads.time[-1] % LOOKS_EVERY == 0
+    assert loads.time[-1] % ITERATIONS_TO_LOOK == 0
     assert has_converged(loads)
-    assert not has_converged(whole.until(loads.time[-1] - LOOKS_EVERY))
+    assert not has_converged(whole.until(loads.time[-1] - ITERATIONS_TO_LOOK))
 
 
 def test_steady_loads_that_do_not_converge_are_all_there(

@@ -187,7 +187,9 @@ def test_mesh_of_a_case_is_not_taken_for_its_result(
             points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
             one = np.ones(1)
             corners = np.arange(4)[None]
-            return SectionMesh(points, corners, one, time_step, case.incidence_deg, "", {})
+            return SectionMesh(
+                points, corners, case.incidence_deg, {}, courant=one, time_step=time_step, flow=""
+            )
 
     script = load_script("section_mesh")
     monkeypatch.setattr(script, "solver_from_case", lambda block: Meshing())
@@ -210,7 +212,16 @@ def test_mesh_of_the_plate_is_written_without_the_hash_of_its_case(
             assert work == tmp_path / case_hash(case) / "mesh"
             points = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
             corners, levels = np.arange(4)[None], np.array([0.0, 1.0])
-            return PlateGrid(points, corners, levels, 1.0, 0.1, case.incidence_deg, 1, {})
+            return PlateGrid(
+                points,
+                corners,
+                case.incidence_deg,
+                {},
+                levels=levels,
+                span=1.0,
+                thickness=0.1,
+                cells=1,
+            )
 
     script = load_script("plate_mesh")
     monkeypatch.setattr(script, "solver_from_case", lambda block: Meshing())

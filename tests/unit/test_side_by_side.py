@@ -12,14 +12,14 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from equisection.comparison import findings_loads as loads
-from equisection.comparison import findings_response as response
-from equisection.comparison.claims import CLAIMS
-from equisection.comparison.evidence import Evidence, read_evidence
-from equisection.comparison.findings import Verdict, graded
-from equisection.comparison.kept_runs import base_of, cost_ladder
 from equisection.comparison.paper_values import PUBLISHED, TABLE_1
-from equisection.comparison.side_by_side import main, page
+from equisection.comparison.side_by_side import findings_loads as loads
+from equisection.comparison.side_by_side import findings_response as response
+from equisection.comparison.side_by_side.__main__ import main, page
+from equisection.comparison.side_by_side.claims import CLAIMS
+from equisection.comparison.side_by_side.evidence import Evidence, read_evidence
+from equisection.comparison.side_by_side.findings import Verdict, graded
+from equisection.comparison.side_by_side.kept_runs import base_of, cost_ladder
 from equisection.errors import ResultFileError
 from equisection.results.section_mesh import no_mesh
 

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from equisection.comparison.side_by_side import main
+from equisection.comparison.side_by_side.__main__ import main
 from tests.workflow.project import ROOT, Project, jobs_planned
 
 

@@ -122,7 +122,7 @@ rule fig05_section_mesh:
             *DRAWING,
             "figures/fig05_section_mesh.py",
             "figures/mesh_lines.py",
-            "results/section_mesh.py",
+            "results/plane_mesh.py",
         ),
     message:
         "Fig. 5, mesh of the section"
@@ -263,7 +263,7 @@ rule fig09_plate_mesh:
             *DRAWING,
             "figures/fig09_plate_mesh.py",
             "figures/mesh_lines.py",
-            "results/section_mesh.py",
+            "results/plane_mesh.py",
         ),
         structure=RESOLVED["structure"],
     message:

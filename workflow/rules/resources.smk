@@ -52,6 +52,12 @@ def memory(wildcards, attempt):
     return attempt * cost.megabytes(work_of(wildcards), costs, ranks(wildcards))
 
 
+def memory_of_plate_mesh(wildcards, attempt):
+    """Return the memory of a job that makes the mesh of the beam (MB), on one rank."""
+    work = cost.steady_work(CONFIG, "3d", CONFIG.steady.resolution)
+    return attempt * cost.megabytes(work, COSTS.of(CONFIG.solver, "3d"), 1)
+
+
 def runtime(wildcards):
     """Return the time of a job (minutes), which goes on in the next one if that is too little."""
     costs = COSTS.of(CONFIG.solver, dimension_of(wildcards))

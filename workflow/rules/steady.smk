@@ -231,7 +231,7 @@ rule plate_mesh:
         ENVIRONMENT
     threads: 1
     resources:
-        mem_mb=4000,
+        mem_mb=memory_of_plate_mesh,
         runtime=60,
     params:
         store=STORE,

@@ -201,12 +201,8 @@ _DISCRETISATION = (
     Published("cells, 2D", 5.1e4, "Section 4.1", "about", "mesh"),
     Published("cells, 2D", 3.5e4, "Section 4.1, on Fig. 8", "equal", "Fig. 8"),
     Published("cells, 3D", 5e6, "Section 4.2", "about"),
-    Published(
-        "time step (s), 2D", 1.25e-6, "Section 4.1", note="printed as dt c/V, meant in seconds"
-    ),
-    Published(
-        "time step (s), 3D", 5.0e-7, "Section 4.2", note="printed as dt c/V, meant in seconds"
-    ),
+    Published("time step (s), 2D", 1.25e-6, "Section 4.1", note="if in seconds; printed as dt c/V"),
+    Published("time step (s), 3D", 5.0e-7, "Section 4.2", note="if in seconds; printed as dt c/V"),
     Published("cell size over chord at the wall, 2D", 0.004, "Section 4.1", "about"),
     Published("cell size over chord at the overset, 2D", 0.020, "Section 4.1", "about"),
     Published("cell size over chord in the wake, 2D", 0.040, "Section 4.1", "about"),

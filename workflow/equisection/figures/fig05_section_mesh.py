@@ -12,7 +12,7 @@ from equisection.figures.mesh_lines import draw_lines, quality_in_words
 from equisection.figures.panels import letter, without_data
 from equisection.figures.provenance import add_provenance, solver_of
 from equisection.figures.style import PAGE_WIDTH
-from equisection.results.section_mesh import edges
+from equisection.results.plane_mesh import edges
 
 #: Half widths of the near field and of the leading edge's detail (chords).
 NEAR_FIELD, LEADING_EDGE = (0.95, 0.55), (0.055, 0.042)

@@ -1,6 +1,7 @@
 """Fig. 6: lift and moment of the rigid section over incidence, at each resolution.
 
-With a grid study, their grid convergence index and observed order stand below.
+With a grid study, their grid convergence index and observed order stand below, where they are not
+nil by symmetry.
 """
 
 from __future__ import annotations

@@ -14,7 +14,7 @@ from equisection.figures.mesh_lines import draw_lines, quality_in_words
 from equisection.figures.panels import letter, say, without_data
 from equisection.figures.provenance import add_provenance, solver_of
 from equisection.figures.style import BLACK, BLUE, PAGE_WIDTH
-from equisection.results.section_mesh import edges
+from equisection.results.plane_mesh import edges
 
 Floats = NDArray[np.float64]
 

@@ -186,7 +186,7 @@ class Adapter:
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         coupling, ranks = self._settings.coupling, self._ranks
-        return PlateRun(installation, case, mesh, coupling, ranks, place).run(tell)
+        return PlateRun(installation, case, mesh, coupling, place, ranks).run(tell)
 
 
 _NOTHING = np.empty(0)

@@ -28,6 +28,7 @@ from equisection.files import write_text
 from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
 from equisection.solvers.openfoam.plate_mesh import SIDE_WALLS
 from equisection.solvers.openfoam.ranks import parts
+from equisection.solvers.openfoam.section_motion import displacement
 from equisection.structure.span import integrate
 
 Floats = NDArray[np.float64]
@@ -264,20 +265,14 @@ def write_lumped_motion(folder: Path, points: LumpedPoints, comms: Mapping[str, 
 
 
 def _point_displacement() -> str:
-    at_rest: dict[str, Any] = {"type": "fixedValue", "value": "uniform (0 0 0)"}
     walls = {"floor": "symmetryPlane", "ceiling": "symmetryPlane", **SIDE_WALLS}
-    entries = {
-        "dimensions": "[0 1 0 0 0 0 0]",
-        "internalField": "uniform (0 0 0)",
-        "boundaryField": {
-            "inlet": at_rest,
-            "outlet": at_rest,
+    return displacement(
+        {
             **{name: {"type": kind} for name, kind in walls.items()},
             PLATE: {"type": "lumpedPointDisplacement", "value": "uniform (0 0 0)"},
             '"proc.*"': {"type": "processor", "value": "uniform (0 0 0)"},
-        },
-    }
-    return dictionary("pointDisplacement", entries, "pointVectorField")
+        }
+    )
 
 
 def motion_solvers() -> dict[str, Any]:

@@ -28,10 +28,11 @@ from equisection.files import write_text
 from equisection.solvers.openfoam import flow
 from equisection.solvers.openfoam.case_folder import emptied
 from equisection.solvers.openfoam.dictionaries import control, dictionary, write_system
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL
 from equisection.solvers.openfoam.loads import Loads
 from equisection.solvers.openfoam.overset_mesh import OVERSET, OversetMesh
 from equisection.solvers.openfoam.rigid_flow import MOST, Tell
-from equisection.solvers.openfoam.section_free import STATE_INTERVAL, SectionRun
+from equisection.solvers.openfoam.section_free import SectionRun
 from equisection.solvers.openfoam.section_history import SectionHistory, read_section
 from equisection.solvers.openfoam.section_motion import Motion, rigid_body, write_displacement
 from equisection.solvers.openfoam.section_rigid import iterate, make_mesh

@@ -17,7 +17,6 @@ from typing import IO
 
 import numpy as np
 
-from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
 from equisection.motion.modal_response import ModalStep, Staggered
 from equisection.results.tip_flow import TipFlow
@@ -33,7 +32,7 @@ from equisection.solvers.openfoam.case_folder import (
     states,
 )
 from equisection.solvers.openfoam.dictionaries import write_system
-from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun
 from equisection.solvers.openfoam.loads import BEYOND_REASON
 from equisection.solvers.openfoam.lumped_points import (
     Handed,
@@ -60,7 +59,6 @@ from equisection.solvers.openfoam.process import (
 )
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
 from equisection.solvers.openfoam.rigid_flow import Tell
-from equisection.solvers.openfoam.section_free import STATE_INTERVAL
 from equisection.solvers.openfoam.section_rigid import require_sound_mesh
 from equisection.solvers.openfoam.spent import spent
 from equisection.solvers.openfoam.tip_flow import Pose, sample_tip_flow
@@ -83,36 +81,16 @@ _ROOM = 0.1
 
 
 @dataclass(frozen=True)
-class PlateRun:
-    """The run of one case.
+class PlateRun(FreeRun[PlateMesh]):
+    """The run of one case of the plate.
 
     Attributes
     ----------
-    installation
-        OpenFOAM.
-    case
-        The case.
-    mesh
-        Its mesh.
-    coupling
-        Of flow, loads and motion in a time step.
     ranks
         Ranks of MPI that a program runs on.
-    work
-        Where its folders are.
     """
 
-    installation: Installation
-    case: UnsteadyCase
-    mesh: PlateMesh
-    coupling: flow.Coupling
     ranks: int
-    work: Path
-
-    @property
-    def folder(self) -> Path:
-        """Folder of the free run, beside that of the steady flow which it starts from."""
-        return self.work / "free"
 
     @property
     def history_file(self) -> Path:
@@ -161,14 +139,10 @@ class PlateRun:
 
     def _set_up(self, tell: Tell) -> None:
         """Make the folder of the free run from the rigid steady flow, converged or not."""
-        case = self.case
-
-        def nothing_yet(done: float, total: float) -> None:
-            del done, total
-            tell(0.0, case.duration)
-
-        rigid = PlateFlow(self.installation, case, self.mesh, self.coupling, self.ranks, self.work)
-        source, _, converged = rigid.steady(nothing_yet)
+        rigid = PlateFlow(
+            self.installation, self.case, self.mesh, self.coupling, self.ranks, self.work
+        )
+        source, _, converged = rigid.steady(self.before_release(tell))
         if not converged:
             logger.info("the steady flow does not converge; the release is from its last state")
         folder = emptied(self.folder)

@@ -19,11 +19,12 @@ from equisection.files import write_text
 from equisection.solvers.openfoam.dictionaries import dictionary
 from equisection.solvers.openfoam.loads import Loads, first_known, read_loads, require_reasonable
 from equisection.solvers.openfoam.process import Every, Watch
+from equisection.solvers.verdicts import LOOKS_EVERY
 
 #: Relative half range of the loads over the last iterations of a converged steady run.
 CONVERGED, WINDOW, FEWEST, MOST = 5e-4, 150, 300, 3000
-#: Iterations from one look at a steady run to the next, and time (c/V) of an unsteady one.
-LOOKS_EVERY, LOOKS_AFTER = 50, 5.0
+#: Iterations from one look at a steady run to the next.
+ITERATIONS_TO_LOOK = 50
 #: Time step of a rigid unsteady run (c/V), and the relative difference of the means of its halves
 #: at which they count as known.
 STEP, KNOWN = 0.02, 0.01
@@ -80,11 +81,11 @@ def follow_iterations(
     BlowUpError
         The loads are beyond reason.
     """
-    seen = Every(LOOKS_EVERY)
+    seen = Every(ITERATIONS_TO_LOOK)
 
     def known(loads: Loads) -> Loads | None:
         require_reasonable(loads, folder)
-        return first_known(loads, is_converged, FEWEST, LOOKS_EVERY)
+        return first_known(loads, is_converged, FEWEST, ITERATIONS_TO_LOOK)
 
     def watch(iteration: float) -> bool:
         tell(iteration, MOST)
@@ -111,13 +112,13 @@ def follow_unsteady(
     BlowUpError
         The loads are beyond reason.
     """
-    seen = Every(LOOKS_AFTER)
+    seen = Every(LOOKS_EVERY)
     shortest = record.discarded + record.shortest
 
     def known(loads: Loads) -> Loads | None:
         require_reasonable(loads, folder)
         return first_known(
-            loads, lambda part: part.since(record.discarded).drift() <= KNOWN, shortest, LOOKS_AFTER
+            loads, lambda part: part.since(record.discarded).drift() <= KNOWN, shortest, LOOKS_EVERY
         )
 
     def watch(time: float) -> bool:

@@ -29,7 +29,7 @@ from equisection.solvers.openfoam.case_folder import (
     mark_ready,
 )
 from equisection.solvers.openfoam.dictionaries import control, write_system
-from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun
 from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
 from equisection.solvers.openfoam.mesh import Mesh
 from equisection.solvers.openfoam.mesh_quality import MorphingMesh
@@ -50,8 +50,6 @@ from equisection.solvers.verdicts import (
 
 logger = logging.getLogger(__name__)
 
-#: Interval of the states that a run is resumed from (c/V).
-STATE_INTERVAL = 2.0
 #: Obliqueness of a face (deg) beyond which a mesh is as good as tangled: the state that is known is
 #: that before the blow-up.
 _OBLIQUE = 80.0
@@ -60,33 +58,8 @@ _AT_RELEASE = "release.json"
 
 
 @dataclass(frozen=True)
-class SectionRun:
-    """The run of one case.
-
-    Attributes
-    ----------
-    installation
-        OpenFOAM.
-    case
-        The case.
-    mesh
-        Its mesh.
-    coupling
-        Of flow, loads and motion in a time step.
-    work
-        Where its folders are.
-    """
-
-    installation: Installation
-    case: UnsteadyCase
-    mesh: Mesh
-    coupling: flow.Coupling
-    work: Path
-
-    @property
-    def folder(self) -> Path:
-        """Folder of the free run, beside that of the steady flow which it starts from."""
-        return self.work / "free"
+class SectionRun(FreeRun[Mesh]):
+    """The run of one case of the section."""
 
     def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
         """Make the rigid steady flow, as :func:`~.section_rigid.run_steady` does."""
@@ -190,14 +163,7 @@ class SectionRun:
 
     def _set_up(self, tell: Tell) -> None:
         """Make the folder of the free run from the rigid steady flow, converged or not."""
-        case = self.case
-        assert case.section is not None
-
-        def nothing_yet(done: float, total: float) -> None:
-            del done, total
-            tell(0.0, case.duration)
-
-        source, loads, converged = self.steady(nothing_yet)
+        source, loads, converged = self.steady(self.before_release(tell))
         if not converged:
             logger.info("the steady flow does not converge; the release is from its last state")
         folder = emptied(self.folder)

@@ -108,23 +108,26 @@ def rigid_body(section: SectionProperties, rigid_within: float, still: float) ->
 
 def write_displacement(folder: Path, further: Mapping[str, Entries] | None = None) -> None:
     """Write the field ``pointDisplacement`` at time 0, with patches beyond those of the channel."""
-    at_rest = {"type": "fixedValue", "value": "uniform (0 0 0)"}
     mirror = {"type": "symmetryPlane"}
+    patches = {
+        "floor": mirror,
+        "ceiling": mirror,
+        PLATE: {"type": "calculated"},
+        "sides": {"type": "empty"},
+        **(further or {}),
+    }
+    write_text(folder / "0" / "pointDisplacement", displacement(patches))
+
+
+def displacement(patches: Mapping[str, Entries]) -> str:
+    """Return the field ``pointDisplacement`` of a mesh at rest; inlet and outlet stay there."""
+    at_rest = {"type": "fixedValue", "value": "uniform (0 0 0)"}
     entries = {
         "dimensions": "[0 1 0 0 0 0 0]",
         "internalField": "uniform (0 0 0)",
-        "boundaryField": {
-            "inlet": at_rest,
-            "outlet": at_rest,
-            "floor": mirror,
-            "ceiling": mirror,
-            PLATE: {"type": "calculated"},
-            "sides": {"type": "empty"},
-            **(further or {}),
-        },
+        "boundaryField": {"inlet": at_rest, "outlet": at_rest, **patches},
     }
-    text = dictionary("pointDisplacement", entries, "pointVectorField")
-    write_text(folder / "0" / "pointDisplacement", text)
+    return dictionary("pointDisplacement", entries, "pointVectorField")
 
 
 def motion_output() -> dict[str, Any]:

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from equisection.comparison.evidence import Evidence
-from equisection.comparison.findings import Finding, Verdict, graded, open_finding, percent
 from equisection.comparison.paper_values import BUBBLE_2D, BUBBLE_AT_ROOT, COEFFICIENTS, TABLE_1
+from equisection.comparison.side_by_side.evidence import Evidence
+from equisection.comparison.side_by_side.findings import (
+    Finding,
+    Verdict,
+    graded,
+    open_finding,
+    percent,
+)
 from equisection.results.section_mesh import share_below
 
 #: The finest mesh of Table 1, which is the one to judge by.
@@ -192,8 +198,8 @@ def courant_number(evidence: Evidence) -> Finding:
         f"below 2 in {100 * cells_below_2:.0f} % of the cells, below 1.5 in "
         f"{100 * area_below:.1f} % of the area; largest {courant.max():.2g}",
         f"{mesh.attrs['solver_description']}, {float(mesh.attrs['time_step']):g} c/V a step",
-        "The paper's step of 1.25e-6, printed without dimension and meant in seconds, is "
-        "2.5e-4 c/V.",
+        "The paper's step is 2.5e-4 c/V if its 1.25e-6 are seconds, and 0.05 c/V if they are "
+        "dt c/V in SI units, as printed ([openfoam.md](openfoam.md#the-papers-cell-sizes)).",
     )
 
 

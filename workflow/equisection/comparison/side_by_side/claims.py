@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from equisection.comparison import findings_loads as loads
-from equisection.comparison import findings_response as response
-from equisection.comparison.evidence import Evidence
-from equisection.comparison.findings import Finding
+from equisection.comparison.side_by_side import findings_loads as loads
+from equisection.comparison.side_by_side import findings_response as response
+from equisection.comparison.side_by_side.evidence import Evidence
+from equisection.comparison.side_by_side.findings import Finding
 
 
 @dataclass(frozen=True)

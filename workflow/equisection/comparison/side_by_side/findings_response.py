@@ -7,8 +7,9 @@ import math
 import numpy as np
 import pandas as pd
 
-from equisection.comparison.evidence import Evidence
-from equisection.comparison.findings import (
+from equisection.comparison.paper_values import PUBLISHED
+from equisection.comparison.side_by_side.evidence import Evidence
+from equisection.comparison.side_by_side.findings import (
     Finding,
     Verdict,
     graded,
@@ -16,8 +17,7 @@ from equisection.comparison.findings import (
     percent,
     resolution_of,
 )
-from equisection.comparison.kept_runs import base_of, cost_ladder
-from equisection.comparison.paper_values import PUBLISHED
+from equisection.comparison.side_by_side.kept_runs import base_of, cost_ladder
 
 _SECTION, _CORRECTED, _BEAM = "2d", "2d-corrected", "3d"
 #: Twist amplitude (deg) up to which a run has means that are compared, growing or not.

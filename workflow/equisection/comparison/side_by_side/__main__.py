@@ -18,11 +18,11 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.comparison.claims import CLAIMS, Claim
-from equisection.comparison.evidence import Evidence, read_evidence
-from equisection.comparison.findings import Finding
-from equisection.comparison.kept_runs import base_of, cost_ladder
 from equisection.comparison.paper_values import PUBLISHED
+from equisection.comparison.side_by_side.claims import CLAIMS, Claim
+from equisection.comparison.side_by_side.evidence import Evidence, read_evidence
+from equisection.comparison.side_by_side.findings import Finding
+from equisection.comparison.side_by_side.kept_runs import base_of, cost_ladder
 from equisection.errors import EquisectionError
 from equisection.files import write_text
 

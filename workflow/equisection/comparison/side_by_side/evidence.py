@@ -11,8 +11,8 @@ import pandas as pd
 import xarray as xr
 
 from equisection.comparison.bubble import plate_bubble_table
-from equisection.comparison.kept_runs import kept_runs
 from equisection.comparison.missing import missing_table
+from equisection.comparison.side_by_side.kept_runs import kept_runs
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset
 
