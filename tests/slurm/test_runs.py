@@ -6,9 +6,11 @@ import pandas as pd
 import pytest
 
 from equisection.config import load_config
+from equisection.jobs import solver_jobs
 from equisection.results.netcdf import read_dataset
-from equisection.solvers import cost
+from equisection.solvers.cost import COST_MODEL, read_cost_model
 from equisection.solvers.openfoam.installation import Installation
+from tests.conftest import ROOT
 from tests.slurm.cluster_project import ClusterProject
 from tests.slurm.node import Node, said
 from tests.workflow.project import small
@@ -39,16 +41,12 @@ def test_default_solver_to_the_summary(node: Node, project: ClusterProject) -> N
     assert set(table["k_star"]) == {6.0, 10.0, 21.0}
     assert "failed" not in set(table["regime"])
 
-    config = load_config(project.config)
-    work = cost.unsteady_work(config, "2d", 3)
-    per_cell = cost.read_cost_model(project.folder / "workflow" / "profiles" / "cost.yaml").of(
-        "embedded", "2d"
-    )
+    *_, told = solver_jobs(load_config(project.config), read_cost_model(ROOT / COST_MODEL))
     job = asked_for(node, "unsteady_batch")
     assert job["JobState"] == "COMPLETED"
     assert job["NumTasks"] == job["NumCPUs"] == "1"
-    assert minutes(job["TimeLimit"]) == cost.minutes(work, per_cell, 1)
-    assert job["MinMemoryNode"] == f"{cost.megabytes(work, per_cell, 1)}M"
+    assert minutes(job["TimeLimit"]) == told.minutes
+    assert job["MinMemoryNode"] == f"{told.megabytes}M"
 
 
 def coarser(project: ClusterProject) -> None:
