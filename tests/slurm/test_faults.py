@@ -78,7 +78,7 @@ def starts(project: Project) -> list[float]:
 
 
 def ends_well(workflow: subprocess.Popen[str]) -> str:
-    said_by_it, _ = workflow.communicate(timeout=240)
+    said_by_it, _ = workflow.communicate(timeout=1200)
     assert workflow.returncode == 0, said_by_it
     return said_by_it
 
@@ -101,7 +101,7 @@ def test_case_that_is_cancelled_is_told_and_goes_on_at_the_next_start(
 ) -> None:
     workflow, job = begun("--retries=0")
     subprocess.run(["scancel", job], check=True)
-    told, _ = workflow.communicate(timeout=240)
+    told, _ = workflow.communicate(timeout=1200)
     assert workflow.returncode == 1
     assert f"SLURM-job '{job}' failed, SLURM status is: 'CANCELLED'" in told
     assert not (case.results / RESULT).exists()

@@ -38,7 +38,7 @@ def test_second_waits_for_the_first_and_takes_its_result(
     wait_until(lambda: log.is_file() and "runs this case; waiting" in log.read_text(), 180)
     solver.resume()
     for workflow in (ahead, behind):
-        said, _ = workflow.communicate(timeout=240)
+        said, _ = workflow.communicate(timeout=1200)
         assert workflow.returncode == 0, said
     assert "runs this case; waiting for its result" in said
 
