@@ -90,7 +90,7 @@ def test_plate_on_two_ranks_to_the_summary(
     project.run(project.target(SUMMARY))
     (row,) = pd.read_csv(project.results / SUMMARY).to_dict("records")
     assert (row["model"], row["k_star"], row["solver"]) == ("3d", 10.0, "openfoam")
-    assert row["end_time"] == pytest.approx(2.0)
+    assert 1.79 < row["end_time"] < 2.01  # the last interval may lack its end
     found = read_dataset(project.results / "unsteady" / "3d" / "k10.nc")
     assert found["twist"][-1] > found["twist"][0] == 0.0
     for program in ("simpleFoam", "pimpleFoam"):
