@@ -10,13 +10,12 @@ import shutil
 import signal
 import subprocess
 import sys
-import time
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.processes import wait_until
 from tests.sample_cases import STEADY_PLATE, UNSTEADY_PLATE, beam_modes
 
 from equisection.cases import UnsteadyCase
@@ -350,7 +349,7 @@ def test_solver_ends_with_the_structure_that_is_killed(
     assert Path(f"/proc/{solver}").exists()
     structure.kill()
     structure.wait()
-    wait_until(lambda: not Path(f"/proc/{solver}").exists())
+    wait_until(lambda: not Path(f"/proc/{solver}").exists(), 60)
 
 
 def test_plate_that_diverges_ends_before_it_meets_the_wall(
@@ -379,10 +378,3 @@ def solver_of(folder: Path) -> int:
     """Return the process of the solver, as it says itself."""
     said = (folder / "log.pimpleFoam").read_text()
     return int(re.findall(r"^PID\s*: (\d+)", said, re.MULTILINE)[-1])
-
-
-def wait_until(condition: Callable[[], bool], seconds: float = 10.0) -> None:
-    end = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < end
-        time.sleep(0.1)

@@ -163,6 +163,16 @@ class TestFlutter:
         np.testing.assert_allclose(p.imag, [math.sqrt(0.4), 3.0], rtol=1e-7)
         np.testing.assert_allclose(p.real, 0.0, atol=1e-7)
 
+    def test_slow_motions_far_below_divergence_are_found(self):
+        """Half of the way in each round goes to and fro here, without an end."""
+        section = TypicalSection(621.2183, 19.31120, 0.3852723, 1.0, -0.1162656, -0.2037957)
+        scales = np.geomspace(50.0, 0.2, 60)
+        for scale, roots in zip(scales, growth_and_frequency(section, scales), strict=True):
+            for p in roots:
+                left = scale * section.stiffness_matrix - section.air.influence(max(p.imag, 0.0))
+                terms = p**2 * section.mass_matrix + left
+                assert abs(np.linalg.det(terms)) < 1e-8 * np.abs(left).max() ** 2
+
     def test_order_of_the_scales_does_not_matter(self):
         scales = np.array([4.0, 21.0, 8.0])
         p = growth_and_frequency(PLATE, scales)

@@ -51,11 +51,14 @@ SlurmdTimeout=30
 KillWait=1
 ReturnToService=2
 MinJobAge=3600
+PreemptType=preempt/partition_prio
+PreemptMode=REQUEUE
 JobCompType=jobcomp/none
 AccountingStorageType=accounting_storage/none
 JobAcctGatherType=jobacct_gather/none
 NodeName={host} NodeAddr=127.0.0.1 CPUs=8 RealMemory=64000 State=UNKNOWN
-PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP
+PartitionName=main Nodes={host} Default=YES MaxTime=INFINITE State=UP PriorityTier=1
+PartitionName=urgent Nodes={host} MaxTime=INFINITE State=UP PriorityTier=2
 """
 
 
@@ -120,7 +123,7 @@ class Node:
         munged = self._daemon(
             "munged", "--foreground", "--force", *(f"--{k}={v}" for k, v in options.items())
         )
-        wait_until((place / "socket").exists, 10)
+        wait_until((place / "socket").exists, 60)
         return munged
 
     def _daemon(self, *command: str) -> subprocess.Popen[bytes]:
@@ -136,7 +139,7 @@ class Node:
     def start_node(self) -> None:
         """Start the node and wait until it takes jobs."""
         self._node = self._daemon("slurmd", "-D", "-N", self.host)
-        wait_until(lambda: self._state() in {"idle", "mixed", "allocated"}, 30)
+        wait_until(lambda: self._state() in {"idle", "mixed", "allocated"}, 120)
 
     def lose_node(self) -> None:
         """Take the power from the node: its daemon is gone, and all processes of its jobs.
@@ -186,7 +189,7 @@ class Node:
 
     def running(self) -> str:
         """Wait for a job that runs; return its number."""
-        wait_until(lambda: self.jobs("running"), 60)
+        wait_until(lambda: self.jobs("running"), 180)
         (number, *_) = self.jobs("running")
         return number
 

@@ -12,23 +12,33 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
+import psutil
 import pytest
 
 from equisection.results.netcdf import read_dataset
 from tests.processes import process_in, wait_until
 from tests.slurm.cluster_project import ClusterProject
 from tests.slurm.conftest import RESULT
-from tests.slurm.node import AS_ROOT, Node
+from tests.slurm.node import AS_ROOT, Node, said
 from tests.workflow.project import Project, has_nothing_to_do
 
 Begun = Callable[..., tuple[subprocess.Popen[str], str]]
-#: Seconds of a time step at which there is time to disturb a run of 1000 of them.
-SLOW = "0.006"
+SUMMARY = "comparison/summary.csv"
+#: Seconds of a time step at which there is time to find the program of a run of 1000 of them.
+SLOW = "0.01"
 
 
 def free_folder(project: Project) -> Path | None:
     """Return where the free section runs, once it does."""
     return next(iter((project.folder / "results" / ".store").glob("*/case0/free")), None)
+
+
+def solver_of(project: Project) -> psutil.Process:
+    """Return the program that runs the free section."""
+    folder = free_folder(project)
+    assert folder is not None
+    return process_in(folder)
 
 
 def can_be_gone_on_with(project: Project) -> bool:
@@ -40,14 +50,15 @@ def can_be_gone_on_with(project: Project) -> bool:
 
 @pytest.fixture
 def begun(case: ClusterProject, node: Node, monkeypatch: pytest.MonkeyPatch) -> Begun:
-    """Start a slow run and return it with the number of its job, a while into it."""
+    """Start a slow run and return it with the number of its job, held a while into it."""
 
     def start(*arguments: str) -> tuple[subprocess.Popen[str], str]:
         monkeypatch.setenv("STAND_IN_PACE", SLOW)
         workflow = case.start(*arguments, case.target(RESULT))
         monkeypatch.delenv("STAND_IN_PACE")
         job = node.running()
-        wait_until(lambda: can_be_gone_on_with(case), 60)
+        wait_until(lambda: can_be_gone_on_with(case), 180)
+        solver_of(case).suspend()  # or it may come to its end before it is disturbed
         return workflow, job
 
     return start
@@ -67,17 +78,22 @@ def starts(project: Project) -> list[float]:
 
 
 def ends_well(workflow: subprocess.Popen[str]) -> str:
-    said_by_it, _ = workflow.communicate(timeout=240)
+    said_by_it, _ = workflow.communicate(timeout=1200)
     assert workflow.returncode == 0, said_by_it
     return said_by_it
 
 
 def assert_same_result(project: Project, undisturbed: Project) -> None:
+    """The history, the verdict and the summary are those of a run that nothing has happened to."""
     one, other = (read_dataset(run.results / RESULT) for run in (project, undisturbed))
     for name in ("time", "twist", "deflection", "cl", "cm"):
         np.testing.assert_allclose(one[name], other[name], atol=1e-12)
     for name in ("regime", "end_time", "twist_amplitude_deg", "case_hash"):
         assert one.attrs[name] == other.attrs[name]
+    project.run(project.target(SUMMARY))
+    (row,) = pd.read_csv(project.results / SUMMARY).to_dict("records")
+    assert (row["k_star"], row["regime"]) == (5.0, other.attrs["regime"])
+    assert row["end_time"] == pytest.approx(other.attrs["end_time"])
 
 
 def test_case_that_is_cancelled_is_told_and_goes_on_at_the_next_start(
@@ -85,7 +101,7 @@ def test_case_that_is_cancelled_is_told_and_goes_on_at_the_next_start(
 ) -> None:
     workflow, job = begun("--retries=0")
     subprocess.run(["scancel", job], check=True)
-    told, _ = workflow.communicate(timeout=60)
+    told, _ = workflow.communicate(timeout=1200)
     assert workflow.returncode == 1
     assert f"SLURM-job '{job}' failed, SLURM status is: 'CANCELLED'" in told
     assert not (case.results / RESULT).exists()
@@ -101,11 +117,8 @@ def test_case_over_its_time_limit_goes_on_in_a_new_job(
     begun: Begun, node: Node, case: ClusterProject, undisturbed: Project
 ) -> None:
     workflow, job = begun()
-    folder = free_folder(case)
-    assert folder is not None
-    process_in(folder).suspend()  # or it may come to its end before the limit is enforced
     subprocess.run(["scontrol", "update", f"JobId={job}", "EndTime=now"], check=True)
-    wait_until(lambda: node.jobs()[job] == "TIMEOUT", 90)
+    wait_until(lambda: node.jobs()[job] == "TIMEOUT", 180)
     ends_well(workflow)
     assert_same_result(case, undisturbed)
     assert [owner["ended"] > 0 for owner in owners(case)] == [False, True]
@@ -118,8 +131,22 @@ def test_case_whose_node_is_lost_goes_on_when_it_returns(
     """SLURM puts the same job into the queue again (`slurm-requeue`)."""
     workflow, job = begun()
     node.lose_node()
-    wait_until(lambda: job not in node.jobs("running"), 60)
+    wait_until(lambda: job not in node.jobs("running"), 180)
     node.start_node()
+    ends_well(workflow)
+    assert_same_result(case, undisturbed)
+    assert [owner["job"] for owner in owners(case)] == [job, job]
+    assert starts(case)[1] >= 2.0
+
+
+def test_case_that_is_preempted_goes_on_in_the_same_job(
+    begun: Begun, node: Node, case: ClusterProject, undisturbed: Project
+) -> None:
+    """A job of a partition of higher priority wants the whole node; the case is requeued."""
+    workflow, job = begun()
+    wanted = ("--partition=urgent", "--exclusive", "--output=/dev/null", "--wrap=true")
+    urgent = said("sbatch", "--parsable", *wanted).strip()
+    wait_until(lambda: node.jobs().get(urgent) == "COMPLETED", 180)
     ends_well(workflow)
     assert_same_result(case, undisturbed)
     assert [owner["job"] for owner in owners(case)] == [job, job]
@@ -131,19 +158,15 @@ def test_job_that_a_killed_workflow_left_is_waited_for(
 ) -> None:
     """The second workflow cannot know of the job, but its own finds the directory owned."""
     workflow, job = begun()
-    folder = free_folder(case)
-    assert folder is not None
-    solver = process_in(folder)
-    solver.suspend()
     os.killpg(workflow.pid, signal.SIGKILL)
     workflow.communicate()
     case.run("--unlock")
     workflow = case.start(case.target(RESULT))
     log = case.results / "logs" / "unsteady_2d_k5.log"
     words = f"SLURM job {job}, process "
-    wait_until(lambda: log.is_file() and words in log.read_text(), 60)
+    wait_until(lambda: log.is_file() and words in log.read_text(), 180)
     assert job in node.jobs("running")
-    solver.resume()
+    solver_of(case).resume()
     ends_well(workflow)
     assert_same_result(case, undisturbed)
     first, second = owners(case)

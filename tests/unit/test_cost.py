@@ -12,6 +12,7 @@ from equisection.cases import SolverBlock, canonical, case_hash
 from equisection.command_line import main
 from equisection.config import load_config
 from equisection.errors import ConfigError
+from equisection.jobs import solver_jobs
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.solvers import cost
 from equisection.solvers.cost import CellCost, megabytes, minutes, read_cost_model, seconds
@@ -161,3 +162,54 @@ def test_solver_without_an_entry_is_told(tmp_path: Path) -> None:
     path.write_text(yaml.safe_dump({"openfoam": {"2d": CELL.model_dump()}}))
     with pytest.raises(ConfigError, match=r"openfoam\.3d.*profiles/cost\.yaml"):
         read_cost_model(path).of("openfoam", "3d")
+
+
+REFINED = {"k_star": [5.0, 6.0, 8.0], "models": ["2d", "3d"], "onset": "refine", "onset_points": 3}
+
+
+def test_jobs_of_a_solver_that_runs_one_case_each() -> None:
+    raw = {**OPENFOAM, "steady": {"incidence_deg": [0.0, 2.5, 5.0, 10.0]}, "sweep": REFINED}
+    raw["openfoam"] = {"outer_correctors": 3, "ranks": 4}
+    config, model = load_config(raw), read_cost_model(COSTS)
+    section, plate, free_section, free_plate = solver_jobs(config, model)
+    assert (section.what, plate.what) == ("rigid 2d, coarse", "rigid 3d, coarse")
+    assert section.number == plate.number == 4
+    # a third of the bracket narrows to 0.02 in three rounds of three
+    assert free_section.number == free_plate.number == 3 + 3 * 3
+    assert (free_section.ranks, free_plate.ranks) == (1, 4)
+    work, per_cell = cost.unsteady_work(config, "3d"), model.of("openfoam", "3d")
+    assert free_plate.core_hours == pytest.approx(12 * seconds(work, per_cell) / 3600)
+    assert free_plate.megabytes == megabytes(work, per_cell, 4)
+    assert free_plate.minutes == minutes(work, per_cell, 4)
+
+
+def test_batch_is_one_job_and_so_is_each_round() -> None:
+    raw = {"steady": {"incidence_deg": [0.0, 2.5, 5.0, 10.0]}, "sweep": REFINED}
+    section, _, free_section, _ = solver_jobs(load_config(raw), read_cost_model(COSTS))
+    assert (section.number, section.cells) == (1, 4)
+    assert (free_section.number, free_section.cells) == (1 + 3, 3)
+
+
+def test_command_tells_what_jobs_ask_for(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(ROOT)
+    own = tmp_path / "own.yaml"
+    own.write_text(yaml.safe_dump(OPENFOAM | {"sweep": {"k_star": [5.0], "models": ["2d"]}}))
+    assert main(["cost", str(own)]) == 0
+    lines = [line.split() for line in capsys.readouterr().out.splitlines()]
+    (free,) = (line for line in lines if line[:1] == ["2d"])
+    assert free[1:4] == ["1", "11,136", "1"]
+    (total,) = (line for line in lines if line[:1] == ["all"])
+    rows = [line for line in lines if line[:1] in (["rigid"], ["2d"])]
+    assert float(total[-1]) == pytest.approx(sum(float(line[-1]) for line in rows), rel=0.01)
+
+    own.write_text("compute: false\n")
+    assert main(["cost", str(own)]) == 0
+    assert "no job runs a solver" in capsys.readouterr().out
+    own.write_text("solver: nothing\n")
+    assert main(["cost", str(own)]) == 1
+    assert "solver" in capsys.readouterr().err
+    monkeypatch.chdir(tmp_path)
+    assert main(["cost"]) == 1
+    assert "config/config.yaml: cannot be read" in capsys.readouterr().err

@@ -209,7 +209,7 @@ def test_solver_killed_at_random_moments_comes_to_the_undisturbed_result(
 
 def _program_of(job: subprocess.Popen[str]) -> int:
     """Return the process of the free run that a job has started, once it has."""
-    end = time.monotonic() + 30
+    end = time.monotonic() + 120
     while time.monotonic() < end:
         for child in psutil.Process(job.pid).children():
             if child.status() != psutil.STATUS_ZOMBIE and "pimpleFoam" in child.cmdline():

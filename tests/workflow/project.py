@@ -115,7 +115,7 @@ class Project:
             stderr=subprocess.STDOUT,
             text=True,
             check=False,
-            timeout=300,
+            timeout=1800,
         )
 
     def run(self, *arguments: str) -> str:

@@ -8,6 +8,8 @@ from snakemake.utils import update_config
 
 from equisection import plan
 from equisection.config import load_config
+from equisection.jobs import solver_jobs
+from equisection.solvers.cost import COST_MODEL, read_cost_model
 from equisection.solvers.registry import SOLVERS, Capability
 from tests.workflow.project import ROOT, Project, jobs_planned, one_case_at_a_time, small
 
@@ -51,6 +53,8 @@ ONCE_WITH_BEAM_AND = {
     Capability.SURFACE: ("fig11_plate_surface",),
     Capability.FIELDS: ("fig12_tip_flow",),
 }
+
+RUN_A_SOLVER = ("steady_batch", "steady_case", "unsteady_batch", "unsteady_case")
 
 
 def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
@@ -124,7 +128,10 @@ def test_dry_run_of_a_shipped_config_plans_the_jobs_that_it_asks_for(
 
     assert ended.returncode == 0, ended.stdout
     batches = Capability.BATCH in SOLVERS[raw["solver"]].provides
-    assert jobs_planned(ended.stdout) == jobs_wanted(raw, batches)
+    planned = jobs_planned(ended.stdout)
+    assert planned == jobs_wanted(raw, batches)
+    asked = solver_jobs(load_config(raw), read_cost_model(ROOT / COST_MODEL))
+    assert sum(jobs.number for jobs in asked) == sum(planned[rule] for rule in RUN_A_SOLVER)
     created = {
         path.relative_to(clone.folder).parts[0] for path in set(clone.folder.rglob("*")) - before
     }

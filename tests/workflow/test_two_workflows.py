@@ -26,19 +26,19 @@ def test_second_waits_for_the_first_and_takes_its_result(
     for run in (first, second):
         run.run(run.target("cases/unsteady/2d/k5.json"))
 
-    monkeypatch.setenv("STAND_IN_PACE", "0.002")
+    monkeypatch.setenv("STAND_IN_PACE", "0.006")
     store = project.folder / "results" / ".store"
     ahead = first.start(first.target(RESULT))
-    wait_until(lambda: list(store.rglob("log.pimpleFoam")), 60)
+    wait_until(lambda: list(store.rglob("log.pimpleFoam")), 180)
     (folder,) = store.glob("*/case0/free")
     solver = process_in(folder)
     solver.suspend()
     behind = second.start(second.target(RESULT))
     log = second.results / "logs" / "unsteady_2d_k5.log"
-    wait_until(lambda: log.is_file() and "runs this case; waiting" in log.read_text(), 60)
+    wait_until(lambda: log.is_file() and "runs this case; waiting" in log.read_text(), 180)
     solver.resume()
     for workflow in (ahead, behind):
-        said, _ = workflow.communicate(timeout=60)
+        said, _ = workflow.communicate(timeout=1200)
         assert workflow.returncode == 0, said
     assert "runs this case; waiting for its result" in said
 

@@ -10,9 +10,13 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import equisection
 from equisection.errors import ConfigError, EquisectionError
+
+if TYPE_CHECKING:  # what a command needs is imported there, so that --help comes at once
+    from equisection.config import Config
 
 _EXAMPLES = """\
 examples:
@@ -21,6 +25,7 @@ examples:
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
   equisection status --html status.html  the same as a page for a browser
+  equisection cost my-wing.yaml          what its jobs will ask for, and the core hours
   equisection verify                     whether results, figures and tables are what they say
   equisection cost-model                 what a cell of a mesh costs, by the results
   equisection polar results/my-beam/steady/2d/coarse_a*.nc > my_section.csv
@@ -36,7 +41,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 0
     try:
         if options.command == "folder":
-            print(_folder(options.configfile))
+            print(Path("results") / _config(options.configfile).run)
+        elif options.command == "cost":
+            _cost(options.configfile)
         elif options.command == "polar":
             print(_polar(options.results), end="")
         elif options.command == "keep":
@@ -113,6 +120,15 @@ def _parser() -> argparse.ArgumentParser:
         "configure, as 'snakemake --configfile' reads them.",
     )
     folder.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
+    cost = commands.add_parser(
+        "cost",
+        help="what a configuration's jobs ask for: memory, time, core hours",
+        description="List the jobs that run the solver, by config/config.yaml and the files given, "
+        "as 'snakemake --configfile' reads them: how many, and the memory and time that each asks "
+        "for. Core hours are those of all of them, at most: every run to its longest duration, "
+        "none taken from kept results. From the cost model, workflow/profiles/cost.yaml.",
+    )
+    cost.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
     polar = commands.add_parser(
         "polar",
         help="a polar file from steady results",
@@ -140,20 +156,20 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FOLDER",
         help="where to keep them (default: results/reference/<name of the run>)",
     )
-    cost = commands.add_parser(
+    cost_model = commands.add_parser(
         "cost-model",
         help="what a cell costs, by the results that are there",
         description="Fit the time of a cell of OpenFOAM's meshes to what results took, and print "
         "it. Jobs ask a cluster for time by it (docs/cluster.md).",
     )
-    cost.add_argument(
+    cost_model.add_argument(
         "folder",
         nargs="*",
         type=Path,
         metavar="FOLDER",
         help="where results are looked for (default: results)",
     )
-    cost.add_argument(
+    cost_model.add_argument(
         "--write",
         type=Path,
         metavar="FILE",
@@ -192,8 +208,22 @@ def _polar(results: Sequence[Path]) -> str:
     return polar_csv(results)
 
 
-def _folder(files: Sequence[Path]) -> Path:
-    """Return the results' folder of a configuration.
+def _cost(files: Sequence[Path]) -> None:
+    # Imported here, so that --help and --version come at once.
+    from rich.console import Console  # noqa: PLC0415
+
+    from equisection.jobs import solver_jobs, table  # noqa: PLC0415
+    from equisection.solvers.cost import COST_MODEL, read_cost_model  # noqa: PLC0415
+
+    jobs = solver_jobs(_config(files), read_cost_model(COST_MODEL))
+    if jobs:
+        Console(highlight=False).print(table(jobs))
+    else:
+        print("no job runs a solver: compute is false, results are taken from what is kept")
+
+
+def _config(files: Sequence[Path]) -> Config:
+    """Return the configuration that the files make on top of the default one.
 
     Raises
     ------
@@ -212,7 +242,7 @@ def _folder(files: Sequence[Path]) -> Path:
             update_config(raw, yaml.safe_load(path.read_text(encoding="utf-8")) or {})
         except (OSError, yaml.YAMLError, AttributeError) as error:
             raise ConfigError(f"{path}: cannot be read as a configuration ({error})") from None
-    return Path("results") / load_config(raw).run
+    return load_config(raw)
 
 
 def _status(folders: Sequence[Path], plain: bool, page: Path | None) -> None:

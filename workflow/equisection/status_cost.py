@@ -11,9 +11,6 @@ from equisection.listing import Listed
 from equisection.plan import angle_of
 from equisection.solvers import cost
 
-#: The cost model of a clone, as seen from where the workflow is started.
-COST_MODEL = Path("workflow") / "profiles" / "cost.yaml"
-
 
 class CostOfRun:
     """The cost of each case of a run, if it is known.
@@ -26,7 +23,7 @@ class CostOfRun:
         File of the cost model.
     """
 
-    def __init__(self, config: Config | None, model: Path = COST_MODEL) -> None:
+    def __init__(self, config: Config | None, model: Path = cost.COST_MODEL) -> None:
         self._config = config
         try:
             self._model = cost.read_cost_model(model) if model.is_file() else None

@@ -71,6 +71,7 @@ rule missing:
         f"{RESULTS}/comparison/missing.csv",
     log:
         f"{LOGS}/missing.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1
@@ -134,6 +135,7 @@ rule linear_theory:
         ),
     log:
         f"{LOGS}/linear_theory.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1

@@ -576,6 +576,7 @@ rule growth_rate:
         pdf=f"{RESULTS}/figures/growth-rate.pdf",
     log:
         f"{LOGS}/growth_rate.log",
+    localrule: True
     conda:
         ENVIRONMENT
     threads: 1

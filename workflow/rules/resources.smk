@@ -3,11 +3,12 @@
 Like everything that the graph is built from, they come from the configuration alone.
 """
 
+from equisection import jobs
 from equisection.solvers import cost
 from equisection.solvers.protocol import MPIRUN
 
 try:
-    COSTS = cost.read_cost_model(PROJECT / "workflow" / "profiles" / "cost.yaml")
+    COSTS = cost.read_cost_model(PROJECT / cost.COST_MODEL)
     for dimension in ("2d", "3d"):
         COSTS.of(CONFIG.solver, dimension)
 except ConfigError as error:
@@ -41,9 +42,8 @@ def work_of(wildcards):
     if "case" in wildcards.keys():
         return cost.unsteady_work(CONFIG, dimension)
     if "batch" in wildcards.keys():
-        cases = max(len(SWEEP), CONFIG.sweep.onset_points)
-        return cost.unsteady_work(CONFIG, dimension, cases)
-    return cost.steady_work(CONFIG, dimension, CONFIG.steady.resolution, len(STEADY))
+        return jobs.unsteady_batch_work(CONFIG, dimension)
+    return jobs.steady_batch_work(CONFIG, dimension)
 
 
 def memory(wildcards, attempt):

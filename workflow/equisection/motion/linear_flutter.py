@@ -38,6 +38,8 @@ Complexes = NDArray[np.complex128]
 _FREQUENCIES = np.geomspace(1e-3, 10.0, 600)
 _MOST_ITERATIONS = 500
 _CONVERGED = 1e-10
+#: Bounds of the part of its way that an iteration goes.
+_LEAST_PART, _LARGEST_PART = 0.25, 1.5
 
 
 class FlutterIterationError(EquisectionError):
@@ -187,18 +189,30 @@ def growth_and_frequency(section: TypicalSection, scales: Floats) -> Complexes:
 
 
 def _root(section: TypicalSection, scale: float, guess: complex) -> complex:
-    """Return the p nearest to a guess whose loads are those of its own frequency."""
-    p = guess
+    """Return the p nearest to a guess whose loads are those of its own frequency.
+
+    Each round goes a part of the way to the p that its loads give: half of it at first, then what
+    meets the frequency if the rounds before go on in a straight line (a secant).
+    """
+    p, part, before = guess, 0.5, math.nan
     for _ in range(_MOST_ITERATIONS):
-        loads = section.air.influence(max(p.imag, 0.0)) - scale * section.stiffness_matrix
-        squares = np.linalg.eigvals(np.linalg.solve(section.mass_matrix, loads))
-        roots = np.sqrt(squares.astype(np.complex128))
-        roots = np.where(roots.imag < 0.0, -roots, roots)
-        nearest = complex(roots[np.argmin(np.abs(roots - p))])
+        nearest = _nearest_root(section, scale, p)
         if abs(nearest - p) < _CONVERGED * (1.0 + abs(p)):
             return nearest
-        p = 0.5 * (p + nearest)
+        missed = nearest.imag - p.imag
+        if abs(missed - before) > 0.0:  # not in the first round
+            part = min(max(part * before / (before - missed), _LEAST_PART), _LARGEST_PART)
+        p, before = p + part * (nearest - p), missed
     raise FlutterIterationError(
         f"the p-k iteration at {scale:.4g} times the stiffness did not settle within "
         f"{_MOST_ITERATIONS} rounds (last p = {p:.4g}); ask for fewer k* below divergence"
     )
+
+
+def _nearest_root(section: TypicalSection, scale: float, p: complex) -> complex:
+    """Return the root nearest to p under the loads of its frequency."""
+    loads = section.air.influence(max(p.imag, 0.0)) - scale * section.stiffness_matrix
+    squares = np.linalg.eigvals(np.linalg.solve(section.mass_matrix, loads))
+    roots = np.sqrt(squares.astype(np.complex128))
+    roots = np.where(roots.imag < 0.0, -roots, roots)
+    return complex(roots[np.argmin(np.abs(roots - p))])

@@ -28,6 +28,8 @@ from equisection.errors import ConfigError
 from equisection.solvers.registry import SOLVERS
 from equisection.solvers.work import Estimate, Work
 
+#: The cost model of a clone, as seen from where the workflow is started.
+COST_MODEL = Path("workflow") / "profiles" / "cost.yaml"
 #: What a job is given beyond what it is expected to take: other processors, company on the memory
 #: bus, a flow that needs more iterations of the pressure.
 SAFETY = 2.0
