@@ -12,20 +12,33 @@ import xarray as xr
 
 from equisection.aerodynamics.polar_file import COLUMNS
 from equisection.errors import ResultFileError
+from equisection.reduction.modal_load import modal_load
+from equisection.results.modes import modes_from_dataset
 from equisection.results.netcdf import read_dataset
+from equisection.structure.mode_set import ModeSet
 
 
-def polar_csv(paths: Sequence[Path]) -> str:
+def polar_csv(paths: Sequence[Path], modes: Path | None = None) -> str:
     """Return the polar of steady results as CSV, by ascending incidence.
 
     The last column says how each value was obtained; comments say what solver did, and which
     results are left out because they failed.
 
+    Parameters
+    ----------
+    paths
+        The results.
+    modes
+        ``structure/modes.nc`` of a beam, whose first bending and torsion mode are to weight its
+        lift and moment along the span (:mod:`equisection.reduction.modal_load`); drag stays the
+        mean.
+
     Raises
     ------
     ResultFileError
         A file is no steady result, two are of the same incidence, or they are of different
-        solvers or meshes.
+        solvers or meshes; with ``modes``, a result has no loads along the span, or there is no
+        mode of a kind.
     """
     results = sorted(
         (_steady(path) for path in paths), key=lambda data: data.attrs["incidence_deg"]
@@ -37,6 +50,9 @@ def polar_csv(paths: Sequence[Path]) -> str:
     text.write(
         "# Written by 'equisection polar' from steady results. Moment about mid-chord, nose up.\n"
     )
+    if modes is not None:
+        text.write("# cl and cm as the first bending and the first torsion mode feel them.\n")
+        results = _as_modes_feel_them(results, modes_from_dataset(read_dataset(modes)))
     table = csv.writer(text, lineterminator="\n")
     failed = [data for data in results if data.attrs["failure"]]
     for data in failed:
@@ -47,6 +63,26 @@ def polar_csv(paths: Sequence[Path]) -> str:
             values = (f"{float(data[name]):.5f}" for name in COLUMNS[1:])
             table.writerow((f"{data.attrs['incidence_deg']:g}", *values, data.attrs["method"]))
     return text.getvalue()
+
+
+def _as_modes_feel_them(results: Sequence[xr.Dataset], modes: ModeSet) -> list[xr.Dataset]:
+    """Return results of a beam with the loads that its first modes feel, for the means."""
+    weighted = []
+    for data in results:
+        if "span" not in data.dims or not data.sizes["span"]:
+            raise ResultFileError(
+                f"{data.attrs['path']}: no loads along the span, which modes could weight; give "
+                "files of results/<run>/steady/3d/"
+            )
+        for name, kind in (("cl", "bending"), ("cm", "torsion")):
+            if kind not in modes.kind:
+                raise ResultFileError(f"no {kind} mode among the modes: {', '.join(modes.kind)}")
+            shape = modes.shape[modes.kind.index(kind)]
+            load = data[f"{name}_section"].values
+            felt = modal_load(data["span"].values, load, modes.span, shape)
+            data = data.assign({name: felt})  # noqa: PLW2901
+        weighted.append(data)
+    return weighted
 
 
 def _steady(path: Path) -> xr.Dataset:
