@@ -1,10 +1,12 @@
-"""The work of the air on the free section is the change of its mechanical energy.
+"""The work of the air is the change of the mechanical energy of section and plate.
 
-On the histories of OpenFOAM that are kept, cycle by cycle: 2 % of the work, or of a hundredth of
-the energy of the oscillation where the work is less than that.
+On the histories of OpenFOAM that are kept, of section and plate, cycle by cycle: 2 % of the work.
+Where gain and loss within a cycle cancel, the samples do not tell a small work from none: there
+what is missing is less than 0.2 % of the energy of the oscillation, a thousandth of its amplitude.
 """
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,7 +17,8 @@ from tests.benchmarks.energy import cycles, section_swing, swing_of
 from equisection.cases import SectionProperties
 from equisection.results.netcdf import read_dataset
 
-TOLERANCE = 0.02
+TOLERANCE, NEXT_TO_NOTHING = 0.02, 0.002
+KEPT_PLATES = KEPT.parents[1] / "paper-plate-openfoam-3d" / "unsteady"
 SECTION = SectionProperties(
     torsional_stiffness=10.0,
     flexural_stiffness=1.8,
@@ -61,31 +64,24 @@ def test_work_that_is_missing_is_seen() -> None:
         assert cycle.imbalance == pytest.approx(-0.05 / 0.95, rel=0.01)
 
 
-@pytest.mark.parametrize("k_star", ["5", "6.44", "8.5", "10", "14", "21"])
-def test_work_of_the_air_is_the_change_of_energy(k_star: str) -> None:
+@pytest.mark.parametrize("path", sorted(KEPT.glob("2d*/*.nc")), ids=lambda path: str(path)[-20:])
+def test_work_of_the_air_on_the_section_is_the_change_of_its_energy(path: Path) -> None:
     """In all cycles, up to the largest amplitudes."""
-    known = read_dataset(KEPT / "2d" / f"k{k_star}.nc")
-    case = case_of(known)
-    found = cycles(swing_of(case, known))
-    assert len(found) >= 10
+    assert_balanced(path, fewest=4)
+
+
+@pytest.mark.parametrize("path", sorted(KEPT_PLATES.glob("3d/*.nc")), ids=lambda path: path.stem)
+def test_work_of_the_air_on_the_plate_is_the_change_of_its_energy(path: Path) -> None:
+    """Summed over its modes."""
+    assert_balanced(path, fewest=5)
+
+
+def assert_balanced(path: Path, fewest: int) -> None:
+    known = read_dataset(path)
+    found = cycles(swing_of(case_of(known), known))
+    assert len(found) >= fewest
     for cycle in found:
-        assert abs(cycle.imbalance) < TOLERANCE, cycle
-
-
-@pytest.mark.parametrize("k_star", ["4", "4.5", "5.5"])
-def test_version_3_keeps_energy_until_the_flow_separates_wholly(k_star: str) -> None:
-    """Below a twist amplitude of 2 deg; beyond, its iterations in a step do not converge."""
-    known = read_dataset(KEPT / "2d" / f"k{k_star}.nc")
-    case = case_of(known)
-    small = [
-        cycle
-        for cycle in cycles(swing_of(case, known))
-        if _range_deg(known, cycle.start, cycle.start + cycle.period) < 4.0
-    ]
-    assert len(small) >= 2
-    for cycle in small:
-        assert abs(cycle.imbalance) < TOLERANCE, cycle
-
-
-def _range_deg(known: xr.Dataset, start: float, end: float) -> float:
-    return math.degrees(np.ptp(known["twist"].sel(time=slice(start, end)).values))
+        missing = abs(cycle.change - cycle.work)
+        assert missing < TOLERANCE * abs(cycle.work) or missing < NEXT_TO_NOTHING * cycle.swing, (
+            cycle
+        )
