@@ -41,6 +41,8 @@ paper: $(ENV)/run
 	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER_FROM_$(FROM))
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
+	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml config/paper/reductions-modal.yaml \
+		--config $(PAPER_FROM_$(FROM)) -- $(PAPER_REDUCTIONS)-modal/figures/section-and-beam.png
 	$(BIN)/python -m equisection.comparison.side_by_side
 	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Figs. 9 to 12 in $(PAPER_PLATE)/figures/" \
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \

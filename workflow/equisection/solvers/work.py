@@ -22,7 +22,7 @@ class Work:
     iterations
         Iterations of a steady solver.
     steps
-        Time steps, times the outer correctors of each.
+        Time steps, times the iterations that each is expected to take.
     """
 
     cells: float

@@ -11,22 +11,30 @@ from equisection.solvers.work import Work
 
 #: What a time step on overset meshes costs, with their cells, over one on the mesh that morphs.
 OVERSET = 2.0
+#: Iterations that a time step takes in the mean where more are allowed: its residuals end them.
+ENOUGH = 4
 
 
 def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
     """Return the work of a rigid case: a steady flow, and the unsteady one where there is none."""
-    steps = RECORD.end / STEP * config.openfoam.outer_correctors
+    steps = RECORD.end / STEP * iterations_of(config.openfoam.outer_correctors)
     return Work(cells_of(config.openfoam.meshes[resolution], dimension) * cases, MOST, steps)
 
 
 def unsteady_work(config: Config, dimension: str, cases: int) -> Work:
     """Return the work of a free case: the steady flow that it starts from, and all of its steps."""
     section = config.openfoam
-    steps = config.unsteady.duration / config.unsteady.time_step * section.outer_correctors
+    steps = config.unsteady.duration / config.unsteady.time_step
+    steps *= iterations_of(section.outer_correctors)
     if dimension == "2d" and section.mesh_motion != MORPH:
         steps *= OVERSET
     mesh = section.meshes[config.steady.resolution]
     return Work(cells_of(mesh, dimension) * cases, MOST, steps)
+
+
+def iterations_of(outer_correctors: int) -> int:
+    """Return how many iterations a time step is expected to take of those allowed."""
+    return min(outer_correctors, ENOUGH)
 
 
 def cells_of(mesh: str, dimension: str) -> int:

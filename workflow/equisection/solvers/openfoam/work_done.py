@@ -7,7 +7,7 @@ from typing import Any
 
 from equisection.config.sections.openfoam import MORPH
 from equisection.solvers.openfoam.adapter import Adapter
-from equisection.solvers.openfoam.work import OVERSET, cells_of
+from equisection.solvers.openfoam.work import OVERSET, cells_of, iterations_of
 from equisection.solvers.work import Work
 
 #: The words by which a steady result says how it was obtained.
@@ -43,4 +43,4 @@ def work_done(case: dict[str, Any], attributes: dict[str, Any]) -> Work | None:
     steps = float(attributes["end_time"]) / case["time_step"]
     if case["dimension"] == "2d" and settings.get("mesh_motion", MORPH) != MORPH:
         steps *= OVERSET
-    return Work(cells, steps=steps * settings["outer_correctors"])
+    return Work(cells, steps=steps * iterations_of(settings["outer_correctors"]))
