@@ -45,7 +45,7 @@ class CellCost(Section):
     """What one cell costs a solver in one dimension."""
 
     iteration: NotNegative = Field(description="s of processor per iteration of the steady flow.")
-    step: NotNegative = Field(description="s of processor per time step and outer corrector.")
+    step: NotNegative = Field(description="s of processor per iteration of a time step.")
     memory_kb: NotNegative = Field(description="Memory (kB).")
 
 

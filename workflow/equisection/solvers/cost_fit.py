@@ -21,7 +21,7 @@ from equisection.solvers.openfoam.work_done import work_done
 
 _HEADER = """\
 # What one cell costs a solver, by dimension: s of processor per iteration of the steady flow, s of
-# processor per time step and outer corrector, and memory in kB. For the embedded solver a cell is a
+# processor per iteration of a time step, and memory in kB. For the embedded solver a cell is a
 # section of a case. docs/cluster.md says what memory and time each job asks for by these, and how
 # they were measured; `make cost-model` fits the times of OpenFOAM to the results that are there.
 """
