@@ -219,6 +219,22 @@ def test_decay_is_not_judged_on_runs_at_low_stiffness() -> None:
     assert "3d: not run from k* = 10 on" in found.here
 
 
+@pytest.mark.parametrize(
+    ("unstable", "stable", "verdict"),
+    [
+        ("growing", "settled", Verdict.DIFFERS),
+        ("growing", "limit-cycle", Verdict.AGREES),
+        ("limit-cycle", "settled", Verdict.AGREES),
+    ],
+)
+def test_limit_cycle_may_be_on_either_side_of_the_onset(
+    unstable: str, stable: str, verdict: Verdict
+) -> None:
+    runs: list[Run] = [(5.5, unstable, 0.6, 0.0, 0.8, 0.4), (8.0, stable, 0.4, 0.0, 0.6, 0.27)]
+    finding = response.limit_cycle(replace(complete(), summary=summary(m2d_corrected=runs)))
+    assert finding.verdict is verdict
+
+
 def test_other_reduction_stands_beside_the_papers_and_is_not_judged() -> None:
     far = [(*run[:4], 3 * run[4], run[5]) for run in SECTION]
     both = pd.concat([reductions(), summary(m2d_consistent=far)])

@@ -200,15 +200,15 @@ def _mesh_shift(kept: pd.DataFrame) -> str:
 
 
 def limit_cycle(evidence: Evidence) -> Finding:
-    """Judge the run just outside the corrected section's onset."""
-    _, stable = evidence.bracket(_CORRECTED)
-    run = evidence.at(_CORRECTED, stable)
-    if run is None:
+    """Judge the runs on both sides of the corrected section's onset."""
+    runs = [evidence.at(_CORRECTED, k_star) for k_star in evidence.bracket(_CORRECTED)]
+    if runs[-1] is None:
         return open_finding("a stable run above the onset of the corrected section")
-    is_cycle = run["regime"] == "limit-cycle"
+    known = [run for run in runs if run is not None]
+    is_cycle = any(run["regime"] == "limit-cycle" for run in known)
     return Finding(
         Verdict.AGREES if is_cycle else Verdict.DIFFERS,
-        f"at k* = {stable:g}: {_in_words(run)}",
+        "; ".join(f"at k* = {run['k_star']:g}: {_in_words(run)}" for run in known),
         resolution_of(evidence.summary, _CORRECTED),
         "A motion whose growth is within a few 1e-4 V/c of zero keeps its amplitude over the "
         "length of a run; whether it is a cycle for good cannot be told from that."
