@@ -39,10 +39,18 @@ def mesh(preset: str, incidence_deg: float, thickness: float = GEOMETRY.thicknes
     return mesh_of(case, PRESETS[preset].refinement, PRESETS[preset].spacing)
 
 
-@pytest.mark.parametrize("preset", sorted(PRESETS))
+#: Incidence (deg) and thickness (chords); thinner plates the section's own meshes alone are for.
+SHAPES = [(0.0, 0.04), (2.5, 0.04), (10.0, 0.04), (-5.0, 0.1)]
+THIN = [(2.5, 0.01)]
+
+
 @pytest.mark.parametrize(
-    ("incidence_deg", "thickness"),
-    [(0.0, 0.04), (2.5, 0.04), (10.0, 0.04), (-5.0, 0.1), (2.5, 0.01)],
+    ("preset", "incidence_deg", "thickness"),
+    [
+        (preset, *shape)
+        for preset in sorted(PRESETS)
+        for shape in (SHAPES if preset.startswith("plate-") else SHAPES + THIN)
+    ],
 )
 def test_meshes_are_sound_over_incidence_and_thickness(
     installation: Installation, tmp_path: Path, preset: str, incidence_deg: float, thickness: float

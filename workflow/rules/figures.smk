@@ -600,7 +600,7 @@ rule section_and_beam:
     output:
         table=report(
             f"{RESULTS}/comparison/section_and_beam.csv",
-            caption="../report/section-and-beam.rst",
+            caption="../report/section_and_beam.rst",
             category="Tables",
             labels={
                 "table": "section and beam",
