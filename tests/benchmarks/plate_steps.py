@@ -17,7 +17,6 @@ from equisection.cases import UnsteadyCase
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.openfoam.flow import Coupling
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.mesh import OF_PLATE
 from equisection.solvers.openfoam.presets import PRESETS
 from equisection.solvers.openfoam.section_free import SectionRun
 from equisection.solvers.openfoam.section_rigid import mesh_of
@@ -39,7 +38,8 @@ VARIANTS = (
 
 def row(case: UnsteadyCase, coupling: Coupling, work: Path) -> dict[str, float]:
     """Return what a release with a time step and a coupling comes to."""
-    mesh = mesh_of(case, PRESETS["coarse"].plate, OF_PLATE)
+    preset = PRESETS["plate-coarse"]
+    mesh = mesh_of(case, preset.refinement, preset.spacing)
     result = SectionRun(find(), case, mesh, coupling, work).run(lambda done, total: None)
     history = result.to_dataset(case.geometry.chord)
     growth_rate, frequency = oscillation(history)

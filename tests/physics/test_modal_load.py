@@ -2,48 +2,55 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from equisection.errors import ReductionError
-from equisection.reduction.modal_load import modal_load, strip_widths
+from equisection.reduction.modal_load import modal_load
 
 SPAN = np.linspace(0.0, 1.0, 201)
 TORSION = np.sin(np.pi * SPAN / 2)
-EVEN = (np.arange(400) + 0.5) / 400
 
 
-@given(st.lists(st.floats(0.1, 1.0), min_size=1, max_size=60))
-def test_widths_are_those_of_the_strips_with_these_middles(sizes: list[float]) -> None:
-    widths = np.array(sizes) / sum(sizes)
-    edges = np.concatenate([[0.0], np.cumsum(widths)])
-    assert strip_widths((edges[1:] + edges[:-1]) / 2) == pytest.approx(widths, abs=1e-9)
+def middles(count: int) -> np.ndarray:
+    return (np.arange(count) + 0.5) / count
 
 
-@pytest.mark.parametrize("middles", [[], [0.5, 0.9], [0.0, 0.5, 1.0], [0.5, 0.5]])
-def test_stations_that_are_no_middles_are_refused(middles: list[float]) -> None:
-    with pytest.raises(ReductionError, match="not the middles of strips"):
-        strip_widths(np.array(middles))
+def towards_the_tip(count: int) -> np.ndarray:
+    """Return stations that are closer to each other towards the tip."""
+    return np.sin(np.pi / 2 * middles(count))
 
 
-def test_uniform_load_is_felt_as_it_is() -> None:
-    assert modal_load(EVEN, np.full(400, 0.3), SPAN, TORSION) == pytest.approx(0.3)
+STATIONS = [middles(400), towards_the_tip(400)]
 
 
-def test_load_that_has_the_shape_of_the_mode_is_felt_by_its_square() -> None:
+@pytest.mark.parametrize("z", STATIONS)
+def test_uniform_load_is_felt_as_it_is(z: np.ndarray) -> None:
+    assert modal_load(z, np.full(z.size, 0.3), SPAN, TORSION) == pytest.approx(0.3)
+
+
+@pytest.mark.parametrize("z", STATIONS)
+def test_load_that_has_the_shape_of_the_mode_is_felt_by_its_square(z: np.ndarray) -> None:
     """Of sin(pi z/2): 1/2 over 2/pi."""
-    felt = modal_load(EVEN, np.sin(np.pi * EVEN / 2), SPAN, TORSION)
+    felt = modal_load(z, np.sin(np.pi * z / 2), SPAN, TORSION)
     assert felt == pytest.approx(np.pi / 4, rel=1e-5)
 
 
-def test_load_that_falls_to_the_tip_is_felt_less_than_its_mean() -> None:
+@pytest.mark.parametrize("z", STATIONS)
+def test_load_that_falls_to_the_tip_is_felt_less_than_its_mean(z: np.ndarray) -> None:
     """An ellipse against z^2: integral of z^2 sqrt(1 - z^2) is pi/16."""
-    felt = modal_load(EVEN, np.sqrt(1 - EVEN**2), SPAN, SPAN**2)
+    felt = modal_load(z, np.sqrt(1 - z**2), SPAN, SPAN**2)
     assert felt == pytest.approx(3 * np.pi / 16, rel=1e-4)
     assert felt < np.pi / 4
 
 
+@pytest.mark.parametrize("stations", [middles, towards_the_tip])
+def test_error_is_of_second_order_in_the_distance_of_the_stations(stations) -> None:
+    exact = modal_load(middles(20_000), 1 - middles(20_000) ** 4, SPAN, TORSION)
+    errors = [
+        abs(modal_load(z, 1 - z**4, SPAN, TORSION) - exact) for z in (stations(20), stations(40))
+    ]
+    assert np.log2(errors[0] / errors[1]) == pytest.approx(2.0, abs=0.2)
+
+
 def test_size_and_sign_of_the_shape_do_not_matter() -> None:
-    load = 1.0 - EVEN**4
-    one, other = (modal_load(EVEN, load, SPAN, factor * TORSION) for factor in (1.0, -7.0))
+    z = middles(40)
+    one, other = (modal_load(z, 1.0 - z**4, SPAN, factor * TORSION) for factor in (1.0, -7.0))
     assert one == pytest.approx(other)

@@ -75,7 +75,7 @@ def coarser(project: ClusterProject) -> None:
 
 
 @pytest.mark.openfoam
-def test_plate_on_two_ranks_to_the_summary(
+def test_plate_on_two_ranks_to_the_report(
     installation: Installation, node: Node, project: ClusterProject
 ) -> None:
     """A release of the coupled plate, with the steady flow that it starts from."""
@@ -88,6 +88,8 @@ def test_plate_on_two_ranks_to_the_summary(
         unsteady={"duration": 2.0, "time_step": 0.04, "output_interval": 0.2},
     )
     project.run(project.target(SUMMARY))
+    project.run("--report", "report.html", project.target(SUMMARY))
+    assert "summary.csv" in (project.folder / "report.html").read_text()
     (row,) = pd.read_csv(project.results / SUMMARY).to_dict("records")
     assert (row["model"], row["k_star"], row["solver"]) == ("3d", 10.0, "openfoam")
     assert 1.79 < row["end_time"] < 2.01  # the last interval may lack its end

@@ -152,7 +152,7 @@ def test_table_has_the_ends_of_the_bubble_on_the_suction_side_by_incidence() -> 
     whole = plate()
     end = 0.4 - 0.2 * whole.z / SPAN  # of the bubble; 0.3 on the lower side
     friction = np.where(whole.side == "upper", whole.x - end, whole.x - 0.3)
-    made = {"solver_description": "a solver"}
+    made = {"solver_description": "a solver", "resolution": "coarse"}
     results = [
         result(surface).assign_attrs(made, incidence_deg=angle)
         for angle, surface in (

@@ -34,12 +34,19 @@ def result(
     return path
 
 
-def test_polar_of_the_default_is_that_of_the_results_that_are_kept(
-    capsys: pytest.CaptureFixture[str],
+@pytest.mark.parametrize(
+    ("name", "results", "angles"),
+    [
+        ("plate_2d_11136", "paper-plate-openfoam/steady/2d", (0, 1, 2, 2.5, *range(3, 11), 12)),
+        ("plate_3d_85284", "paper-plate-openfoam-3d/steady/3d", (0, 1, 2.5, 4)),
+    ],
+)
+def test_polar_that_is_shipped_is_that_of_the_results_that_are_kept(
+    name: str, results: str, angles: tuple[float, ...], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    kept = sorted((ROOT / "results/reference/paper-plate-openfoam/steady/2d").glob("coarse_a*.nc"))
+    kept = [ROOT / "results/reference" / results / f"coarse_a{angle:g}.nc" for angle in angles]
     assert main(["polar", *map(str, kept)]) == 0
-    written = (ROOT / "config/polars/plate_2d_11136.csv").read_text(encoding="utf-8")
+    written = (ROOT / f"config/polars/{name}.csv").read_text(encoding="utf-8")
     assert capsys.readouterr().out == written
 
 
@@ -115,6 +122,13 @@ def test_loads_of_a_beam_are_those_that_its_modes_feel(
     assert polar.drag == pytest.approx(0.04)
 
 
+def test_beam_that_failed_at_an_incidence_is_left_out_with_modes_too(tmp_path: Path) -> None:
+    results = [beam_result(tmp_path, 2.0), result(tmp_path, 4.0, failure="the flow blew up")]
+    text = polar_csv(results, modes_file(tmp_path))
+    assert "# Left out: 4 deg, the flow blew up" in text
+    assert text.splitlines()[-1].startswith("2,0.1")
+
+
 def test_section_has_no_loads_that_modes_could_feel(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -124,5 +138,5 @@ def test_section_has_no_loads_that_modes_could_feel(
 
 def test_modes_without_torsion_are_refused(tmp_path: Path) -> None:
     modes = modes_file(tmp_path, kinds=("bending",))
-    with pytest.raises(ResultFileError, match="no torsion mode among the modes: bending"):
+    with pytest.raises(ResultFileError, match=r"modes\.nc: no torsion mode among bending"):
         polar_csv([beam_result(tmp_path, 2.0)], modes)

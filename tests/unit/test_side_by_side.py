@@ -149,7 +149,13 @@ def complete() -> Evidence:
         section_mesh=no_mesh(2.5, 0.02).to_dataset(),
         table_1=table_1,
         plate_bubble=pd.DataFrame(
-            {"incidence_deg": [2.0, 4.0], "root": [0.26, 0.79], "tip": 0.1, "solver": "a solver"}
+            {
+                "resolution": "fine",
+                "incidence_deg": [2.0, 4.0],
+                "root": [0.26, 0.79],
+                "tip": 0.1,
+                "solver": "a solver",
+            }
         ),
         reductions=reductions(),
         kept=kept(("2d", 1e4, 0.02, 8.0, 400.0), ("3d", 1e6, 0.02, 8.0, 80000.0)),

@@ -17,7 +17,7 @@ COLUMNS = (
     "resolution", "incidence_deg", "side", "bubble", "y_plus_mean", "y_plus_largest",
     "y_plus_below_1", "method", "solver", "note",
 )  # fmt: skip
-PLATE_COLUMNS = ("incidence_deg", "root", "tip", "solver")
+PLATE_COLUMNS = ("resolution", "incidence_deg", "root", "tip", "solver")
 #: Says of a result that was made before surface data were stored how to have them.
 MISSING = (
     "no surface data, which results made by an earlier version lack; to have them delete "
@@ -47,13 +47,13 @@ def plate_bubble_table(results: Iterable[xr.Dataset]) -> pd.DataFrame:
     Parameters
     ----------
     results
-        Steady results of the plate; those without surface data, or without incidence, have no line.
+        Steady results of the plate; those without surface data, or at 0 deg, have no line.
 
     Returns
     -------
     pd.DataFrame
-        ``incidence_deg``, ``root`` and ``tip`` (x/c; 0 without a bubble, 1 for the whole chord) and
-        ``solver``, by ascending incidence.
+        ``resolution``, ``incidence_deg``, ``root`` and ``tip`` (x/c; 0 without a bubble, 1 for the
+        whole chord) and ``solver``, by resolution and ascending incidence.
     """
     rows = []
     for result in results:
@@ -62,8 +62,9 @@ def plate_bubble_table(results: Iterable[xr.Dataset]) -> pd.DataFrame:
         if surface is None or angle == 0.0:
             continue
         _, ends = surface.reattachment(suction_side(angle))
-        rows.append((angle, ends[0], ends[-1], str(result.attrs["solver_description"])))
-    return pd.DataFrame(rows, columns=PLATE_COLUMNS).sort_values("incidence_deg")
+        made = str(result.attrs["solver_description"])
+        rows.append((str(result.attrs["resolution"]), angle, ends[0], ends[-1], made))
+    return pd.DataFrame(rows, columns=PLATE_COLUMNS).sort_values(list(PLATE_COLUMNS[:2]))
 
 
 def _line(surface: SectionSurface | None, angle: float, result: xr.Dataset) -> tuple[object, ...]:

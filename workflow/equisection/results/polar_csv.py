@@ -15,7 +15,6 @@ from equisection.errors import ResultFileError
 from equisection.reduction.modal_load import modal_load
 from equisection.results.modes import modes_from_dataset
 from equisection.results.netcdf import read_dataset
-from equisection.structure.mode_set import ModeSet
 
 
 def polar_csv(paths: Sequence[Path], modes: Path | None = None) -> str:
@@ -50,38 +49,42 @@ def polar_csv(paths: Sequence[Path], modes: Path | None = None) -> str:
     text.write(
         "# Written by 'equisection polar' from steady results. Moment about mid-chord, nose up.\n"
     )
+    for data in results:
+        if data.attrs["failure"]:
+            what = f"{data.attrs['incidence_deg']:g} deg, {data.attrs['failure']}"
+            text.write(f"# Left out: {what}\n")
+    known = [data for data in results if not data.attrs["failure"]]
     if modes is not None:
         text.write("# cl and cm as the first bending and the first torsion mode feel them.\n")
-        results = _as_modes_feel_them(results, modes_from_dataset(read_dataset(modes)))
+        known = _as_modes_feel_them(known, modes)
     table = csv.writer(text, lineterminator="\n")
-    failed = [data for data in results if data.attrs["failure"]]
-    for data in failed:
-        text.write(f"# Left out: {data.attrs['incidence_deg']:g} deg, {data.attrs['failure']}\n")
     table.writerow((*COLUMNS, "method"))
-    for data in results:
-        if not data.attrs["failure"]:
-            values = (f"{float(data[name]):.5f}" for name in COLUMNS[1:])
-            table.writerow((f"{data.attrs['incidence_deg']:g}", *values, data.attrs["method"]))
+    for data in known:
+        values = (f"{float(data[name]):.5f}" for name in COLUMNS[1:])
+        table.writerow((f"{data.attrs['incidence_deg']:g}", *values, data.attrs["method"]))
     return text.getvalue()
 
 
-def _as_modes_feel_them(results: Sequence[xr.Dataset], modes: ModeSet) -> list[xr.Dataset]:
+def _as_modes_feel_them(results: Sequence[xr.Dataset], path: Path) -> list[xr.Dataset]:
     """Return results of a beam with the loads that its first modes feel, for the means."""
+    modes = modes_from_dataset(read_dataset(path))
+    shapes = {}
+    for name, kind in (("cl", "bending"), ("cm", "torsion")):
+        if kind not in modes.kind:
+            raise ResultFileError(f"{path}: no {kind} mode among {', '.join(modes.kind)}")
+        shapes[name] = modes.shape[modes.kind.index(kind)]
     weighted = []
     for data in results:
-        if "span" not in data.dims or not data.sizes["span"]:
+        if "span" not in data.dims:
             raise ResultFileError(
                 f"{data.attrs['path']}: no loads along the span, which modes could weight; give "
                 "files of results/<run>/steady/3d/"
             )
-        for name, kind in (("cl", "bending"), ("cm", "torsion")):
-            if kind not in modes.kind:
-                raise ResultFileError(f"no {kind} mode among the modes: {', '.join(modes.kind)}")
-            shape = modes.shape[modes.kind.index(kind)]
-            load = data[f"{name}_section"].values
-            felt = modal_load(data["span"].values, load, modes.span, shape)
-            data = data.assign({name: felt})  # noqa: PLW2901
-        weighted.append(data)
+        felt = {
+            name: modal_load(data["span"].values, data[f"{name}_section"].values, modes.span, shape)
+            for name, shape in shapes.items()
+        }
+        weighted.append(data.assign(felt))
     return weighted
 
 

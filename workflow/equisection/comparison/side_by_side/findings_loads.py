@@ -174,7 +174,8 @@ def bubble_of_the_plate(evidence: Evidence) -> Finding:
     for row in rows[rows["incidence_deg"].isin(BUBBLE_AT_ROOT)].itertuples():
         differences.append(row.root - BUBBLE_AT_ROOT[row.incidence_deg])
         parts.append(
-            f"{row.incidence_deg:g} deg: {row.root:.2g} c at the root, {row.tip:.2g} c at the tip"
+            f"{row.resolution}, {row.incidence_deg:g} deg: {row.root:.2g} c at the root, "
+            f"{row.tip:.2g} c at the tip"
         )
         used.append(row.solver)
     if not parts:
