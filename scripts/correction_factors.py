@@ -4,16 +4,26 @@ from pathlib import Path
 
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.correction import factors_to_dataset
+from equisection.results.modes import modes_from_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.polar import polar_at
+from equisection.results.polar import polar_as_modes_feel_it, polar_at
 from equisection.script import logged
 
 
-def main(polar_2d: Path, polar_3d: Path, resolution: str, output: Path) -> None:
-    """Divide the section's coefficients by the beam's, at the run's resolution."""
+def main(
+    polar_2d: Path, polar_3d: Path, resolution: str, output: Path, modes: Path | None = None
+) -> None:
+    """Divide the section's coefficients by the beam's, at the run's resolution.
+
+    With modes the beam's are those that they feel.
+    """
+    beam = read_dataset(polar_3d)
+    if modes is not None:
+        beam = polar_as_modes_feel_it(beam, modes_from_dataset(read_dataset(modes)))
     section = polar_at(read_dataset(polar_2d), resolution)
-    beam = polar_at(read_dataset(polar_3d), resolution)
-    write_dataset(output, factors_to_dataset(CorrectionFactors(section, beam)))
+    factors = factors_to_dataset(CorrectionFactors(section, polar_at(beam, resolution)))
+    correction = "mean" if modes is None else "modal"
+    write_dataset(output, factors.assign_attrs(correction=correction))
 
 
 if __name__ == "__main__":
@@ -23,4 +33,5 @@ if __name__ == "__main__":
             Path(snakemake.input.polar_3d),
             snakemake.params.resolution,
             Path(snakemake.output[0]),
+            Path(snakemake.input.modes) if snakemake.params.correction == "modal" else None,
         )

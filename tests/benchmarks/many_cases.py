@@ -49,7 +49,7 @@ def cases_of_section(number: int) -> list[UnsteadyCase]:
     polar = str(ROOT / "config" / "polars" / "plate_2d_11136.csv")
     config = load_config({"embedded": {"polars": {"coarse": polar}}})
     solver = solver_from_config(config, "coarse")
-    block = SolverBlock(name=solver.name, version=solver.version, settings=solver.settings())
+    block = SolverBlock(name=solver.name, version=solver.version, settings=solver.settings("2d"))
     assert UNSTEADY.section is not None
     cases = []
     for k_star in np.linspace(4.0, 21.0, number):

@@ -73,16 +73,16 @@ def test_what_the_solver_provides_is_what_the_graph_is_built_with() -> None:
 @pytest.mark.parametrize("polar", [str(POLAR), "flat-plate"])
 def test_settings_make_the_same_solver_again(polar: str) -> None:
     solver = adapter(polar)
-    again = Adapter.from_settings(solver.settings())
+    again = Adapter.from_settings(solver.settings("2d"))
     first, second = (steady(each, rigid("3d", 5.0))[0] for each in (solver, again))
     assert first.lift == pytest.approx(second.lift, rel=1e-12)
-    assert again.settings()["polar"]["label"] == solver.settings()["polar"]["label"]
+    assert again.settings("2d")["polar"]["label"] == solver.settings("2d")["polar"]["label"]
     np.testing.assert_allclose(
-        again.settings()["polar"]["incidence_deg"],
-        solver.settings()["polar"]["incidence_deg"],
+        again.settings("2d")["polar"]["incidence_deg"],
+        solver.settings("2d")["polar"]["incidence_deg"],
         rtol=1e-12,
     )
-    assert again.settings()["separation"] == solver.settings()["separation"]
+    assert again.settings("2d")["separation"] == solver.settings("2d")["separation"]
 
 
 @pytest.mark.parametrize("incidence_deg", [-3.0, 0.0, 1.0, 2.0, 3.0, 8.0])

@@ -150,6 +150,12 @@ MALFORMED = [
     ),
     ({"compute": False, "reuse": ""}, "reuse", "''", "a folder with results"),
     (
+        {"correction": "modal", "steady": {"beam_polar": "config/polars/paper_plate_3d.csv"}},
+        "correction",
+        "'modal'",
+        "'mean' with steady.beam_polar",
+    ),
+    (
         {"compute": False, "sweep": {"onset": "refine"}},
         "sweep.onset",
         "'refine'",

@@ -39,7 +39,7 @@ class Adapter:
     def from_settings(cls, settings: dict[str, Any], allocation: Allocation) -> "Adapter":
         return cls(settings["factor"])
 
-    def settings(self) -> dict[str, Any]:
+    def settings(self, dimension: str) -> dict[str, Any]:
         return {"factor": self._factor}
 
     def describe(self, dimension: str) -> str:
@@ -106,7 +106,7 @@ Run = Callable[..., dict[str, dict[str, Any]]]
 
 def test_stand_in_fulfils_the_protocol() -> None:
     plugged: Solver = solver_from_case(block())
-    assert plugged.settings() == {"factor": 2.0}
+    assert plugged.settings("2d") == {"factor": 2.0}
 
 
 def test_results_of_a_third_solver_come_with_case_and_provenance(run: Run, tmp_path: Path) -> None:

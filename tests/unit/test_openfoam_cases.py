@@ -106,15 +106,15 @@ def test_moment_is_about_the_moving_centre(tmp_path: Path) -> None:
 def test_settings_decide_results_and_know_no_machine() -> None:
     there = openfoam(openfoam={"prefix": "openfoam2312", "outer_correctors": 4})
     solver = solver_from_config(load_config(there), "coarse")
-    assert solver.settings() == {"mesh": "coarse", "outer_correctors": 4}
-    assert Adapter.from_settings(solver.settings()).settings() == solver.settings()
+    assert solver.settings("2d") == {"mesh": "coarse", "outer_correctors": 4}
+    assert Adapter.from_settings(solver.settings("2d")).settings("2d") == solver.settings("2d")
 
 
 def test_relaxation_is_in_the_case_where_there_is_one() -> None:
     relaxed = openfoam(openfoam={"velocity_relaxation": 0.9})
-    settings = solver_from_config(load_config(relaxed), "coarse").settings()
+    settings = solver_from_config(load_config(relaxed), "coarse").settings("2d")
     assert settings == {"mesh": "coarse", "outer_correctors": 8, "velocity_relaxation": 0.9}
-    assert Adapter.from_settings(settings).settings() == settings
+    assert Adapter.from_settings(settings).settings("2d") == settings
     factors = unsteady_solution(Coupling(8, 0.9))["relaxationFactors"]
     assert factors == {"equations": {'"U.*"': 0.9, '"(k|omega).*"': 1}}
 
@@ -180,7 +180,19 @@ def test_ranks_are_no_part_of_a_case() -> None:
         solver_from_config(load_config(openfoam(openfoam={"ranks": ranks})), "coarse")
         for ranks in (1, 4)
     )
-    assert one.settings() == four.settings()
+    assert one.settings("2d") == four.settings("2d")
+
+
+def test_choices_of_the_section_alone_are_no_part_of_a_case_of_the_plate() -> None:
+    """A plate is run once, whichever cells the section beside it has."""
+    on_its_cells = {"meshes": {"coarse": "plate-coarse"}}
+    plain, section_alike, overset = (
+        solver_from_config(load_config(openfoam(openfoam=chosen)), "coarse")
+        for chosen in ({}, on_its_cells, {"mesh_motion": "overset"})
+    )
+    assert section_alike.settings("3d") == overset.settings("3d") == plain.settings("3d")
+    assert plain.settings("3d") == {"mesh": "coarse", "outer_correctors": 8}
+    assert section_alike.settings("2d")["mesh"] == "plate-coarse"
 
 
 def test_run_with_the_plate_has_its_figures_and_table() -> None:

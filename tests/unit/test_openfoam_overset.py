@@ -146,11 +146,13 @@ def openfoam(**section: Any) -> dict[str, Any]:
 
 def test_mesh_motion_is_part_of_a_case_only_where_it_is_not_morph() -> None:
     """Kept results stand under the hashes of settings without it."""
-    morph = solver_from_config(load_config(openfoam(mesh_motion="morph")), "coarse").settings()
+    morph, overset = (
+        solver_from_config(load_config(openfoam(mesh_motion=motion)), "coarse").settings("2d")
+        for motion in ("morph", "overset")
+    )
     assert morph == {"mesh": "coarse", "outer_correctors": 8}
-    overset = solver_from_config(load_config(openfoam(mesh_motion="overset")), "coarse").settings()
     assert overset == {**morph, "mesh_motion": "overset"}
-    assert Adapter.from_settings(overset).settings() == overset
+    assert Adapter.from_settings(overset).settings("2d") == overset
 
 
 def test_papers_mesh_has_no_overset() -> None:

@@ -7,9 +7,15 @@ import xarray as xr
 from equisection.aerodynamics.polar_file import read_polar
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.polar import gather_polar, given_polar, polar_at
+from equisection.results.polar import (
+    gather_polar,
+    given_polar,
+    polar_as_modes_feel_it,
+    polar_at,
+)
 from equisection.results.steady import SteadyResult
 from equisection.results.surface import SectionSurface
+from equisection.structure.mode_set import ModeSet
 
 ANGLES = (0.0, 2.0, 4.0, 6.0, 8.0)
 STATIONS = np.array([0.25, 0.75])
@@ -124,3 +130,55 @@ def test_polar_of_no_case_is_written_and_read(tmp_path: Path) -> None:
     assert polar.sizes["resolution"] == 0
     with pytest.raises(ResultFileError, match="no resolution 'coarse'"):
         polar_at(polar, "coarse")
+
+
+SPAN = np.linspace(0.0, 1.0, 21)
+#: The in-plane mode stands first and must not be taken for a bending mode.
+MODES = ModeSet(
+    frequency=np.array([1.0, 2.0, 3.0]),
+    kind=("in-plane", "bending", "torsion"),
+    span=SPAN,
+    shape=np.array([SPAN**4, SPAN**2, SPAN]),
+    method="made up",
+    elements="none",
+)
+
+
+def beam_polar(along: np.ndarray) -> xr.Dataset:
+    """Return the polar of a beam with a lift of a tenth of the incidence, spread along the span."""
+    stations = (np.arange(along.size) + 0.5) / along.size
+    results = {}
+    for angle in ANGLES:
+        load = angle / 10 * along
+        made = SteadyResult(
+            0.04, load.mean(), load.mean() / 8, stations, load, load / 8, "made up", ""
+        )
+        described = made.to_dataset().assign_attrs(solver_description="made-up solver")
+        results["coarse", angle] = described
+    results["coarse", 10.0] = result(10.0, spanwise=True, failure="too far")
+    return gather_polar(results)
+
+
+def test_load_that_falls_to_the_tip_is_felt_less_than_its_mean() -> None:
+    """Of 2 (1 - z) a half is felt under z^2, two thirds under z."""
+    along = 2 * (1 - (np.arange(200) + 0.5) / 200)
+    mean = polar_at(beam_polar(along), "coarse")
+    felt = polar_at(polar_as_modes_feel_it(beam_polar(along), MODES), "coarse")
+    np.testing.assert_allclose(felt.lift, mean.lift / 2, rtol=1e-4, atol=1e-12)
+    np.testing.assert_allclose(felt.moment, mean.moment * 2 / 3, rtol=1e-4, atol=1e-12)
+    np.testing.assert_array_equal(felt.drag, mean.drag)
+    assert np.degrees(felt.incidence) == pytest.approx(ANGLES)  # without the one that failed
+
+
+def test_uniform_load_is_felt_as_its_mean() -> None:
+    polar = beam_polar(np.ones(23))
+    felt = polar_as_modes_feel_it(polar, MODES)
+    for name in ("cl", "cm"):
+        np.testing.assert_allclose(felt[name], polar[name], rtol=1e-12)
+
+
+def test_beam_without_loads_along_the_span_has_none_that_modes_feel() -> None:
+    with pytest.raises(ResultFileError, match="correction: mean"):
+        polar_as_modes_feel_it(gathered(spanwise=False), MODES)
+    everything_failed = gathered(spanwise=True, failed=ANGLES)
+    assert polar_as_modes_feel_it(everything_failed, MODES).identical(everything_failed)

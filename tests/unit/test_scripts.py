@@ -86,6 +86,13 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
     load_script("correction_factors").main(
         folder / "polar_2d.nc", folder / "polar_3d.nc", "thin", folder / "correction.nc"
     )
+    load_script("correction_factors").main(
+        folder / "polar_2d.nc",
+        folder / "polar_3d.nc",
+        "thin",
+        folder / "correction_modal.nc",
+        folder / "modes.nc",
+    )
     made_from = {name: folder / f"{name}.nc" for name in ("modes", "equivalent", "correction")}
     for model in ("2d-corrected", "3d"):
         cases = folder / f"cases_{model}.json"
@@ -119,6 +126,17 @@ def test_chain_of_scripts_ends_in_a_line_for_each_run(chain: Path) -> None:
         ("3d", 21.0),
     ]
     assert pd.read_csv(chain / "onset.csv")["model"].tolist() == ["2d-corrected", "3d"]
+
+
+def test_modes_feel_less_of_the_beams_lift_than_its_mean(chain: Path) -> None:
+    """The tip, where they are largest, loses most; so the factor of Eq. 20 is larger."""
+    mean, modal = (
+        read_dataset(chain / f"{name}.nc") for name in ("correction", "correction_modal")
+    )
+    assert (mean.attrs["correction"], modal.attrs["correction"]) == ("mean", "modal")
+    for factor in ("lift_factor", "moment_factor"):
+        assert (modal[factor] > 1.02 * mean[factor]).all()
+        assert (modal[factor] < 1.5 * mean[factor]).all()
 
 
 def test_results_of_the_chain_are_those_of_its_cases(chain: Path) -> None:

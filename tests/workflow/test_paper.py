@@ -8,7 +8,6 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from equisection.command_line import main as command_line
 from equisection.comparison.side_by_side.__main__ import main
 from tests.workflow.project import ROOT, Project, jobs_planned
 
@@ -49,17 +48,6 @@ def test_page_of_the_claims_is_up_to_date(
     arguments += ["--reference", str(ROOT / "results" / "reference")]
     ended = main([*arguments, "--page", str(ROOT / "docs" / "side-by-side.md"), "--check"])
     assert ended == 0, capsys.readouterr().err
-
-
-def test_polar_as_the_modes_feel_it_is_up_to_date(
-    paper: Project, capsys: pytest.CaptureFixture[str]
-) -> None:
-    modes = paper.folder / "results" / "paper-plate-figures" / "structure" / "modes.nc"
-    rigid = ROOT / "results" / "reference" / "paper-plate-openfoam-3d" / "steady" / "3d"
-    results = [str(rigid / f"coarse_a{angle:g}.nc") for angle in (0, 1, 2.5, 4)]
-    assert command_line(["polar", "--modes", str(modes), *results]) == 0
-    written = (ROOT / "config" / "polars" / "plate_3d_85284_modal.csv").read_text()
-    assert capsys.readouterr().out == written
 
 
 def test_every_figure_is_drawn_and_nothing_is_computed(paper: Project) -> None:

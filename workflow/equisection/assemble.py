@@ -42,7 +42,7 @@ def steady_case(
         resolution=resolution,
         geometry=_geometry(config),
         medium=_medium(config),
-        solver=_solver_block(solver),
+        solver=_solver_block(solver, dimension),
     )
 
 
@@ -93,7 +93,7 @@ def unsteady_case(
         time_step=unsteady.time_step,
         output_interval=unsteady.output_interval,
         criteria=Criteria(**unsteady.verdict.model_dump()),
-        solver=_solver_block(solver),
+        solver=_solver_block(solver, model.dimension),
         refusal=refusal,
         diverges=diverges,
     )
@@ -119,8 +119,9 @@ def _medium(config: Config) -> Medium:
     return Medium(speed=flow.speed, density=flow.density, dynamic_viscosity=flow.dynamic_viscosity)
 
 
-def _solver_block(solver: Solver) -> SolverBlock:
-    return SolverBlock(name=solver.name, version=solver.version, settings=solver.settings())
+def _solver_block(solver: Solver, dimension: str) -> SolverBlock:
+    settings = solver.settings(dimension)
+    return SolverBlock(name=solver.name, version=solver.version, settings=settings)
 
 
 def nominal_k_star(config: Config, equivalent: xr.Dataset) -> float:

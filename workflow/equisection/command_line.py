@@ -45,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         elif options.command == "cost":
             _cost(options.configfile)
         elif options.command == "polar":
-            print(_polar(options.results, options.modes), end="")
+            print(_polar(options.results), end="")
         elif options.command == "keep":
             _keep(options.run_folder, options.folder)
         elif options.command == "cost-model":
@@ -142,13 +142,6 @@ def _parser() -> argparse.ArgumentParser:
         metavar="RESULT",
         help="files of results/<run>/steady/<dimension>/",
     )
-    polar.add_argument(
-        "--modes",
-        type=Path,
-        metavar="MODES",
-        help="results/<run>/structure/modes.nc: the beam's lift and moment as its first bending "
-        "and torsion mode feel them, in the place of their means over the span",
-    )
     keep = commands.add_parser(
         "keep",
         help="keep a run's results for other runs",
@@ -208,11 +201,11 @@ def _keep(run: Path, folder: Path | None) -> None:
     print(f"{len(copies)} results of cases are kept in {folder}")
 
 
-def _polar(results: Sequence[Path], modes: Path | None) -> str:
+def _polar(results: Sequence[Path]) -> str:
     # Imported here, so that --help and --version come at once.
     from equisection.results.polar_csv import polar_csv  # noqa: PLC0415
 
-    return polar_csv(results, modes)
+    return polar_csv(results)
 
 
 def _cost(files: Sequence[Path]) -> None:

@@ -31,6 +31,7 @@ rule correction_factors:
     input:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
+        modes=f"{RESULTS}/structure/modes.nc",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
     output:
         f"{RESULTS}/steady/correction.nc",
@@ -44,8 +45,9 @@ rule correction_factors:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("reduction/correction.py", "results/polar.py"),
+        code=code("reduction/correction.py", "reduction/modal_load.py", "results/polar.py"),
         resolution=CONFIG.steady.resolution,
+        correction=CONFIG.correction,
     message:
         "correction factors"
     script:

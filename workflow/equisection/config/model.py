@@ -40,6 +40,12 @@ class Config(Section):
         description="Equivalent section of the models `2d` and `2d-corrected`: `consistent` "
         "keeps the natural frequencies, `paper` is Eq. 17 as printed.",
     )
+    correction: Literal["mean", "modal"] = Field(
+        "mean",
+        description="Lift and moment of the rigid beam that the section is corrected by (Eq. 20): "
+        "`mean`, over the span, as the paper does; `modal`, as the first bending and the first "
+        "torsion mode feel them.",
+    )
     reuse: Annotated[str, EMPTY] = Field(
         "results/reference",
         description="Folder with results of earlier runs: a case that one of them is the result "
@@ -82,6 +88,17 @@ class Config(Section):
     def is_paper_case(self) -> bool:
         """Whether beam and flow are those of the paper, so that its numbers can stand beside."""
         return self.beam == Beam() and self.flow == Flow()
+
+
+@check("correction", "steady.beam_polar")
+def _loads_along_the_span(correction: str, beam_polar: str) -> Iterator[Problem]:
+    if correction == "modal" and beam_polar:
+        yield Problem(
+            "correction",
+            correction,
+            "allowed is 'mean' with steady.beam_polar, whose file has no loads along the span that "
+            "modes could weight; or leave out steady.beam_polar, so that the solver runs the beam",
+        )
 
 
 @check("compute", "reuse")

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from equisection.figures.models import Look
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.provenance import add_provenance, solver_of
-from equisection.figures.style import BLACK, BLUE, GREY, PAGE_WIDTH, VERMILLION
+from equisection.figures.style import BLACK, BLUE, GREY, PAGE_WIDTH, PURPLE, VERMILLION
 
 
 @dataclass(frozen=True)
@@ -68,6 +68,9 @@ def _coefficients(axes: Axes, data: SteadyData, coefficient: Coefficient) -> Non
         root = beam[f"{name}_section"].isel(span=int(np.argmin(beam["span"].values)))
         label = f"3D root section ($z/L$ = {float(root['span']):.2g})"
         series.insert(1, (root, Look(label, BLUE, "^", (0, (2.2, 1.2)))))
+    if data.correction.attrs.get("correction") == "modal":
+        felt = data.correction[f"beam_{name}"].rename(beam_incidence_deg="incidence_deg")
+        series.append((felt, Look("3D, as the first mode feels it", PURPLE, "D", (0, (1, 1)))))
     if not any(np.isfinite(values).any() for values, _ in series):
         say(axes, "No incidence has a result.")
         return

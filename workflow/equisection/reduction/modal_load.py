@@ -19,8 +19,8 @@ from scipy.interpolate import CubicSpline
 Floats = NDArray[np.float64]
 
 
-def modal_load(stations: Floats, load: Floats, span: Floats, shape: Floats) -> float:
-    """Return the load that a mode feels, C_f.
+def modal_load(stations: Floats, load: Floats, span: Floats, shape: Floats) -> Floats:
+    """Return the load that a mode feels, C_f, shape (...).
 
     Each load counts from half way to the station before to half way to the next, the first from
     the root and the last to the tip: second order in their distance.
@@ -28,10 +28,11 @@ def modal_load(stations: Floats, load: Floats, span: Floats, shape: Floats) -> f
     Parameters
     ----------
     stations, load
-        z/L where the load is known, ascending, and the load there, shape (n,).
+        z/L where the load is known, ascending, shape (n,), and the load there, shape (..., n).
     span, shape
         z/L of the stations of the mode, and its shape there, shape (m,).
     """
     between = (stations[1:] + stations[:-1]) / 2
     weights = np.diff(between, prepend=0.0, append=1.0) * CubicSpline(span, shape)(stations)
-    return float((weights * load).sum() / weights.sum())
+    felt: Floats = load @ weights / weights.sum()
+    return felt

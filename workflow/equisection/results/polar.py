@@ -9,6 +9,8 @@ import xarray as xr
 
 from equisection.aerodynamics.polar import SectionPolar
 from equisection.errors import ResultFileError
+from equisection.reduction.modal_load import modal_load
+from equisection.structure.mode_set import ModeSet
 
 _COEFFICIENTS = {
     "cd": "drag coefficient",
@@ -118,6 +120,41 @@ def given_polar(polar: SectionPolar, resolution: str) -> xr.Dataset:
     )
     _describe(dataset)
     return dataset
+
+
+def polar_as_modes_feel_it(polar: xr.Dataset, modes: ModeSet) -> xr.Dataset:
+    """Return a beam's polar with lift and moment as its first modes feel them, not in the mean.
+
+    Lift is that of the first bending mode, moment that of the first torsion mode
+    (:mod:`equisection.reduction.modal_load`); drag stays the mean.
+
+    Parameters
+    ----------
+    polar
+        ``steady/polar_3d.nc``, with loads along the span.
+    modes
+        Modes of the beam.
+
+    Raises
+    ------
+    ResultFileError
+        The beam's results have no loads along the span.
+    ModesError
+        There is no bending or no torsion mode.
+    """
+    if "span" not in polar.dims:
+        if polar["cl"].notnull().any():
+            raise ResultFileError(
+                "the beam's results have no loads along the span, which correction 'modal' weights "
+                "by the modes; set correction: mean"
+            )
+        return polar
+    felt = {}
+    for name, first in (("cl", modes.bending(1)), ("cm", modes.torsion(1))):
+        load = polar[f"{name}_section"].transpose(..., "span")
+        values = modal_load(polar["span"].values, load.values, first.span, first.shape[0])
+        felt[name] = load.isel(span=0, drop=True).copy(data=values)
+    return polar.assign(felt)
 
 
 def _row(resolution: str, angles: Iterable[float]) -> list[tuple[str, float]]:

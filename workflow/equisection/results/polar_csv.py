@@ -12,32 +12,20 @@ import xarray as xr
 
 from equisection.aerodynamics.polar_file import COLUMNS
 from equisection.errors import ResultFileError
-from equisection.reduction.modal_load import modal_load
-from equisection.results.modes import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 
 
-def polar_csv(paths: Sequence[Path], modes: Path | None = None) -> str:
+def polar_csv(paths: Sequence[Path]) -> str:
     """Return the polar of steady results as CSV, by ascending incidence.
 
     The last column says how each value was obtained; comments say what solver did, and which
     results are left out because they failed.
 
-    Parameters
-    ----------
-    paths
-        The results.
-    modes
-        ``structure/modes.nc`` of a beam, whose first bending and torsion mode are to weight its
-        lift and moment along the span (:mod:`equisection.reduction.modal_load`); drag stays the
-        mean.
-
     Raises
     ------
     ResultFileError
         A file is no steady result, two are of the same incidence, or they are of different
-        solvers or meshes; with ``modes``, a result has no loads along the span, or there is no
-        mode of a kind.
+        solvers or meshes.
     """
     results = sorted(
         (_steady(path) for path in paths), key=lambda data: data.attrs["incidence_deg"]
@@ -49,43 +37,16 @@ def polar_csv(paths: Sequence[Path], modes: Path | None = None) -> str:
     text.write(
         "# Written by 'equisection polar' from steady results. Moment about mid-chord, nose up.\n"
     )
-    for data in results:
-        if data.attrs["failure"]:
-            what = f"{data.attrs['incidence_deg']:g} deg, {data.attrs['failure']}"
-            text.write(f"# Left out: {what}\n")
-    known = [data for data in results if not data.attrs["failure"]]
-    if modes is not None:
-        text.write("# cl and cm as the first bending and the first torsion mode feel them.\n")
-        known = _as_modes_feel_them(known, modes)
     table = csv.writer(text, lineterminator="\n")
+    failed = [data for data in results if data.attrs["failure"]]
+    for data in failed:
+        text.write(f"# Left out: {data.attrs['incidence_deg']:g} deg, {data.attrs['failure']}\n")
     table.writerow((*COLUMNS, "method"))
-    for data in known:
-        values = (f"{float(data[name]):.5f}" for name in COLUMNS[1:])
-        table.writerow((f"{data.attrs['incidence_deg']:g}", *values, data.attrs["method"]))
-    return text.getvalue()
-
-
-def _as_modes_feel_them(results: Sequence[xr.Dataset], path: Path) -> list[xr.Dataset]:
-    """Return results of a beam with the loads that its first modes feel, for the means."""
-    modes = modes_from_dataset(read_dataset(path))
-    shapes = {}
-    for name, kind in (("cl", "bending"), ("cm", "torsion")):
-        if kind not in modes.kind:
-            raise ResultFileError(f"{path}: no {kind} mode among {', '.join(modes.kind)}")
-        shapes[name] = modes.shape[modes.kind.index(kind)]
-    weighted = []
     for data in results:
-        if "span" not in data.dims:
-            raise ResultFileError(
-                f"{data.attrs['path']}: no loads along the span, which modes could weight; give "
-                "files of results/<run>/steady/3d/"
-            )
-        felt = {
-            name: modal_load(data["span"].values, data[f"{name}_section"].values, modes.span, shape)
-            for name, shape in shapes.items()
-        }
-        weighted.append(data.assign(felt))
-    return weighted
+        if not data.attrs["failure"]:
+            values = (f"{float(data[name]):.5f}" for name in COLUMNS[1:])
+            table.writerow((f"{data.attrs['incidence_deg']:g}", *values, data.attrs["method"]))
+    return text.getvalue()
 
 
 def _steady(path: Path) -> xr.Dataset:

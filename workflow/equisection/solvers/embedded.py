@@ -75,8 +75,9 @@ class Adapter:
         )
         return cls(polar, settings["strips"], SeparationLags(**settings["separation"]))
 
-    def settings(self) -> dict[str, Any]:
+    def settings(self, dimension: str) -> dict[str, Any]:
         """Return the polar, the strips and the lags of the separation."""
+        del dimension
         lags = asdict(self._lags)
         del lags["provenance"]
         return {

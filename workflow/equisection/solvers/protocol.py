@@ -62,8 +62,11 @@ class Solver(Protocol):
     version: str
     provides: frozenset[Capability]
 
-    def settings(self) -> dict[str, Any]:
-        """Return everything of the solver's set-up that decides a result, in builtin types."""
+    def settings(self, dimension: str) -> dict[str, Any]:
+        """Return all of the solver's set-up that decides a dimension's results, in builtin types.
+
+        What does not decide them is left out: cases that give the same have the same hash.
+        """
         ...
 
     def describe(self, dimension: str) -> str:

@@ -21,6 +21,8 @@ MeshName = Literal[
     "plate-fine",
     "plate-paper",
 ]
+#: Before the name of a mesh: the section has the cells that its plate has in the plane.
+ON_CELLS_OF_PLATE = "plate-"
 #: Meshes that have one around the plate, for overset.
 OVERSET_MESHES = ("coarse", "medium", "fine")
 

@@ -64,18 +64,19 @@ class Adapter:
         """Return the solver of a case, to run on as many ranks as there are threads."""
         return cls(Settings(**settings), allocation)
 
-    def settings(self) -> dict[str, Any]:
-        """Return what decides a result, as it stands in a case."""
-        return self._settings.of_case()
+    def settings(self, dimension: str) -> dict[str, Any]:
+        """Return what decides a dimension's results, as it stands in a case."""
+        return self._settings.of_dimension(dimension).of_case()
 
     def describe(self, dimension: str) -> str:
         """Return solver and resolution in words."""
         from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
 
-        preset = PRESETS[self._settings.mesh]
+        settings = self._settings.of_dimension(dimension)
+        preset = PRESETS[settings.mesh]
         cells = preset.cells if dimension == "2d" else preset.plate_cells
-        mesh = f"{cells} cells ({self._settings.mesh})"
-        if dimension == "2d" and self._settings.mesh_motion != MORPH:
+        mesh = f"{cells} cells ({settings.mesh})"
+        if settings.mesh_motion != MORPH:
             mesh += ", the free section on overset meshes"
         return f"OpenFOAM {find().version()}, k-omega SST, {mesh}"
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from equisection.config.sections.openfoam import ON_CELLS_OF_PLATE
 from equisection.solvers.openfoam.mesh import OF_PLATE, SIMILAR, Spacing
 from equisection.solvers.openfoam.paper_spacing import PAPER
 from equisection.solvers.openfoam.plate_mesh import plate_cells
@@ -42,8 +43,7 @@ _OWN: Mapping[str, Preset] = {
     "fine": Preset(math.sqrt(5.0), plate=1.19),
     "paper": Preset(1.0, PAPER, plate=2.05),
 }
-#: With ``plate-`` before the name, the section has the cells that the plate has in its plane.
-PRESETS: Mapping[str, Preset] = {
-    **_OWN,
-    **{f"plate-{name}": Preset(own.plate, OF_PLATE, own.plate) for name, own in _OWN.items()},
+_OF_PLATE = {
+    ON_CELLS_OF_PLATE + name: Preset(own.plate, OF_PLATE, own.plate) for name, own in _OWN.items()
 }
+PRESETS: Mapping[str, Preset] = {**_OWN, **_OF_PLATE}

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from equisection.config.sections.openfoam import MORPH
+from equisection.config.sections.openfoam import MORPH, ON_CELLS_OF_PLATE
 from equisection.solvers.openfoam.flow import Coupling
 
 
@@ -34,6 +34,15 @@ class Settings:
     def coupling(self) -> Coupling:
         """How flow, loads and motion come together in a time step."""
         return Coupling(self.outer_correctors, self.velocity_relaxation)
+
+    def of_dimension(self, dimension: str) -> Settings:
+        """Return the settings without the choices that are none in a dimension.
+
+        Which cells the section has, and how its mesh follows it, says nothing of the plate.
+        """
+        if dimension == "2d":
+            return self
+        return replace(self, mesh=self.mesh.removeprefix(ON_CELLS_OF_PLATE), mesh_motion=MORPH)
 
     def of_case(self) -> dict[str, Any]:
         """Return what stands in a case: without what is as in cases from before there was a choice.
