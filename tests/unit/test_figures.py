@@ -465,6 +465,18 @@ def test_flow_near_the_tip_that_is_missing_is_told(kind, said):
         lay_out(figure)
 
 
+def test_loads_that_the_modes_feel_are_shown_where_they_correct():
+    felt = correction().assign(beam_cl=("beam_incidence_deg", np.linspace(0.0, 0.7, 6)))
+    felt = felt.assign_coords(beam_incidence_deg=np.linspace(0.0, 10.0, 6))
+    for kind, are_shown in (("modal", True), ("mean", False)):
+        chosen = felt.assign_attrs(correction=kind)
+        figure = fig13_lift_correction.draw(
+            SteadyData(section_polar(), beam_polar(), chosen, "coarse")
+        )
+        assert ("as the first mode feels it" in words(figure)) == are_shown
+        lay_out(figure)
+
+
 def test_polars_may_be_empty():
     nothing = range(6)
     for figure in (
