@@ -1,11 +1,12 @@
 """Whether time step and outer correctors of a run are fine enough, at a stable and an unstable k*,
-and whether it matters how the mesh moves.
+and whether it matters how the mesh of the section moves.
 
-    python -m tests.benchmarks.independence [k* ...]
+    python -m tests.benchmarks.independence [--plate] [k* ...]
 
 Each variant is a run of its own (`results/independence-...`), made by the workflow from
-`config/openfoam.yaml`, so that what was computed or is kept is not computed again. The step and the
-correctors of that configuration are in its own sweep, of which the beginning is taken.
+`config/openfoam.yaml`, or for the plate from `config/openfoam3d.yaml`, so that what was computed or
+is kept is not computed again. The step and the correctors of that configuration are in its own
+sweep, of which the beginning is taken.
 """
 
 import argparse
@@ -21,10 +22,6 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-#: c/V: long enough for five periods at the lowest k*.
-DURATION = 45.0
-K_STAR = (5.0, 10.0)
-
 
 @dataclass(frozen=True)
 class Variant:
@@ -35,60 +32,89 @@ class Variant:
     mesh_motion: str = "morph"
 
     @property
-    def is_configured(self) -> bool:
-        """Whether it is what `config/openfoam.yaml` computes."""
-        return (self.time_step, self.outer_correctors, self.mesh_motion) == (0.02, 8, "morph")
-
-    @property
-    def run(self) -> str:
-        """Name of its run."""
-        if self.is_configured:
-            return "paper-plate-openfoam"
-        name = f"independence-step{self.time_step:g}-outer{self.outer_correctors}"
+    def name(self) -> str:
+        """Its name in the names of runs."""
+        name = f"step{self.time_step:g}-outer{self.outer_correctors}"
         return name if self.mesh_motion == "morph" else f"{name}-{self.mesh_motion}"
 
-    def overrides(self, k_star: Sequence[float]) -> list[str]:
+
+@dataclass(frozen=True)
+class Study:
+    """What is varied: a model by a configuration, whose own choice is the first variant.
+
+    ``duration`` (c/V) is that of the others, and of what is compared.
+    """
+
+    configuration: str
+    model: str
+    run: str
+    variants: tuple[Variant, ...]
+    duration: float
+    k_star: tuple[float, ...]
+
+    def run_of(self, variant: Variant) -> str:
+        """Return the name of a variant's run."""
+        if variant == self.variants[0]:
+            return self.run
+        return f"independence-{'' if self.model == '2d' else f'{self.model}-'}{variant.name}"
+
+    def overrides(self, variant: Variant, k_star: Sequence[float]) -> list[str]:
         """Return what the command line changes in the configuration."""
-        if self.is_configured:
+        if variant == self.variants[0]:
             return []
-        unsteady = {
-            "duration": DURATION,
-            "time_step": self.time_step,
-            "output_interval": 5 * self.time_step,
-        }
-        openfoam = {"outer_correctors": self.outer_correctors, "mesh_motion": self.mesh_motion}
+        unsteady: dict[str, float] = {"duration": self.duration, "time_step": variant.time_step}
+        openfoam: dict[str, object] = {"outer_correctors": variant.outer_correctors}
+        if self.model == "2d":
+            unsteady["output_interval"] = 5 * variant.time_step
+            openfoam["mesh_motion"] = variant.mesh_motion
         return [
-            f"run={self.run}",
-            f"sweep={json.dumps({'k_star': list(k_star), 'models': ['2d']})}",
+            f"run={self.run_of(variant)}",
+            f"sweep={json.dumps({'k_star': list(k_star), 'models': [self.model]})}",
             f"unsteady={json.dumps(unsteady)}",
             f"openfoam={json.dumps(openfoam)}",
         ]
 
+    def result(self, variant: Variant, k_star: float) -> Path:
+        """Return where a variant's result at a k* is."""
+        folder = Path("results") / self.run_of(variant) / "unsteady" / self.model
+        return folder / f"k{k_star:.6g}.nc"
 
-VARIANTS = (
-    Variant(0.02, 8),
-    Variant(0.01, 8),
-    Variant(0.04, 8),
-    Variant(0.02, 3),
-    Variant(0.02, 16),
-    Variant(0.04, 8, "overset"),
+    def compute(self, variant: Variant, k_star: Sequence[float], cores: int) -> None:
+        """Run a variant by the workflow."""
+        targets = [str(self.result(variant, value)) for value in k_star]
+        command = [sys.executable, "-m", "snakemake", "--cores", str(cores), "--quiet", "rules"]
+        configuration = ["--configfile", self.configuration]
+        overrides = self.overrides(variant, k_star)
+        if overrides:
+            configuration += ["--config", *overrides]
+        subprocess.run([*command, *configuration, "--", *targets], check=True)
+
+
+#: Long enough for five periods at the lowest k*.
+SECTION = Study(
+    "config/openfoam.yaml",
+    "2d",
+    "paper-plate-openfoam",
+    (
+        Variant(0.02, 8),
+        Variant(0.01, 8),
+        Variant(0.04, 8),
+        Variant(0.02, 3),
+        Variant(0.02, 16),
+        Variant(0.04, 8, "overset"),
+    ),
+    duration=45.0,
+    k_star=(5.0, 10.0),
 )
-
-
-def compute(variant: Variant, k_star: Sequence[float], cores: int) -> None:
-    """Run a variant by the workflow."""
-    targets = [str(result(variant, value)) for value in k_star]
-    command = [sys.executable, "-m", "snakemake", "--cores", str(cores), "--quiet", "rules"]
-    configuration = ["--configfile", "config/openfoam.yaml"]
-    overrides = variant.overrides(k_star)
-    if overrides:
-        configuration += ["--config", *overrides]
-    subprocess.run([*command, *configuration, "--", *targets], check=True)
-
-
-def result(variant: Variant, k_star: float) -> Path:
-    """Return where a variant's result at a k* is."""
-    return Path("results") / variant.run / "unsteady" / "2d" / f"k{k_star:.6g}.nc"
+#: Long enough for four periods.
+PLATE = Study(
+    "config/openfoam3d.yaml",
+    "3d",
+    "paper-plate-openfoam-3d",
+    (Variant(0.04, 2), Variant(0.02, 2), Variant(0.04, 4)),
+    duration=30.0,
+    k_star=(6.44,),
+)
 
 
 def oscillation(history: xr.Dataset, periods: float = 3.0) -> tuple[float, float]:
@@ -120,16 +146,16 @@ def oscillation(history: xr.Dataset, periods: float = 3.0) -> tuple[float, float
     return float(found.x[0]), abs(float(found.x[1])) / (2 * np.pi)
 
 
-def table(k_star: Sequence[float]) -> pd.DataFrame:
+def table(study: Study, k_star: Sequence[float]) -> pd.DataFrame:
     """Return growth rate (V/c), frequency, last twist and cost of each variant with a result."""
     rows = []
     for value in k_star:
-        for variant in VARIANTS:
-            path = result(variant, value)
+        for variant in study.variants:
+            path = study.result(variant, value)
             if path.exists():
                 whole = xr.load_dataset(path)
                 steps = whole.attrs["end_time"] / variant.time_step
-                history = whole.sel(time=slice(0.0, DURATION))
+                history = whole.sel(time=slice(0.0, study.duration))
                 growth_rate, frequency = oscillation(history)
                 rows.append(
                     {
@@ -148,8 +174,13 @@ def table(k_star: Sequence[float]) -> pd.DataFrame:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.independence")
-    parser.add_argument("k_star", nargs="*", type=float, default=K_STAR, help="(default: 5 10)")
-    chosen = parser.parse_args().k_star
-    for each in VARIANTS:
-        compute(each, chosen, os.cpu_count() or 1)
-    print(table(chosen).to_string(index=False, float_format="%.4g"))
+    parser.add_argument("--plate", action="store_true", help="of the plate, not of the section")
+    parser.add_argument(
+        "k_star", nargs="*", type=float, help="(default: 5 and 10; of the plate 6.44)"
+    )
+    options = parser.parse_args()
+    chosen = PLATE if options.plate else SECTION
+    at = options.k_star or chosen.k_star
+    for each in chosen.variants:
+        chosen.compute(each, at, os.cpu_count() or 1)
+    print(table(chosen, at).to_string(index=False, float_format="%.4g"))
