@@ -33,5 +33,5 @@ if __name__ == "__main__":
             Path(snakemake.input.polar_3d),
             snakemake.params.resolution,
             Path(snakemake.output[0]),
-            Path(snakemake.input.modes) if snakemake.params.correction == "modal" else None,
+            Path(snakemake.input.modes) if snakemake.input.modes else None,
         )

@@ -31,8 +31,7 @@ rule correction_factors:
     input:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
-        modes=f"{RESULTS}/structure/modes.nc",
-        equivalent=f"{RESULTS}/structure/equivalent.nc",
+        modes=f"{RESULTS}/structure/modes.nc" if CONFIG.correction == "modal" else [],
     output:
         f"{RESULTS}/steady/correction.nc",
     log:
@@ -45,9 +44,10 @@ rule correction_factors:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("reduction/correction.py", "reduction/modal_load.py", "results/polar.py"),
+        code=code(
+            "reduction/correction.py", "reduction/modal_load.py", "results/polar.py"
+        ),
         resolution=CONFIG.steady.resolution,
-        correction=CONFIG.correction,
     message:
         "correction factors"
     script:
