@@ -6,7 +6,7 @@ from equisection.reduction.correction import CorrectionFactors
 from equisection.results.correction import factors_to_dataset
 from equisection.results.modes import modes_from_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.polar import polar_as_modes_feel_it, polar_at
+from equisection.results.polar import polar_at
 from equisection.script import logged
 
 
@@ -17,11 +17,10 @@ def main(
 
     With modes the beam's are those that they feel.
     """
-    beam = read_dataset(polar_3d)
-    if modes is not None:
-        beam = polar_as_modes_feel_it(beam, modes_from_dataset(read_dataset(modes)))
+    weights = None if modes is None else modes_from_dataset(read_dataset(modes))
     section = polar_at(read_dataset(polar_2d), resolution)
-    factors = factors_to_dataset(CorrectionFactors(section, polar_at(beam, resolution)))
+    beam = polar_at(read_dataset(polar_3d), resolution, weights)
+    factors = factors_to_dataset(CorrectionFactors(section, beam))
     correction = "mean" if modes is None else "modal"
     write_dataset(output, factors.assign_attrs(correction=correction))
 

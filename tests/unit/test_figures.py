@@ -465,6 +465,23 @@ def test_flow_near_the_tip_that_is_missing_is_told(kind, said):
         lay_out(figure)
 
 
+def test_loads_along_the_span_are_lines_through_the_stations_of_one_mesh():
+    coarse, fine = beam_polar(), beam_polar()
+    fine = fine.assign_coords(span=fine["span"] - 0.01, resolution=["fine"])
+    both = xr.concat([coarse, fine], "resolution", join="outer", data_vars="all")
+    both = both.assign_attrs(solver_coarse=SOLVER, solver_fine=SOLVER)
+    figure = fig10_spanwise_loads.draw(both, "coarse")
+    drawn = [line.get_ydata() for axes in figure.axes for line in axes.lines if line.get_marker()]
+    curves = [np.asarray(values) for values in drawn if len(values) == coarse.sizes["span"]]
+    assert len(curves) >= 4
+    assert all(np.isfinite(values).all() for values in curves)
+    correction_figure = fig13_lift_correction.draw(
+        SteadyData(section_polar(), both, correction(), "coarse")
+    )
+    root = next(line for line in correction_figure.axes[0].lines if "root" in line.get_label())
+    assert np.isfinite(np.asarray(root.get_ydata())).all()
+
+
 def test_loads_that_the_modes_feel_are_shown_where_they_correct():
     felt = correction().assign(beam_cl=("beam_incidence_deg", np.linspace(0.0, 0.7, 6)))
     felt = felt.assign_coords(beam_incidence_deg=np.linspace(0.0, 10.0, 6))

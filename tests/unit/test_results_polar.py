@@ -1,3 +1,4 @@
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -7,12 +8,7 @@ import xarray as xr
 from equisection.aerodynamics.polar_file import read_polar
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.polar import (
-    gather_polar,
-    given_polar,
-    polar_as_modes_feel_it,
-    polar_at,
-)
+from equisection.results.polar import at_resolution, gather_polar, given_polar, polar_at
 from equisection.results.steady import SteadyResult
 from equisection.results.surface import SectionSurface
 from equisection.structure.mode_set import ModeSet
@@ -144,26 +140,30 @@ MODES = ModeSet(
 )
 
 
-def beam_polar(along: np.ndarray) -> xr.Dataset:
-    """Return the polar of a beam with a lift of a tenth of the incidence, spread along the span."""
-    stations = (np.arange(along.size) + 0.5) / along.size
+def beam_polar(spread: Callable[[np.ndarray], np.ndarray], **stations: int) -> xr.Dataset:
+    """Return the polar of a beam with a lift of a tenth of the incidence (deg), spread over z/L.
+
+    Each resolution has as many stations as it is given, and an incidence that failed.
+    """
     results = {}
-    for angle in ANGLES:
-        load = angle / 10 * along
-        made = SteadyResult(
-            0.04, load.mean(), load.mean() / 8, stations, load, load / 8, "made up", ""
-        )
-        described = made.to_dataset().assign_attrs(solver_description="made-up solver")
-        results["coarse", angle] = described
-    results["coarse", 10.0] = result(10.0, spanwise=True, failure="too far")
+    for resolution, count in stations.items():
+        middles = (np.arange(count) + 0.5) / count
+        for angle in ANGLES:
+            load = angle / 10 * spread(middles)
+            made = SteadyResult(
+                0.04, load.mean(), load.mean() / 8, middles, load, load / 8, "made up", ""
+            )
+            described = made.to_dataset().assign_attrs(solver_description="made-up solver")
+            results[resolution, angle] = described
+        results[resolution, 10.0] = result(10.0, spanwise=True, failure="too far")
     return gather_polar(results)
 
 
-def test_load_that_falls_to_the_tip_is_felt_less_than_its_mean() -> None:
+@pytest.mark.parametrize("resolution", ["coarse", "fine"])
+def test_load_that_falls_to_the_tip_is_felt_less_than_its_mean(resolution: str) -> None:
     """Of 2 (1 - z) a half is felt under z^2, two thirds under z."""
-    along = 2 * (1 - (np.arange(200) + 0.5) / 200)
-    mean = polar_at(beam_polar(along), "coarse")
-    felt = polar_at(polar_as_modes_feel_it(beam_polar(along), MODES), "coarse")
+    polar = beam_polar(lambda z: 2 * (1 - z), coarse=200, fine=331)
+    mean, felt = polar_at(polar, resolution), polar_at(polar, resolution, MODES)
     np.testing.assert_allclose(felt.lift, mean.lift / 2, rtol=1e-4, atol=1e-12)
     np.testing.assert_allclose(felt.moment, mean.moment * 2 / 3, rtol=1e-4, atol=1e-12)
     np.testing.assert_array_equal(felt.drag, mean.drag)
@@ -171,14 +171,24 @@ def test_load_that_falls_to_the_tip_is_felt_less_than_its_mean() -> None:
 
 
 def test_uniform_load_is_felt_as_its_mean() -> None:
-    polar = beam_polar(np.ones(23))
-    felt = polar_as_modes_feel_it(polar, MODES)
-    for name in ("cl", "cm"):
-        np.testing.assert_allclose(felt[name], polar[name], rtol=1e-12)
+    polar = beam_polar(np.ones_like, coarse=23)
+    mean, felt = polar_at(polar, "coarse"), polar_at(polar, "coarse", MODES)
+    np.testing.assert_allclose(felt.lift, mean.lift, rtol=1e-12)
+    np.testing.assert_allclose(felt.moment, mean.moment, rtol=1e-12)
+
+
+def test_each_resolution_has_the_stations_of_its_mesh() -> None:
+    polar = beam_polar(np.sqrt, coarse=23, fine=36)
+    for resolution, count in (("coarse", 23), ("fine", 36)):
+        of_mesh = at_resolution(polar, resolution)
+        assert of_mesh["span"].values == pytest.approx((np.arange(count) + 0.5) / count)
+        loads = of_mesh["cl_section"].sel(incidence_deg=list(ANGLES))
+        np.testing.assert_allclose(loads, np.outer(np.array(ANGLES) / 10, np.sqrt(of_mesh["span"])))
 
 
 def test_beam_without_loads_along_the_span_has_none_that_modes_feel() -> None:
     with pytest.raises(ResultFileError, match="correction: mean"):
-        polar_as_modes_feel_it(gathered(spanwise=False), MODES)
+        polar_at(gathered(spanwise=False), "coarse", MODES)
     everything_failed = gathered(spanwise=True, failed=ANGLES)
-    assert polar_as_modes_feel_it(everything_failed, MODES).identical(everything_failed)
+    with pytest.raises(ResultFileError, match="0 incidences with a result"):
+        polar_at(everything_failed, "coarse", MODES)

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pandas as pd
 import xarray as xr
 
 from tests.workflow.project import Project, has_nothing_to_do, jobs_run, small
@@ -89,3 +90,24 @@ def test_another_value_in_the_polar_computes_the_sweep_again(section: Project) -
     with xr.open_dataset(section.results / "unsteady" / "2d" / "k21.nc") as run:
         assert run.attrs["batch_cases"] == 3
     assert has_nothing_to_do(section.run(section.target(SUMMARY)))
+
+
+def test_correction_by_what_the_modes_feel_runs_the_corrected_section_alone(
+    finished: Project, tmp_path: Path
+) -> None:
+    """They feel less than the mean of a load that is lost at the tip: less twist and deflection."""
+    project = finished.copy(tmp_path / "project")
+    project.config = small(correction="modal")
+    before = pd.read_csv(project.results / SUMMARY).set_index(["model", "k_star"])
+
+    done = jobs_run(project.run(project.target(SUMMARY)))
+
+    assert done["correction_factors"] == done["unsteady_batch"] == 1
+    assert not {"modes", "steady_batch"} & set(done)
+    after = pd.read_csv(project.results / SUMMARY).set_index(["model", "k_star"])
+    loads = ["mean_twist_deg", "mean_deflection_chords"]
+    for model in ("2d", "3d"):
+        assert after.loc[model].equals(before.loc[model])
+    changed = after.loc["2d-corrected", loads] / before.loc["2d-corrected", loads]
+    assert ((changed > 0.7) & (changed < 0.99)).all(axis=None)
+    assert has_nothing_to_do(project.run(project.target(SUMMARY)))

@@ -58,7 +58,7 @@ def _rows(path: Path) -> list[_Row]:
             f"{', '.join(COLUMNS)} and {FEWEST_POINTS} or more points"
         )
     (header_line, header), *points = lines
-    names = [name.strip().lower() for name in _fields(header)]
+    names = [_column(name) for name in _fields(header)]
     missing = [name for name in COLUMNS if name not in names]
     if missing:
         raise PolarFileError(
@@ -79,6 +79,12 @@ def _lines(path: Path) -> list[tuple[int, str]]:
     except (OSError, UnicodeDecodeError) as error:
         raise PolarFileError(f"{path}: cannot be read as a text file: {error}") from error
     return [(number, line.strip()) for number, line in enumerate(text.splitlines(), start=1)]
+
+
+def _column(name: str) -> str:
+    """Return the name of a column, which may be written as the symbol is: c_l, C_L."""
+    name = name.strip().lower()
+    return name.replace("c_", "c", 1) if name.startswith("c_") else name
 
 
 def _fields(text: str) -> list[str]:

@@ -13,6 +13,7 @@ from equisection.figures.models import Look
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.provenance import add_provenance, solver_of
 from equisection.figures.style import BLACK, BLUE, GREY, PAGE_WIDTH, PURPLE, VERMILLION
+from equisection.results.polar import at_resolution
 
 
 @dataclass(frozen=True)
@@ -57,14 +58,14 @@ def draw_correction(data: SteadyData, coefficient: Coefficient) -> Figure:
 
 
 def _coefficients(axes: Axes, data: SteadyData, coefficient: Coefficient) -> None:
-    section = data.section.sel(resolution=data.resolution)
-    beam = data.beam.sel(resolution=data.resolution)
+    section = at_resolution(data.section, data.resolution)
+    beam = at_resolution(data.beam, data.resolution)
     name = coefficient.name
     series = [
         (section[name], Look("2D section", VERMILLION, "s", (0, (5, 1.6)))),
         (beam[name], Look("3D global", BLACK, "o")),
     ]
-    if f"{name}_section" in beam:
+    if beam.sizes.get("span"):
         root = beam[f"{name}_section"].isel(span=int(np.argmin(beam["span"].values)))
         label = f"3D root section ($z/L$ = {float(root['span']):.2g})"
         series.insert(1, (root, Look(label, BLUE, "^", (0, (2.2, 1.2)))))

@@ -11,6 +11,7 @@ from equisection.figures.incidences import nearest_incidences
 from equisection.figures.panels import letter, say, without_data
 from equisection.figures.provenance import add_provenance, solver_of
 from equisection.figures.style import COLOURS, DASHES, GREY, MARKERS, PAGE_WIDTH
+from equisection.results.polar import at_resolution
 
 #: Two low incidences and a moderate one (deg), as in the paper.
 WANTED_DEG = (1.0, 2.5, 7.0)
@@ -28,7 +29,7 @@ def draw(polar: xr.Dataset, resolution: str) -> Figure:
     """
     if resolution not in polar["resolution"].values:
         return without_data(f"No rigid beam was run at resolution '{resolution}'.")
-    chosen = polar.sel(resolution=resolution)
+    chosen = at_resolution(polar, resolution)
     finite = np.isfinite(chosen["cl"].values)
     available = [float(a) for a in chosen["incidence_deg"].values[finite]]
     angles = nearest_incidences(available, WANTED_DEG)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 import xarray as xr
@@ -52,9 +52,9 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
             )
             for key in _row(resolution, angles)
         ]
-        joined = xr.concat(row, "incidence_deg", data_vars="all", combine_attrs="drop")
+        joined = _side_by_side(row, "incidence_deg")
         parts.append(joined.expand_dims(resolution=[resolution]))
-    polar = xr.concat(parts, "resolution", data_vars="all", combine_attrs="drop")
+    polar = _side_by_side(parts, "resolution")
     _describe(polar)
     polar["is_run"] = (
         ("resolution", "incidence_deg"),
@@ -122,41 +122,6 @@ def given_polar(polar: SectionPolar, resolution: str) -> xr.Dataset:
     return dataset
 
 
-def polar_as_modes_feel_it(polar: xr.Dataset, modes: ModeSet) -> xr.Dataset:
-    """Return a beam's polar with lift and moment as its first modes feel them, not in the mean.
-
-    Lift is that of the first bending mode, moment that of the first torsion mode
-    (:mod:`equisection.reduction.modal_load`); drag stays the mean.
-
-    Parameters
-    ----------
-    polar
-        ``steady/polar_3d.nc``, with loads along the span.
-    modes
-        Modes of the beam.
-
-    Raises
-    ------
-    ResultFileError
-        The beam's results have no loads along the span.
-    ModesError
-        There is no bending or no torsion mode.
-    """
-    if "span" not in polar.dims:
-        if polar["cl"].notnull().any():
-            raise ResultFileError(
-                "the beam's results have no loads along the span, which correction 'modal' weights "
-                "by the modes; set correction: mean"
-            )
-        return polar
-    felt = {}
-    for name, first in (("cl", modes.bending(1)), ("cm", modes.torsion(1))):
-        load = polar[f"{name}_section"].transpose(..., "span")
-        values = modal_load(polar["span"].values, load.values, first.span, first.shape[0])
-        felt[name] = load.isel(span=0, drop=True).copy(data=values)
-    return polar.assign(felt)
-
-
 def _row(resolution: str, angles: Iterable[float]) -> list[tuple[str, float]]:
     return [(resolution, angle) for angle in angles]
 
@@ -164,6 +129,11 @@ def _row(resolution: str, angles: Iterable[float]) -> list[tuple[str, float]]:
 def _coefficients(result: xr.Dataset) -> xr.Dataset:
     """Return a result without what it has beside its coefficients."""
     return result[[name for name in (*_COEFFICIENTS, *_SECTIONAL) if name in result]]
+
+
+def _side_by_side(parts: Sequence[xr.Dataset], dimension: str) -> xr.Dataset:
+    """Join along a dimension, over the stations along the span that any of them has."""
+    return xr.concat(parts, dimension, join="outer", data_vars="all", combine_attrs="drop")
 
 
 def _as_all(result: xr.Dataset, others: Iterable[xr.Dataset]) -> xr.Dataset:
@@ -177,25 +147,45 @@ def _as_all(result: xr.Dataset, others: Iterable[xr.Dataset]) -> xr.Dataset:
     return result.merge(unknown)
 
 
-def polar_at(dataset: xr.Dataset, resolution: str) -> SectionPolar:
+def at_resolution(polar: xr.Dataset, resolution: str) -> xr.Dataset:
+    """Return a polar at one resolution, over the stations along the span that its mesh has."""
+    chosen = polar.sel(resolution=resolution)
+    if "span" not in chosen.dims:
+        return chosen
+    return chosen.isel(span=chosen["cl_section"].notnull().any("incidence_deg").values)
+
+
+def polar_at(dataset: xr.Dataset, resolution: str, modes: ModeSet | None = None) -> SectionPolar:
     """Return the polar of one resolution, without the incidences that failed.
+
+    Parameters
+    ----------
+    dataset
+        ``steady/polar_2d.nc`` or ``polar_3d.nc``.
+    resolution
+        Its resolution.
+    modes
+        Modes of the beam: lift and moment are to be those that its first bending and its first
+        torsion mode feel (:mod:`equisection.reduction.modal_load`), not the means.
 
     Raises
     ------
     ResultFileError
-        Fewer than four incidences have a result.
+        Fewer than four incidences have a result; with modes, these have no loads along the span.
     """
     if resolution not in dataset["resolution"].values:
         raise ResultFileError(
             f"the polar has no resolution '{resolution}': none of its incidences has a result"
         )
-    chosen = dataset.sel(resolution=resolution)
+    chosen = at_resolution(dataset, resolution)
     there = np.isfinite(chosen["cl"].values)
     if there.sum() < 4:
         raise ResultFileError(
             f"the polar at resolution '{resolution}' has {there.sum()} incidences with a result, "
             f"at least 4 are needed ({dataset.attrs.get('failures') or 'add incidences'})"
         )
+    if modes is not None:
+        chosen = _as_modes_feel_it(chosen, modes)
     return SectionPolar(
         incidence=np.radians(chosen["incidence_deg"].values[there]),
         drag=chosen["cd"].values[there],
@@ -203,3 +193,20 @@ def polar_at(dataset: xr.Dataset, resolution: str) -> SectionPolar:
         moment=chosen["cm"].values[there],
         label=str(dataset.attrs[f"solver_{resolution}"]),
     )
+
+
+def _as_modes_feel_it(polar: xr.Dataset, modes: ModeSet) -> xr.Dataset:
+    """Return a beam's polar at a resolution with the lift and moment that its first modes feel."""
+    if "span" not in polar.dims:
+        raise ResultFileError(
+            "the beam's results have no loads along the span, which correction 'modal' weights "
+            "by the modes; set correction: mean"
+        )
+    felt = {}
+    for name, first in (("cl", modes.bending(1)), ("cm", modes.torsion(1))):
+        load = polar[f"{name}_section"].transpose("incidence_deg", "span").values
+        felt[name] = (
+            "incidence_deg",
+            modal_load(polar["span"].values, load, first.span, first.shape[0]),
+        )
+    return polar.assign(felt)
