@@ -30,6 +30,7 @@ from equisection.motion.steady_states import (
     least_stable_eigenvalue,
     rigid_state,
 )
+from equisection.signals import assess
 from equisection.signals.cycles import find_cycles
 
 POLARS = Path(__file__).parents[2] / "config/polars"
@@ -288,6 +289,32 @@ def test_growth_of_a_release_is_that_of_the_linearised_system():
     growth = np.polyfit(cycles.amplitude_time, np.log(cycles.amplitude), 1)[0]
     assert growth == pytest.approx(eigenvalue.real, abs=1e-4)
     assert math.tau / cycles.period(cycles.time.size) == pytest.approx(eigenvalue.imag, rel=2e-3)
+
+
+def test_section_whose_lift_falls_gallops():
+    """Den Hartog: with dc_l/dalpha + c_d < 0 the heave is unstable, however stiff the twist."""
+    degrees = np.array([0.0, 3.0, 6.0, 10.0, 14.0, 18.0])
+    lift = np.array([0.0, 0.33, 0.60, 0.50, 0.40, 0.30])
+    falling = SectionPolar(
+        np.radians(degrees),
+        np.full(6, 0.04),
+        lift,
+        np.array([0.0, 0.05, 0.08, 0.08, 0.08, 0.08]),
+        "falling",
+    ).mirrored()
+    incidence = math.radians(10.0)
+    for polar, regime in ((falling, "growing"), (POLAR, "settled")):
+        loads = UnsteadyLoads.from_polar(polar, SeparationLags.none())
+        at = incidence if regime == "growing" else INCIDENCE
+        section = plate_sections(30.0)
+        growth = float(least_stable_eigenvalue(section_system(section, loads, at))[0].real)
+        history = release_sections(section, loads, at, 200.0)
+        valid = slice(0, int(history.samples[0]))
+        twist, deflection = history.twist[valid, 0], history.deflection[valid, 0]
+        verdict = assess(history.time[valid], twist, deflection, final=True)
+        assert (growth > 0) == (regime == "growing")
+        assert verdict.regime == regime
+        assert math.degrees(verdict.twist_amplitude) < 0.5
 
 
 def test_limit_cycles_just_below_the_onset():

@@ -77,6 +77,19 @@ def test_heave_that_rings_under_a_twist_at_rest():
     assert verdict.mean_deflection == pytest.approx(0.3, abs=0.002)
 
 
+def test_heave_that_grows_beneath_a_twist_at_rest_is_growth():
+    """Galloping: the deflection grows at its own frequency, while the twist dies out or stays."""
+    for pitch_rate, regime in ((-0.03, "settled"), (0.0, "limit-cycle")):
+        twist = np.radians(0.5 - 0.4 * np.exp(pitch_rate * S) * np.cos(OMEGA * S))
+        _, growing = release(pitch_rate, heave_rate=-0.008, amplitude=0.4)
+        assert early(S, twist, growing).regime == "undecided"
+        verdict = assess(S, twist, growing, final=True)
+        assert verdict.regime == "growing"
+        assert "heave grows" in verdict.reason
+        _, decaying = release(pitch_rate, heave_rate=0.008, amplitude=0.4)
+        assert early(S, twist, decaying).regime == regime
+
+
 def test_limit_cycle_waits_for_the_mean():
     twist, deflection = release(0.0)
     drifting = deflection + 1e-3 * S

@@ -56,6 +56,22 @@ def test_nose_up_moment_twists_nose_up_and_is_a_rotation_about_minus_z() -> None
     assert deflection == 0.0
 
 
+@pytest.mark.parametrize("count", [24, 75])
+def test_tip_that_is_held_stays_where_it_is(count: int) -> None:
+    """Between two pins the shapes are sines; every layer follows them, the last one too."""
+    stations = np.linspace(0.0, 1.0, 201)
+    sines = np.sin(np.outer([1, 2], np.pi * stations)).tolist()
+    held = beam_modes().model_copy(
+        update={"span": stations.tolist(), "torsion_shape": sines, "bending_shape": sines}
+    )
+    edges = np.linspace(0.0, 3.7, count)
+    points = LumpedPoints.of(held, edges)
+    for shapes in (points.torsion, points.bending):
+        exact = np.sin(np.outer([1, 2], np.pi * points.locations / 3.7))
+        np.testing.assert_allclose(shapes, exact, atol=1e-6)
+    assert np.abs(points.torsion_at_loads[:, -1]).max() < 1e-6
+
+
 def test_root_stays_where_it_is() -> None:
     root = POINTS.message(np.ones(4)).splitlines()[1]
     np.testing.assert_allclose([float(word) for word in root.split()], 0.0, atol=1e-12)

@@ -15,8 +15,9 @@ limit cycle
 at the end of the run
     The trend of the last periods decides, and the reason says so.
 
-A run also goes on until the means are known: the heave of a released section is 3 to 8 times
-slower than its pitch, and its last swings lie beneath the twist's.
+No run is settled or in a limit cycle before its slow heave has been seen to decay
+(equisection.signals.heave). It also goes on until the means are known: the heave of a released
+section is 3 to 8 times slower than its pitch, and its last swings lie beneath the twist's.
 
 Whoever changes a verdict here, or when it comes, raises ``rules`` of equisection.cases.Criteria.
 """
@@ -32,6 +33,7 @@ from numpy.typing import ArrayLike
 from equisection.errors import ResultFileError
 from equisection.signals.cycles import Array
 from equisection.signals.end_of_run import decide_by_trend
+from equisection.signals.heave import growing_heave, unseen_decay
 from equisection.signals.history import checked
 from equisection.signals.means import Means, means, window_means
 from equisection.signals.observation import GROWN, UNDIMINISHED, Observation, observe
@@ -94,6 +96,11 @@ def assess(
     regime, reason = _while_running(seen)
     if regime == "undecided" and final:
         regime, reason = decide_by_trend(seen)
+    if regime in {"settled", "limit-cycle"}:
+        if final and (heave := growing_heave(seen)):
+            regime, reason = "growing", heave
+        elif not final and (heave := unseen_decay(seen)):
+            regime, reason = "undecided", f"looks {regime} ({reason}), but {heave}"
     if regime == "undecided":
         return _verdict(seen, regime, reason)
     if regime == "growing":

@@ -3,11 +3,11 @@
 A point stands in the middle of each layer of cells along the plate, and one at either end. The
 loads of a layer's faces go to its point; the mesh's points on the plate are moved as the lumped
 points to either side, linearly between them, so the shapes of the modes are followed to second
-order in the size of a layer. The last layer moves without a slope: beyond the tip the mesh has
-none, and what is between would be squeezed. A load does its work on the surface as it moves, so a
-mode's load takes the mean of the shape over each layer. Loads are those of the pressure:
-``lumpedPointMovement`` leaves out friction, which has next to no lift and no moment about
-mid-chord.
+order in the size of a layer. The last layer of a free tip moves without a slope: beyond the tip the
+mesh has none, and what is between would be squeezed. A load does its work on the surface as it
+moves, so a mode's load takes the mean of the shape over each layer. Loads are those of the
+pressure: ``lumpedPointMovement`` leaves out friction, which has next to no lift and no moment
+about mid-chord.
 
 Angles are Euler angles (z, x, z) in radians, and a rotation about +z is nose *down*.
 """
@@ -35,6 +35,8 @@ Floats = NDArray[np.float64]
 
 #: Iterations of the mesh's displacement in each motion.
 _ITERATIONS = 4
+#: A shape that is less than this at the tip, relative to its largest, is held there.
+_HELD = 1e-6
 
 
 @dataclass(frozen=True)
@@ -156,9 +158,10 @@ def _at_edges(shapes: Floats, edges: Floats) -> Floats:
 
 
 def _followed(shapes: Floats, edges: Floats) -> Floats:
-    """Return shapes without a slope in the last layer."""
+    """Return shapes without a slope in the last layer, but for those of a tip that is held."""
     flat = shapes.copy()
-    flat[:, -1] = _at_edges(shapes, edges)[:, -2]
+    is_free = np.abs(shapes[:, -1]) > _HELD * np.abs(shapes).max(axis=1)
+    flat[is_free, -1] = _at_edges(shapes, edges)[is_free, -2]
     return flat
 
 
