@@ -53,7 +53,7 @@ cost: $(ENV)/run
 	cp results/paper-embedded/comparison/summary.csv results/reference/embedded-cost.csv
 
 identification: $(ENV)/run
-	$(SNAKEMAKE) identification
+	$(SNAKEMAKE) -- identification
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && cat $$folder/identification/lags.yaml
 
 cost-model: $(ENV)/run

@@ -30,7 +30,9 @@ class Beam(Section):
     length: Positive = Field(0.37, description="Span L (m), longer than the chord.")
     thickness: Positive = Field(0.004, description="Thickness h (m), below half the chord.")
     youngs_modulus: Positive = Field(
-        3.3e9, description="Young's modulus E (Pa) of the reference beam; the sweep scales it."
+        3.3e9,
+        description="Young's modulus E (Pa) of the beam as given; the sweep scales all of its "
+        "stiffness, root springs included.",
     )
     poisson_ratio: Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False), NUMBER] = Field(
         0.35, description="Poisson's ratio nu (-)."
