@@ -82,7 +82,7 @@ class EquivalentSection:
         return chord**2 * self.flexural_stiffness / self.torsional_stiffness
 
     def scaled(self, stiffness_scale: float) -> EquivalentSection:
-        """Return the section of the beam with Young's modulus times ``stiffness_scale`` (-)."""
+        """Return the section of the beam with all stiffness times ``stiffness_scale`` (-)."""
         if not stiffness_scale > 0.0:
             raise ReductionError(f"stiffness_scale is {stiffness_scale}; give a positive number")
         return replace(
