@@ -13,6 +13,8 @@ from equisection.aerodynamics.polar import SectionPolar
 from equisection.aerodynamics.polar_file import read_polar
 from equisection.errors import IncidenceOutOfRangeError, ReductionError
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
+from equisection.results.correction import factor_at, factors_to_dataset
+from equisection.results.netcdf import read_dataset, write_dataset
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"
 SECTION = read_polar(POLARS / "plate_2d_11136.csv")
@@ -125,10 +127,46 @@ def test_beam_coefficient_that_vanishes_alone_is_named() -> None:
     section = SectionPolar(degrees, flat, flat, flat, "section").mirrored()
     factors = CorrectionFactors(section, beam)
     assert factors.lift_factor(np.radians(2)) == pytest.approx(1)
-    with pytest.raises(ReductionError, match=r"c_m/C_M .* at an incidence of 2 deg.* C_M is 0,"):
-        factors.moment_factor(np.radians([1, 2]))
-    with pytest.raises(ReductionError, match=r"C_M is -0\.1"):
-        factors.moment_factor(np.radians(3))
+    assert factors.moment_factor(np.radians([1, 2, 3])) == pytest.approx(
+        [1, np.nan, np.nan], nan_ok=True
+    )
+    with pytest.raises(ReductionError, match=r"c_m/C_M .* incidence of 2 deg.* C_M is 0,"):
+        corrected_equilibrium(factors, np.radians(2), 50.0, RATIO)
+
+
+def cambered(zero_deg: float, slope: float, label: str) -> SectionPolar:
+    """A moment of its own sign on either side of an angle, the lift of one sign throughout."""
+    degrees = np.linspace(-4, 8, 13)
+    moment = slope * np.radians(degrees - zero_deg)
+    return SectionPolar(np.radians(degrees), 0 * degrees, 0.6 + 0.05 * degrees, moment, label)
+
+
+CAMBERED = CorrectionFactors(cambered(1.5, 1.2, "section"), cambered(2.5, 0.9, "beam"))
+
+
+def test_cambered_section_has_no_factor_between_the_zeros_of_its_moments(tmp_path: Path) -> None:
+    path = tmp_path / "correction.nc"
+    write_dataset(path, factors_to_dataset(CAMBERED))
+    made = read_dataset(path)
+    incidence, factor = made["incidence_deg"].values, made["moment_factor"].values
+    between = (incidence > 1.5) & (incidence < 2.5)
+    np.testing.assert_array_equal(np.isnan(factor), between)
+    expected = 1.2 / 0.9 * (incidence - 1.5) / (incidence - 2.5)
+    np.testing.assert_allclose(factor[~between], expected[~between], rtol=1e-9)
+    np.testing.assert_allclose(made["lift_factor"], 1.0)
+    assert factor_at(made, "moment_factor", 3.0) == pytest.approx(1.2 / 0.9 * 1.5 / 0.5)
+    assert factor_at(made, "moment_factor", 3.5) == pytest.approx(expected[[7, 8]].mean())
+    for nowhere in (2.7, 9.0):
+        assert np.isnan(factor_at(made, "moment_factor", nowhere))
+
+
+def test_cambered_section_is_corrected_where_its_equilibrium_has_a_factor() -> None:
+    """From theta_0 = 4 deg the twist is nose up, away from the zeros; from 2 deg it is not."""
+    found = corrected_equilibrium(CAMBERED, np.radians(4), 5.0, RATIO)
+    assert found.twist_rad == pytest.approx(0.9 * np.radians(1.5) / (5.0 - 0.9))
+    assert found.moment_factor > 1.2 / 0.9
+    with pytest.raises(ReductionError, match="c_m/C_M is not a positive number"):
+        corrected_equilibrium(CAMBERED, np.radians(2), 5.0, RATIO)
 
 
 def test_incidence_beyond_either_polar_is_refused() -> None:

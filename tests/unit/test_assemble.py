@@ -1,6 +1,7 @@
 """What is put into a case."""
 
 import math
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,7 @@ from equisection.config import Config, load_config
 from equisection.reduction.correction import CorrectionFactors
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.section import REDUCTIONS, reduce_beam
-from equisection.results.correction import factors_to_dataset
+from equisection.results.correction import factors_from_dataset, factors_to_dataset
 from equisection.results.equivalent import equivalent_to_dataset
 from equisection.results.modes import modes_to_dataset
 from equisection.solvers.registry import solver_from_config
@@ -137,6 +138,20 @@ def test_corrected_section_that_diverges_is_refused_in_its_case(
     assert refused.section is None
     assert refused.refusal
     assert case("2d-corrected", 21.0, data).refusal == ""
+
+
+def test_corrected_section_without_a_factor_is_refused_and_the_others_go_on(
+    data: dict[str, xr.Dataset],
+) -> None:
+    """A section whose moment changes sign where the beam's does not; softer, it twists past it."""
+    both = factors_from_dataset(data["correction"])
+    section = replace(both.section, moment=both.section.moment - 0.08)
+    crossing = {**data, "correction": factors_to_dataset(CorrectionFactors(section, both.beam))}
+    refused = case("2d-corrected", 21.0, crossing)
+    assert refused.section is None
+    assert "c_m/C_M" in refused.refusal
+    assert not refused.diverges
+    assert case("2d-corrected", 2.0, crossing).section is not None
 
 
 def test_case_holds_no_name_and_no_path_of_the_run(data: dict[str, xr.Dataset]) -> None:

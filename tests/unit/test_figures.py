@@ -494,6 +494,18 @@ def test_loads_that_the_modes_feel_are_shown_where_they_correct():
         lay_out(figure)
 
 
+def test_correction_factor_has_a_gap_where_there_is_none():
+    crossing = correction()
+    crossing["moment_factor"] = ("incidence_deg", [0.8, np.nan, np.nan, 2.0, 1.5, 1.4])
+    figure = fig14_moment_correction.draw(
+        SteadyData(section_polar(), beam_polar(), crossing, "coarse")
+    )
+    drawn = next(line for line in figure.axes[1].lines if len(line.get_xdata()) == 6)
+    np.testing.assert_array_equal(drawn.get_ydata(), crossing["moment_factor"])
+    lay_out(figure)
+    assert np.isfinite(figure.axes[1].get_ylim()).all()
+
+
 def test_polars_may_be_empty():
     nothing = range(6)
     for figure in (

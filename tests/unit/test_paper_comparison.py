@@ -258,6 +258,16 @@ class TestPaperTable:
         assert table.loc["c_l/C_L at 10 deg", "note"] == "holds"
         assert table.loc["c_m/C_M at 10 deg", "note"] == "does not hold here"
 
+    def test_a_factor_that_is_not_a_positive_number_is_blank_with_the_reason(self) -> None:
+        crossing = run().correction.assign(moment_factor=("incidence_deg", [1.1, math.nan, 1.05]))
+        table = by_quantity(paper_table(run(correction=crossing), True))
+        row = table.loc["c_m/C_M at theta_0"]
+        assert math.isnan(row["here"])
+        assert math.isnan(row["relative_difference"])
+        assert "not a positive number" in row["note"]
+        assert table.loc["c_m/C_M at 10 deg", "here"] == 1.05
+        assert table.loc["c_l/C_L at theta_0", "here"] == 1.2
+
     def test_ratio_of_a_uniform_load(self) -> None:
         assert uniform_load_ratio(run(), "torsion") == pytest.approx(3.0 * (180 / 58) ** 2)
         one = run(modes=modes().isel(mode=[0, 2]))

@@ -288,6 +288,17 @@ def test_nothing_that_is_absent_breaks_the_page() -> None:
     assert page(empty).count("Not run yet") >= 10
 
 
+def test_factors_are_not_judged_across_a_gap() -> None:
+    whole = complete()
+    crossing = whole.correction.copy(deep=True)
+    crossing["moment_factor"][3] = np.nan
+    found = loads.section_against_plate(replace(whole, correction=crossing))
+    assert "c_m/C_M: 1.20 at 2.5 deg, 1.10 at 5 deg, 0.90 at 10 deg" in found.here
+    crossing["moment_factor"][1] = np.nan
+    found = loads.section_against_plate(replace(whole, correction=crossing))
+    assert found.verdict is Verdict.OPEN
+
+
 def test_links_of_the_page_lead_to_its_headings() -> None:
     text = page(complete())
     headings = re.findall(r"^## (.*)$", text, flags=re.MULTILINE)

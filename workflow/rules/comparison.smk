@@ -186,7 +186,7 @@ rule paper_comparison:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code("comparison"),
+        code=code("comparison", "results/correction.py"),
         is_paper_case=CONFIG.is_paper_case,
         config=RESOLVED,
     message:

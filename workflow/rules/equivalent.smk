@@ -45,7 +45,10 @@ rule correction_factors:
         runtime=5,
     params:
         code=code(
-            "reduction/correction.py", "reduction/modal_load.py", "results/polar.py"
+            "reduction/correction.py",
+            "reduction/modal_load.py",
+            "results/correction.py",
+            "results/polar.py",
         ),
         resolution=CONFIG.steady.resolution,
     message:

@@ -20,6 +20,7 @@ from equisection.comparison.paper_values import (
 )
 from equisection.comparison.tables import at_incidence, modes_of_table_2
 from equisection.config import Config
+from equisection.results.correction import factor_at
 
 
 @dataclass(frozen=True)
@@ -71,6 +72,7 @@ class Here:
 
 
 _NOT_AMONG = "not among the incidences of this run (steady.incidence_deg)"
+_BEYOND = "beyond the incidences of this run (steady.incidence_deg)"
 _NO_BEAM = Here(math.nan, "this run has no rigid beam of its own")
 
 
@@ -204,10 +206,11 @@ def _factors(run: Run) -> dict[str, list[Here]]:
     found = {}
     for quantity, name in factors.items():
         for label, angle in angles.items():
-            inside = incidence[0] <= angle <= incidence[-1]
-            value = np.interp(angle, incidence, run.correction[name].values) if inside else math.nan
-            note = "" if inside else "beyond the incidences of this run (steady.incidence_deg)"
-            found[f"{quantity} at {label}"] = [Here(float(value), note)]
+            value, note = factor_at(run.correction, name, angle), ""
+            if not math.isfinite(value):
+                covered = incidence.size and incidence[0] <= angle <= incidence[-1]
+                note = "not a positive number in this run" if covered else _BEYOND
+            found[f"{quantity} at {label}"] = [Here(value, note)]
     return found
 
 

@@ -8,8 +8,9 @@ the section are multiplied by
 (Eqs. 19, 20), the first for m_2D and k_w, the second for I_2D and k_theta. A symmetric section
 has 0/0 at zero incidence. The quotient is continuous there: it is that of c_l/alpha and C_L/alpha,
 which tend to the slopes (even, with the kink that the curvature of the monotone cubic at its
-first point leaves). Where only the coefficient of the beam vanishes, or the two differ in
-sign, the corrected mass would be infinite or negative and there is no equivalent section.
+first point leaves). Where only one of the two vanishes, or they differ in sign, the corrected mass
+would be zero, infinite or negative: there is no factor (NaN), and no equivalent section for a beam
+whose equilibrium is there.
 
 Taken at every instant the factors would make the mass depend on the angle. They are taken once,
 at the aeroelastic equilibrium, where the corrected section obeys
@@ -55,14 +56,30 @@ class CorrectionFactors:
     beam: SectionPolar
 
     def lift_factor(self, alpha: ArrayLike) -> Floats:
-        """c_l/C_L (1) at ``alpha`` (rad, any shape): the factor of m_2D and k_w."""
+        """c_l/C_L (1) at ``alpha`` (rad, any shape): the factor of m_2D and k_w.
+
+        NaN where it is not a positive number.
+
+        Raises
+        ------
+        IncidenceOutOfRangeError
+            A polar does not cover ``alpha``.
+        """
         self._require(alpha)
-        return _quotient(self.section.lift_cubic, self.beam.lift_cubic, alpha, "C_L")
+        return _quotient(self.section.lift_cubic, self.beam.lift_cubic, alpha)
 
     def moment_factor(self, alpha: ArrayLike) -> Floats:
-        """c_m/C_M (1) at ``alpha`` (rad, any shape): the factor of I_2D and k_theta."""
+        """c_m/C_M (1) at ``alpha`` (rad, any shape): the factor of I_2D and k_theta.
+
+        NaN where it is not a positive number.
+
+        Raises
+        ------
+        IncidenceOutOfRangeError
+            A polar does not cover ``alpha``.
+        """
         self._require(alpha)
-        return _quotient(self.section.moment_cubic, self.beam.moment_cubic, alpha, "C_M")
+        return _quotient(self.section.moment_cubic, self.beam.moment_cubic, alpha)
 
     def _require(self, alpha: ArrayLike) -> None:
         self.section.require(alpha)
@@ -107,39 +124,62 @@ def corrected_equilibrium(
         k* (1), scalar or shape (m,).
     stiffness_ratio
         c^2 k_w/k_theta = k_w*/k* (1).
+
+    Raises
+    ------
+    DivergenceError
+        The moment outgrows the stiffness at a k*.
+    ReductionError
+        The beam's polar ends before an equilibrium, or a factor is not a positive number there.
+    IncidenceOutOfRangeError
+        A polar does not cover theta_0 or the equilibrium.
     """
     stiffness = np.atleast_1d(np.asarray(k_star, dtype=np.float64))
     factors.beam.require(incidence_rad)
     twist = np.array([_first_twist(factors.beam, incidence_rad, float(k)) for k in stiffness])
     incidence = incidence_rad + twist
+    lift_factor, moment_factor = factors.lift_factor(incidence), factors.moment_factor(incidence)
+    section, beam = factors.section, factors.beam
+    _require_factor(lift_factor, section.lift_cubic, beam.lift_cubic, incidence, "C_L")
+    _require_factor(moment_factor, section.moment_cubic, beam.moment_cubic, incidence, "C_M")
     return CorrectedEquilibrium(
         k_star=stiffness,
         twist_rad=twist,
-        deflection_chords=factors.beam.lift_cubic(incidence) / (stiffness_ratio * stiffness),
-        lift_factor=factors.lift_factor(incidence),
-        moment_factor=factors.moment_factor(incidence),
+        deflection_chords=beam.lift_cubic(incidence) / (stiffness_ratio * stiffness),
+        lift_factor=lift_factor,
+        moment_factor=moment_factor,
     )
 
 
-def _quotient(
-    section: PchipInterpolator, beam: PchipInterpolator, alpha: ArrayLike, name: str
-) -> Floats:
+def _quotient(section: PchipInterpolator, beam: PchipInterpolator, alpha: ArrayLike) -> Floats:
+    """Return c/C of two curves; NaN where it is not a positive number."""
     incidence = np.asarray(alpha, dtype=np.float64)
     if _vanishes_at_zero(section) and _vanishes_at_zero(beam):
         above, below = _mean_slope(section, incidence), _mean_slope(beam, incidence)
     else:
         above, below = section(incidence), beam(incidence)
-    bad = ~(above * below > 0)
+    is_positive = above * below > 0
+    quotient: Floats = np.where(is_positive, above / np.where(is_positive, below, 1.0), np.nan)
+    return quotient
+
+
+def _require_factor(
+    factor: Floats,
+    section: PchipInterpolator,
+    beam: PchipInterpolator,
+    incidence: Floats,
+    name: str,
+) -> None:
+    """Raise ReductionError unless there is a factor at every equilibrium."""
+    bad = np.isnan(factor)
     if np.any(bad):
         worst = float(incidence[bad][0])
         raise ReductionError(
-            f"the correction factor {name.lower()}/{name} is not a positive number at an "
-            f"incidence of {np.degrees(worst):.4g} deg: the beam's {name} is "
+            f"the correction factor {name.lower()}/{name} is not a positive number at the "
+            f"equilibrium's incidence of {np.degrees(worst):.4g} deg: the beam's {name} is "
             f"{float(beam(worst)):.4g}, the section's {name.lower()} {float(section(worst)):.4g}; "
             "choose another incidence, or run without the correction"
         )
-    quotient: Floats = np.asarray(above / below)
-    return quotient
 
 
 def _vanishes_at_zero(curve: PchipInterpolator) -> bool:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import xarray as xr
 
@@ -9,10 +11,16 @@ from equisection.aerodynamics.polar import SectionPolar
 from equisection.reduction.correction import CorrectionFactors
 
 _COEFFICIENTS = {"drag": "cd", "lift": "cl", "moment": "cm"}
+#: Incidences (deg) this close are one: they come from degrees by way of radians.
+_SAME_DEG = 1e-6
 
 
 def factors_to_dataset(factors: CorrectionFactors) -> xr.Dataset:
-    """Return ``steady/correction.nc`` on the incidences that both polars cover."""
+    """Return ``steady/correction.nc`` on the incidences that both polars cover.
+
+    A factor is NaN where it is not a positive number, as where the moment of a cambered section
+    changes sign.
+    """
     section, beam = factors.section, factors.beam
     low = max(section.incidence_range[0], beam.incidence_range[0])
     high = min(section.incidence_range[1], beam.incidence_range[1])
@@ -22,12 +30,20 @@ def factors_to_dataset(factors: CorrectionFactors) -> xr.Dataset:
         "lift_factor": (
             "incidence_deg",
             factors.lift_factor(incidence),
-            {"units": "1", "long_name": "c_l/C_L, factor of mass and flexural stiffness"},
+            {
+                "units": "1",
+                "long_name": "c_l/C_L, factor of mass and flexural stiffness",
+                "missing_allowed": "1",
+            },
         ),
         "moment_factor": (
             "incidence_deg",
             factors.moment_factor(incidence),
-            {"units": "1", "long_name": "c_m/C_M, factor of inertia and torsional stiffness"},
+            {
+                "units": "1",
+                "long_name": "c_m/C_M, factor of inertia and torsional stiffness",
+                "missing_allowed": "1",
+            },
         ),
     }
     for whole, polar in (("section", section), ("beam", beam)):
@@ -67,3 +83,17 @@ def factors_from_dataset(dataset: xr.Dataset) -> CorrectionFactors:
         for whole in ("section", "beam")
     }
     return CorrectionFactors(**polars)
+
+
+def factor_at(dataset: xr.Dataset, name: str, incidence_deg: float) -> float:
+    """Return a factor of ``steady/correction.nc`` at an incidence (deg), linear between its own.
+
+    NaN beyond its incidences, and between two of which one has no factor.
+    """
+    incidence, factor = dataset["incidence_deg"].values, dataset[name].values
+    same = np.flatnonzero(np.abs(incidence - incidence_deg) <= _SAME_DEG)
+    if same.size:
+        return float(factor[same[0]])
+    if not incidence.size:
+        return math.nan
+    return float(np.interp(incidence_deg, incidence, factor, left=np.nan, right=np.nan))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from equisection.comparison.paper_values import BUBBLE_2D, BUBBLE_AT_ROOT, COEFFICIENTS, TABLE_1
@@ -13,6 +15,7 @@ from equisection.comparison.side_by_side.findings import (
     open_finding,
     percent,
 )
+from equisection.results.correction import factor_at
 from equisection.results.section_mesh import share_below
 
 #: The finest mesh of Table 1, which is the one to judge by.
@@ -213,13 +216,15 @@ def section_against_plate(evidence: Evidence) -> Finding:
     parts, holds = [], []
     for name, factor in (("c_l/C_L", "lift_factor"), ("c_m/C_M", "moment_factor")):
         values = correction[factor].values
-        low = float(np.interp(2.5, incidence, values))
+        low = factor_at(correction, factor, 2.5)
+        if not math.isfinite(low):
+            return open_finding(f"a factor {name} at 2.5 deg")
         below = incidence[(values < 1.0) & (incidence > 2.5)]
         holds += [low > 1.0, below.size > 0]
         shown = ", ".join(
-            f"{float(np.interp(angle, incidence, values)):.2f} at {angle:g} deg"
+            f"{value:.2f} at {angle:g} deg"
             for angle in (2.5, 5.0, 7.5, 9.0, 10.0)
-            if angle <= incidence[-1]
+            if math.isfinite(value := factor_at(correction, factor, angle))
         )
         parts.append(f"{name}: {shown}")
     verdict = Verdict.PARTLY
