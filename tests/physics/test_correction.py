@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from equisection.aerodynamics.polar import SectionPolar
 from equisection.aerodynamics.polar_file import read_polar
-from equisection.errors import IncidenceOutOfRangeError, ReductionError
+from equisection.errors import DivergenceError, IncidenceOutOfRangeError, ReductionError
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
 from equisection.results.correction import factor_at, factors_to_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -198,6 +198,23 @@ def test_no_incidence_no_twist() -> None:
     assert np.all(found.twist_rad == 0)
     assert np.all(found.deflection_chords == 0)
     assert found.moment_factor == pytest.approx(SECTION.moment_slope() / BEAM.moment_slope())
+
+
+@pytest.mark.parametrize("left", [0.0, 1e-5, -1e-5])
+def test_what_a_solver_leaves_of_zero_decides_no_equilibrium(left: float) -> None:
+    """The moment rises with 1.2/rad to stall at 4 deg: the plate's, a little off at zero."""
+    degrees = np.linspace(-10, 10, 41)
+    moment = 1.2 * np.radians(np.clip(degrees, -4, 4))
+    beam = SectionPolar(
+        np.radians(degrees), 0 * moment, moment, moment + left * moment.max(), "a little off"
+    )
+    factors = CorrectionFactors(SECTION, beam)
+    slope = beam.moment_slope()
+    found = corrected_equilibrium(factors, 0.0, [1.001 * slope, 5.0], RATIO)
+    assert np.all(found.twist_rad == 0.0)
+    for k_star in (0.999 * slope, 0.5 * slope):
+        with pytest.raises(DivergenceError, match="static divergence"):
+            corrected_equilibrium(factors, 0.0, k_star, RATIO)
 
 
 def test_first_of_several_roots_is_taken() -> None:

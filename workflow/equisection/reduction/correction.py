@@ -21,6 +21,8 @@ at the aeroelastic equilibrium, where the corrected section obeys
 so the equilibrium follows from the beam's polar alone. Of several roots the one is taken that is
 met first when theta grows from zero in the direction of the moment. There k* exceeds the slope
 of C_M: it is statically stable. No root inside the polar means divergence, or a short polar.
+Without a moment at theta_0 the section stays there, or diverges where k* does not exceed the slope;
+what a solver leaves of zero is no moment.
 """
 
 from __future__ import annotations
@@ -36,7 +38,7 @@ from equisection.errors import DivergenceError, ReductionError
 
 Floats = NDArray[np.float64]
 
-#: A coefficient this small at zero incidence, relative to the largest of its polar, is zero.
+#: A coefficient this small where it is to vanish, relative to the largest of its polar, is zero.
 _ZERO = 1e-3
 
 
@@ -184,8 +186,13 @@ def _require_factor(
 
 def _vanishes_at_zero(curve: PchipInterpolator) -> bool:
     """Tell whether a curve passes through zero, but for what a solver leaves of zero."""
+    return _is_nil(curve, 0.0)
+
+
+def _is_nil(curve: PchipInterpolator, alpha: float) -> bool:
+    """Tell whether a curve vanishes at ``alpha`` (rad), but for what a solver leaves of zero."""
     greatest = np.max(np.abs(curve(curve.x)))
-    return bool(abs(curve(0.0)) <= _ZERO * greatest)
+    return bool(abs(curve(alpha)) <= _ZERO * greatest)
 
 
 def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
@@ -209,10 +216,10 @@ def _first_twist(beam: SectionPolar, incidence_rad: float, k_star: float) -> flo
     """First root theta of k* theta = C_M(theta_0 + theta) from zero on (rad)."""
     cubic = beam.moment_cubic
     moment, slope = float(cubic(incidence_rad)), float(cubic(incidence_rad, 1))
-    if moment == 0.0:
+    if _is_nil(cubic, incidence_rad):
         if k_star > slope:
             return 0.0
-        raise _no_equilibrium(beam, incidence_rad, k_star)
+        raise DivergenceError(_diverges(beam, incidence_rad, k_star))
     coefficients = cubic.c.copy()  # of C_M(alpha) - k* (alpha - theta_0), knot by knot
     coefficients[2] -= k_star
     coefficients[3] -= k_star * (cubic.x[:-1] - incidence_rad)
@@ -225,14 +232,23 @@ def _first_twist(beam: SectionPolar, incidence_rad: float, k_star: float) -> flo
 
 
 def _no_equilibrium(beam: SectionPolar, incidence_rad: float, k_star: float) -> ReductionError:
+    cubic = beam.moment_cubic
+    end = beam.incidence_range[0 if cubic(incidence_rad) < 0 else 1]
+    if float(cubic(end, 1)) >= k_star:  # the gap still widens where the polar ends
+        return DivergenceError(_diverges(beam, incidence_rad, k_star))
+    nothing = _nothing_inside(beam, incidence_rad, k_star)
+    return ReductionError(f"{nothing}: the polar is too short; extend it or raise k*")
+
+
+def _diverges(beam: SectionPolar, incidence_rad: float, k_star: float) -> str:
+    nothing = _nothing_inside(beam, incidence_rad, k_star)
+    return f"{nothing}: the moment outgrows the stiffness (static divergence)"
+
+
+def _nothing_inside(beam: SectionPolar, incidence_rad: float, k_star: float) -> str:
     least, greatest = np.degrees(beam.incidence_range)
-    what = (
+    return (
         f"no static equilibrium at k* = {k_star:.4g} from theta_0 = "
         f"{np.degrees(incidence_rad):.4g} deg inside polar {beam.label!r} ({least:.4g} to "
         f"{greatest:.4g} deg)"
     )
-    cubic = beam.moment_cubic
-    end = beam.incidence_range[0 if cubic(incidence_rad) < 0 else 1]
-    if float(cubic(end, 1)) >= k_star:  # the gap still widens where the polar ends
-        return DivergenceError(f"{what}: the moment outgrows the stiffness (static divergence)")
-    return ReductionError(f"{what}: the polar is too short; extend it or raise k*")
