@@ -142,6 +142,35 @@ def test_nested_meshes_bring_every_frequency_down():
     assert study.kind == coarse_modes().kind[:8]
 
 
+def test_a_mesh_study_pairs_modes_that_a_coarse_mesh_has_in_another_order():
+    # At L/c = 6 the fourth bending mode passes the second of torsion as the mesh is refined.
+    plate = replace(PAPER, length=0.6)
+    levels = [(4, 15, 1), (6, 24, 1)]
+    coarse, fine = (compute_modes(plate, "solid", level, 8) for level in levels)
+    assert coarse.kind != fine.kind
+
+    study = mesh_study(plate, levels)
+
+    assert study.kind == fine.kind
+    assert study.frequency[1] == pytest.approx(fine.frequency, rel=1e-12)
+    for kind in ("bending", "torsion", "in-plane"):
+        of_kind = [i for i, this in enumerate(fine.kind) if this == kind]
+        alike = coarse.frequency[[i for i, this in enumerate(coarse.kind) if this == kind]]
+        assert study.frequency[0, of_kind] == pytest.approx(alike, rel=1e-9)
+    assert (np.abs(study.change) < 0.05).all()
+
+
+def test_a_mesh_without_a_mode_of_the_finest_leaves_it_empty_and_says_so(caplog):
+    plate = replace(PAPER, length=0.6)
+    study = mesh_study(plate, [(1, 2, 1), (1, 15, 1)], "beam", count=8)
+    assert study.kind.count("bending") > 4  # what two elements can have
+    assert np.isnan(study.frequency[0]).sum() == study.kind.count("bending") - 4
+    assert np.isfinite(study.frequency[1]).all()
+    assert "structure.mesh_study: the mesh of 1 x 2 x 1 elements lacks modes of bending" in (
+        caplog.text
+    )
+
+
 def test_a_fork_is_softer_than_a_clamp():
     frequency = {
         boundary: compute_modes(replace(PAPER, boundary=boundary), "solid", (6, 22, 1), 6)

@@ -60,7 +60,7 @@ def mesh_study_to_dataset(study: MeshStudy, analytic: ModeSet) -> xr.Dataset:
             "frequency": (
                 ("elements", "mode"),
                 study.frequency,
-                _says("Hz", "natural frequency on each mesh"),
+                {**_says("Hz", "natural frequency on each mesh"), "missing_allowed": "1"},
             ),
             "kind": ("mode", list(study.kind), _says("1", "kind of motion")),
             "mesh": (

@@ -50,6 +50,10 @@ class ModeSet:
         """First torsion modes."""
         return self._of_kind("torsion", count)
 
+    def lowest(self, count: int) -> ModeSet:
+        """Lowest modes of any kind."""
+        return self._chosen(list(range(min(count, len(self.kind)))))
+
     def _of_kind(self, kind: str, count: int) -> ModeSet:
         found = [i for i, this in enumerate(self.kind) if this == kind]
         if len(found) < count:
@@ -58,7 +62,9 @@ class ModeSet:
                 f"{len(self.kind)} computed by method {self.method!r} ({self.elements}); "
                 "compute more modes (a larger count)"
             )
-        chosen = found[:count]
+        return self._chosen(found[:count])
+
+    def _chosen(self, chosen: list[int]) -> ModeSet:
         return ModeSet(
             self.frequency[chosen],
             tuple(self.kind[i] for i in chosen),
@@ -80,7 +86,7 @@ class MeshStudy:
     kind : tuple of str
         Kinds on the finest level.
     frequency : (levels, n) array
-        Natural frequencies (Hz).
+        Natural frequencies (Hz); NaN of a mode that a level lacks.
     """
 
     elements: tuple[tuple[int, int, int], ...]

@@ -7,7 +7,9 @@ warping and Poisson contraction at a clamp.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import logging
+from collections import Counter
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +25,10 @@ from equisection.structure.span import normalise
 Floats = NDArray[np.float64]
 
 METHODS = ("solid", "beam", "analytic")
+#: Where the search for modes of a kind ends: a plate that lacks them among so many has none.
+MOST_MODES = 200
+
+logger = logging.getLogger(__name__)
 
 
 def compute_modes(
@@ -79,14 +85,73 @@ def compute_modes(
 def mesh_study(
     plate: Plate, levels: Sequence[tuple[int, int, int]], method: str = "solid", count: int = 8
 ) -> MeshStudy:
-    """Solve on each mesh level (coarse to fine) and compare the first ``count`` frequencies."""
-    solved = [compute_modes(plate, method, level, count) for level in levels]
-    for level, modes in zip(levels, solved, strict=True):
-        if modes.kind != solved[-1].kind:
-            raise ModesError(
-                f"on {level} elements the modes are {', '.join(modes.kind)}, on {levels[-1]} "
-                f"{', '.join(solved[-1].kind)}; the coarse mesh does not resolve them, refine it"
-            )
-    return MeshStudy(
-        tuple(levels), solved[-1].kind, np.array([modes.frequency for modes in solved])
-    )
+    """Solve on each mesh level (coarse to fine) and compare the first ``count`` frequencies.
+
+    Modes are paired by kind, the n-th of bending with the n-th of bending, since a coarse mesh may
+    have them in another order. One that a level lacks is NaN there, with a warning.
+
+    Raises
+    ------
+    ModesError
+        The finest level has no modes.
+    """
+    finest = compute_modes(plate, method, levels[-1], count)
+    coarser = [_paired(plate, method, level, finest.kind) for level in levels[:-1]]
+    return MeshStudy(tuple(levels), finest.kind, np.array([*coarser, finest.frequency]))
+
+
+def _paired(
+    plate: Plate, method: str, level: tuple[int, int, int], kinds: tuple[str, ...]
+) -> Floats:
+    """Return the frequencies (Hz) of modes of these kinds on a mesh; NaN of those it lacks."""
+    frequency = np.full(len(kinds), np.nan)
+    reason = ""
+    try:
+        modes = _holding(plate, method, level, Counter(kinds), len(kinds))
+    except ModesError as error:
+        reason = f" ({error})"
+    else:
+        for kind in set(kinds):
+            wanted = [i for i, this in enumerate(kinds) if this == kind]
+            found = [i for i, this in enumerate(modes.kind) if this == kind]
+            for i, j in zip(wanted, found, strict=False):
+                frequency[i] = modes.frequency[j]
+    lacking = sorted({kinds[i] for i in np.flatnonzero(np.isnan(frequency))})
+    if lacking:
+        logger.warning(
+            "structure.mesh_study: the mesh of %s elements lacks modes of %s that the finest has%s;"
+            " they stay empty there, refine it or leave it out",
+            " x ".join(map(str, level)),
+            ", ".join(lacking),
+            reason,
+        )
+    return frequency
+
+
+def _holding(
+    plate: Plate,
+    method: str,
+    elements: tuple[int, int, int],
+    wanted: Mapping[str, int],
+    count: int,
+) -> ModeSet:
+    """Return the lowest modes, ``count`` or as many more as hold so many of each kind.
+
+    Where the mesh has no more, or at `MOST_MODES`, what there is comes back.
+    """
+    asked = count
+    while True:
+        modes = compute_modes(plate, method, elements, asked)
+        places = [_place(modes.kind, kind, number) for kind, number in wanted.items()]
+        held = [place for place in places if place is not None]
+        if len(held) == len(places):
+            return modes.lowest(max([count, *(place + 1 for place in held)]))
+        if len(modes.kind) < asked or asked >= MOST_MODES:
+            return modes
+        asked *= 2
+
+
+def _place(kinds: Sequence[str], kind: str, number: int) -> int | None:
+    """Return where the last of so many modes of a kind is; None if there are fewer."""
+    found = [i for i, this in enumerate(kinds) if this == kind]
+    return found[number - 1] if len(found) >= number else None
