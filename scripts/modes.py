@@ -8,10 +8,11 @@ from equisection.results.modes import modes_to_dataset
 from equisection.results.netcdf import write_dataset
 from equisection.script import logged
 from equisection.structure.mode_set import frequency_constants
-from equisection.structure.modes import compute_modes
+from equisection.structure.modes import modes_of_kinds
 from equisection.structure.plate import Plate
 
-#: Modes computed beside those of bending and torsion that are wanted, since some are in-plane.
+#: Modes computed beside those of bending and torsion that are wanted, since some are in-plane;
+#: a slender beam needs more, which are then computed.
 OTHER_MODES = 4
 
 
@@ -19,14 +20,14 @@ def main(beam: Beam, structure: Structure, output: Path) -> None:
     """Compute the modes that the configuration asks for."""
     plate = Plate(**beam.model_dump())
     elements = structure.elements
-    modes = compute_modes(
+    bending, torsion = structure.bending_modes, structure.torsion_modes
+    modes = modes_of_kinds(
         plate,
         structure.method,
         (elements.chord, elements.span, elements.thickness),
-        count=structure.bending_modes + structure.torsion_modes + OTHER_MODES,
+        (bending, torsion),
+        count=bending + torsion + OTHER_MODES,
     )
-    modes.bending(structure.bending_modes)
-    modes.torsion(structure.torsion_modes)
     for frequency, kind in zip(modes.frequency, modes.kind, strict=True):
         logging.info("%9.3f Hz %s", frequency, kind)
     write_dataset(output, modes_to_dataset(modes, list(frequency_constants(modes, plate))))

@@ -9,7 +9,7 @@ import pytest
 
 from equisection.errors import ModesError
 from equisection.structure.analytic import bending_modes, bending_roots, torsion_modes
-from equisection.structure.modes import compute_modes
+from equisection.structure.modes import compute_modes, modes_of_kinds
 from equisection.structure.plate import BOUNDARIES, Plate
 from equisection.structure.span import gram
 
@@ -126,3 +126,31 @@ def test_what_is_missing_is_named():
         compute_modes(PAPER, "guess")
     with pytest.raises(ModesError, match="'beam' or 'analytic'"):
         compute_modes(plate_with("one-fork"), "solid", (4, 8, 1), 4)
+
+
+@pytest.mark.parametrize("method", ["beam", "analytic"])
+@pytest.mark.parametrize("aspect", [16, 40])
+def test_a_slender_plate_has_the_torsion_modes_that_are_wanted(method, aspect):
+    plate = replace(PAPER, length=aspect * PAPER.chord)
+    with pytest.raises(ModesError, match="4 torsion modes are needed"):
+        compute_modes(plate, method, (1, 60, 1), 12).torsion(4)
+    modes = modes_of_kinds(plate, method, (1, 60, 1), (4, 4), 12)
+    assert len(modes.torsion(4).frequency) == 4
+    assert modes.kind[-1] == "torsion"  # no more than are needed
+    exact = compute_modes(plate, "analytic", (1, 60, 1), len(modes.kind))
+    assert modes.kind == exact.kind
+    assert modes.frequency == pytest.approx(exact.frequency, rel=1e-3)
+
+
+@pytest.mark.parametrize("method", ["beam", "analytic"])
+def test_a_plate_whose_lowest_modes_hold_what_is_wanted_keeps_them(method):
+    asked = compute_modes(PAPER, method, (1, 40, 1), 12)
+    modes = modes_of_kinds(PAPER, method, (1, 40, 1), (4, 4), 12)
+    assert modes.kind == asked.kind
+    assert (modes.frequency == asked.frequency).all()
+    assert (modes.shape == asked.shape).all()
+
+
+def test_modes_that_a_mesh_cannot_have_are_refused_by_the_keys_that_ask_for_them():
+    with pytest.raises(ModesError, match=r"lower structure\.bending_modes or refine structure\.el"):
+        modes_of_kinds(PAPER, "beam", (1, 2, 1), (5, 1), 10)

@@ -14,7 +14,7 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity
 
 from equisection.structure.classify import KINDS, classify
 from equisection.structure.mode_set import ModeSet, frequency_constants
-from equisection.structure.modes import compute_modes, mesh_study
+from equisection.structure.modes import compute_modes, mesh_study, modes_of_kinds
 from equisection.structure.plate import Plate
 from equisection.structure.solid import solid_modes
 from equisection.structure.span import gram
@@ -122,6 +122,22 @@ def test_extension_and_chordwise_modes_are_told_apart():
     bar = np.sqrt(stub.youngs_modulus / stub.density) / (4 * stub.length)
     extension = modes.frequency[modes.kind.index("extension")]
     assert extension == pytest.approx(bar, rel=0.05)
+
+
+def test_a_slender_solid_has_the_torsion_modes_that_are_wanted():
+    plate = replace(PAPER, length=1.5)
+    modes = modes_of_kinds(plate, "solid", (4, 40, 1), (4, 4), 12)
+    assert len(modes.kind) > 12
+    beam = compute_modes(plate, "analytic", (4, 40, 1), 30)
+    assert modes.torsion(4).frequency == pytest.approx(beam.torsion(4).frequency, rel=0.05)
+
+
+def test_the_papers_plate_keeps_its_twelve_lowest_modes_to_the_last_digit():
+    asked = compute_modes(PAPER, "solid", (4, 15, 1), 12)
+    modes = modes_of_kinds(PAPER, "solid", (4, 15, 1), (4, 4), 12)
+    assert modes.kind == asked.kind
+    assert (modes.frequency == asked.frequency).all()
+    assert (modes.shape == asked.shape).all()
 
 
 def test_section_shapes_are_orthogonal_like_those_of_a_beam():

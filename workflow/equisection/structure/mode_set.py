@@ -44,23 +44,30 @@ class ModeSet:
 
     def bending(self, count: int) -> ModeSet:
         """First bending modes."""
-        return self._of_kind("bending", count)
+        return self.of_kind("bending", count)
 
     def torsion(self, count: int) -> ModeSet:
         """First torsion modes."""
-        return self._of_kind("torsion", count)
+        return self.of_kind("torsion", count)
 
     def lowest(self, count: int) -> ModeSet:
         """Lowest modes of any kind."""
         return self._chosen(list(range(min(count, len(self.kind)))))
 
-    def _of_kind(self, kind: str, count: int) -> ModeSet:
+    def of_kind(self, kind: str, count: int) -> ModeSet:
+        """First modes of a kind.
+
+        Raises
+        ------
+        ModesError
+            There are fewer.
+        """
         found = [i for i, this in enumerate(self.kind) if this == kind]
         if len(found) < count:
             raise ModesError(
                 f"{count} {kind} modes are needed and {len(found)} are among the "
                 f"{len(self.kind)} computed by method {self.method!r} ({self.elements}); "
-                "compute more modes (a larger count)"
+                f"lower structure.{kind}_modes or refine structure.elements"
             )
         return self._chosen(found[:count])
 

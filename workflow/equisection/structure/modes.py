@@ -82,6 +82,29 @@ def compute_modes(
     )
 
 
+def modes_of_kinds(
+    plate: Plate,
+    method: str,
+    elements: tuple[int, int, int],
+    numbers: tuple[int, int],
+    count: int,
+) -> ModeSet:
+    """Lowest modes of a plate, ``count`` or as many more as hold so many of bending and torsion.
+
+    A slender plate has many bending modes below its first few of torsion.
+
+    Raises
+    ------
+    ModesError
+        The mesh has too few modes of a kind.
+    """
+    wanted = dict(zip(("bending", "torsion"), numbers, strict=True))
+    modes = _holding(plate, method, elements, wanted, count)
+    for kind, number in wanted.items():
+        modes.of_kind(kind, number)
+    return modes
+
+
 def mesh_study(
     plate: Plate, levels: Sequence[tuple[int, int, int]], method: str = "solid", count: int = 8
 ) -> MeshStudy:
