@@ -12,6 +12,8 @@ from equisection.config.__main__ import COMMAND, MARK, README, SCHEMA, main
 from equisection.config.sections import Range
 from equisection.config.values import NULL_WORDS
 from equisection.errors import ConfigError
+from equisection.structure.plate import BOUNDARIES
+from equisection.structure.solid import SOLID_BOUNDARIES
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "config/examples").glob("*.yaml"))
@@ -40,6 +42,19 @@ def test_examples_resolve_and_their_files_exist(example):
     config = load_config(merged(read(ROOT / "config/config.yaml"), read(example)))
     check_files(config, ROOT)
     assert config.run == example.stem.replace("_", "-")
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_boundaries_that_the_solid_lacks_are_refused_with_it_alone(boundary):
+    beam = {"boundary": boundary}
+    if boundary == "spring-root":
+        beam |= {"root_torsional_stiffness": 4.0, "root_bending_stiffness": 1e5}
+    load_config({"beam": beam, "structure": {"method": "beam"}})
+    if boundary in SOLID_BOUNDARIES:
+        load_config({"beam": beam})
+    else:
+        with pytest.raises(ConfigError, match=f"beam.boundary: '{boundary}': .* 'solid'"):
+            load_config({"beam": beam})
 
 
 def test_there_are_examples():

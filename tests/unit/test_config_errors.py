@@ -215,6 +215,12 @@ MALFORMED = [
         "1",
         "null with boundary 'clamped-free'",
     ),
+    (
+        {"beam": {"boundary": "one-fork"}},
+        "beam.boundary",
+        "'one-fork'",
+        "clamped-pinned; or give structure.method: beam or analytic",
+    ),
     ({"flow": {"speed": 120}}, "flow.speed", "120", "up to 102 m/s, Mach 0.3"),
     ({"flow": {"incidence_deg": 12}}, "flow.incidence_deg", "12", "0 to 10 deg"),
     (

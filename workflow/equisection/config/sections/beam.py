@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field
 
@@ -21,6 +21,8 @@ Boundary = Literal[
 ]
 #: Boundaries whose far end moves freely, and so need a gap to the channel's wall.
 FREE_TIP: frozenset[str] = frozenset({"clamped-free", "spring-root"})
+#: Boundaries that a solid plate has no counterpart of.
+NOT_OF_SOLID: frozenset[str] = frozenset({"one-fork", "spring-root"})
 
 
 class Beam(Section):
@@ -42,7 +44,8 @@ class Beam(Section):
         "clamped-free",
         description="How the beam is held, root first. `pinned-pinned` has fork ends (no twist "
         "at either end), `one-fork` is pinned at both ends with the twist held at the root "
-        "only, `spring-root` is held by the two root springs alone.",
+        "only, `spring-root` is held by the two root springs alone; these two need "
+        "`structure.method` `beam` or `analytic`.",
     )
     root_torsional_stiffness: Annotated[Positive | None, NULLABLE] = Field(
         None,
@@ -71,6 +74,18 @@ def _slender(length: float, chord: float) -> Iterator[Problem]:
     if length <= chord:
         yield Problem(
             "beam.length", length, f"allowed is a number above the chord, beam.chord = {chord:g} m"
+        )
+
+
+@check("beam.boundary", "structure.method")
+def _held_by_the_method(boundary: str, method: str) -> Iterator[Problem]:
+    if method == "solid" and boundary in NOT_OF_SOLID:
+        allowed = ", ".join(name for name in get_args(Boundary) if name not in NOT_OF_SOLID)
+        yield Problem(
+            "beam.boundary",
+            boundary,
+            f"allowed with structure.method 'solid' are {allowed}; or give structure.method: beam "
+            "or analytic",
         )
 
 
