@@ -178,6 +178,46 @@ class TestFlutter:
         p = growth_and_frequency(PLATE, scales)
         np.testing.assert_allclose(p, growth_and_frequency(PLATE, scales[::-1])[::-1], rtol=1e-8)
 
+    @pytest.mark.parametrize("section", [HODGES_PIERCE, PLATE], ids=["textbook", "plate"])
+    def test_other_scales_that_are_asked_for_do_not_matter(self, section):
+        dense = np.append(np.geomspace(30.0, 1.5, 400), [2.0, 15.0])
+        p = growth_and_frequency(section, dense)
+        for few in ([1.5], [2.0, 15.0], [30.0], [15.0, 1.5, 2.0]):
+            places = [int(np.argmin(np.abs(dense - scale))) for scale in few]
+            alone = growth_and_frequency(section, np.array(few))
+            np.testing.assert_allclose(alone, p[places], rtol=1e-8)
+
+    def test_motions_change_little_from_one_scale_to_the_next_and_keep_apart(self):
+        p = growth_and_frequency(PLATE, np.geomspace(100.0, 0.5, 600))
+        assert np.abs(np.diff(p, axis=0)).max() < 0.02
+        assert np.abs(p[:, 0] - p[:, 1]).min() > 0.05
+
+    def test_both_motions_of_the_papers_section_below_its_flutter(self):
+        """Growth of pitch between flutter (s = 1.93) and divergence (s = 1.57) and beyond."""
+        p = growth_and_frequency(PLATE, np.array([1.5]))[0]
+        np.testing.assert_allclose(p, [-0.213 + 0.168j, 0.036 + 0.236j], atol=1e-3)
+
+    def test_a_motion_is_not_lost_where_both_come_close(self):
+        """At s = 1.86 both guesses lead to one motion, and either is a p of its own loads."""
+        section = TypicalSection(136.4, 18.43, 10.61, 1.0, -0.03439, 0.1837)
+        scales = np.geomspace(30.0, 0.5, 80)
+        p = growth_and_frequency(section, scales)
+        assert np.abs(p[:, 0] - p[:, 1]).min() > 0.03
+        for scale, roots in zip(scales, p, strict=True):
+            for root in roots:
+                loads = section.air.influence(root.imag) - scale * section.stiffness_matrix
+                terms = root**2 * section.mass_matrix - loads
+                assert abs(np.linalg.det(terms)) < 1e-7 * np.abs(loads).max() ** 2
+
+    @pytest.mark.parametrize("section", [HODGES_PIERCE, PLATE], ids=["textbook", "plate"])
+    def test_stiff_sections_vibrate_with_the_mass_of_the_air(self, section):
+        """In vacuum but for the apparent mass, which is a mass at any stiffness."""
+        scale = 1e8
+        mass = section.mass_matrix + section.air.apparent_mass
+        squares = np.linalg.eigvals(np.linalg.solve(mass, section.stiffness_matrix))
+        p = growth_and_frequency(section, np.array([scale]))[0]
+        np.testing.assert_allclose(p.imag, np.sqrt(scale * np.sort(squares)), rtol=1e-5)
+
     def test_heave_of_a_heavy_section_is_damped_by_its_lift(self):
         """Quasi-steady: p = -2 pi C/(2 m*), small against omega (Fung, section 6.9)."""
         mass, omega = 1e4, 0.02

@@ -54,6 +54,11 @@ class ThinAirfoil:
         x = self.axis
         return -0.5 * math.pi * np.array([[1.0, x], [x, 1.0 / 32.0 + x * x]])
 
+    @property
+    def apparent_mass(self) -> Floats:
+        """Mass and inertia of the air that moves with the plate, -A_2 (-), shape (2, 2)."""
+        return -self._apparent_mass
+
     @cached_property
     def _apparent_rate(self) -> Floats:
         return 0.5 * math.pi * np.array([[0.0, 1.0], [0.0, -(_QUARTER - self.axis)]])
