@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
+from dataclasses import fields, replace
 from functools import cache
 from pathlib import Path
 
@@ -16,14 +16,14 @@ import pytest
 import yaml
 from scipy.optimize import brentq
 
-from equisection.aerodynamics.identification import identify_lags, load_misfit
+from equisection.aerodynamics.identification import LoadMisfit, identify_lags, load_misfit
 from equisection.aerodynamics.polar_file import read_polar
 from equisection.aerodynamics.reference_history import ReferenceHistory, unexplained_damping
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.config.sections import Embedded
 from equisection.errors import ResultFileError
-from equisection.motion.judgement import judge_release
+from equisection.motion.judgement import ReleaseJudgement, ReleaseNumbers, judge_release
 from equisection.motion.sections import (
     SectionParameters,
     release_sections,
@@ -93,6 +93,23 @@ def test_motion_of_the_releases_that_were_not_seen(path):
     )
     if abs(recorded.growth_rate) > 0.005:  # nearer to zero the side is not told
         assert judged.same_side_of_onset
+
+
+@pytest.mark.parametrize(
+    ("recorded", "modelled", "same"),
+    [
+        (0.02, 0.01, True),
+        (-0.02, -0.01, True),
+        (0.02, -0.01, False),
+        (-0.02, math.nan, False),
+        (math.nan, -0.01, False),
+        (math.nan, math.nan, False),
+    ],
+)
+def test_a_release_without_a_growth_rate_is_on_no_side(recorded, modelled, same):
+    one, other = (ReleaseNumbers(rate, *[0.0] * 4) for rate in (recorded, modelled))
+    misfit = LoadMisfit(*[0.0] * len(fields(LoadMisfit)))
+    assert ReleaseJudgement("made up", 5.0, one, other, misfit).same_side_of_onset is same
 
 
 def test_the_lag_of_the_lift_pays_where_it_was_not_identified():

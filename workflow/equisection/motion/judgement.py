@@ -68,8 +68,10 @@ class ReleaseJudgement:
 
     @property
     def same_side_of_onset(self) -> bool:
-        """Whether both grow or both decay."""
-        return (self.recorded.growth_rate > 0.0) == (self.modelled.growth_rate > 0.0)
+        """Whether both grow or both decay; not so where one has no growth rate."""
+        recorded, modelled = self.recorded.growth_rate, self.modelled.growth_rate
+        known = math.isfinite(recorded) and math.isfinite(modelled)
+        return known and (recorded > 0.0) == (modelled > 0.0)
 
 
 def release_of(history: ReferenceHistory, loads: UnsteadyLoads) -> SectionHistories:
