@@ -16,6 +16,8 @@ from matplotlib.text import Text
 import equisection
 from equisection.comparison.bubble import bubble_table
 from equisection.comparison.grid_study import grid_study
+from equisection.comparison.section_and_beam import deviations
+from equisection.comparison.summary import summarise
 from equisection.figures import (
     fig01_workflow,
     fig03_modes,
@@ -33,6 +35,7 @@ from equisection.figures import (
     fig16_response,
     fig17_hysteresis,
     growth_rate,
+    section_and_beam,
 )
 from equisection.figures.correction import SteadyData
 from equisection.figures.incidences import nearest_incidences
@@ -504,6 +507,30 @@ def test_correction_factor_has_a_gap_where_there_is_none():
     np.testing.assert_array_equal(drawn.get_ydata(), crossing["moment_factor"])
     lay_out(figure)
     assert np.isfinite(figure.axes[1].get_ylim()).all()
+
+
+def test_tables_and_polar_of_no_case_are_drawn(tmp_path):
+    """As with ``compute: false`` and nothing kept; tables as they are read from their files."""
+
+    def as_read(table: pd.DataFrame) -> pd.DataFrame:
+        table.to_csv(tmp_path / "table.csv", index=False)
+        return pd.read_csv(tmp_path / "table.csv")
+
+    polar, summary = gather_polar({}), as_read(summarise([]))
+    for figure, says in (
+        (fig06_section_polar.draw(polar), "No incidence has a result."),
+        (
+            fig06_section_polar.draw(polar, as_read(grid_study(polar, {}))),
+            "No incidence has an observed order",
+        ),
+        (
+            growth_rate.draw(summary, linear_theory().iloc[:0], is_paper_case=False),
+            "No run has a growth rate.",
+        ),
+        (section_and_beam.draw(as_read(deviations(summary)), summary), "No section and beam"),
+    ):
+        assert says in words(figure)
+        lay_out(figure)
 
 
 def test_polars_may_be_empty():

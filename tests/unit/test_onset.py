@@ -1,8 +1,12 @@
+import io
 import math
 
+import pandas as pd
 import pytest
 
-from equisection.comparison.onset import onset_bracket, refinement_points
+from equisection.comparison.linear_theory import ONSET_COLUMNS, with_linear_theory
+from equisection.comparison.onset import COLUMNS, onset_bracket, onset_table, refinement_points
+from equisection.comparison.summary import summarise
 
 S, L, G, F = "settled", "limit-cycle", "growing", "failed"
 
@@ -28,6 +32,13 @@ def test_open_brackets(regimes, known):
 
 def test_no_runs():
     assert not onset_bracket([], []).closed
+
+
+def test_table_of_no_runs_has_its_columns_and_no_lines():
+    summary = pd.read_csv(io.StringIO(summarise([]).to_csv(index=False)))
+    table = with_linear_theory(onset_table(summary), {}, "consistent")
+    assert tuple(table.columns) == (*COLUMNS, *ONSET_COLUMNS)
+    assert table.empty
 
 
 def test_islands_of_stability_do_not_count():

@@ -11,11 +11,15 @@ import pytest
 import xarray as xr
 
 from equisection.comparison import paper_values
+from equisection.comparison.bubble import bubble_table
+from equisection.comparison.onset import onset_table
 from equisection.comparison.paper import COLUMNS, paper_table
 from equisection.comparison.paper_here import Run, uniform_load_ratio
 from equisection.comparison.paper_values import PUBLISHED, Published, relative_difference
+from equisection.comparison.summary import summarise
 from equisection.comparison.tables import table_1, table_2
 from equisection.config import Config
+from equisection.results.polar import gather_polar
 
 KINDS = ("bending", "bending", "torsion", "bending", "torsion", "in-plane")
 FREQUENCY = np.array([8.0, 50.0, 58.0, 140.0, 180.0, 188.0])
@@ -297,6 +301,22 @@ class TestPaperTable:
     def test_cost_has_no_relative_difference(self) -> None:
         row = by_quantity(paper_table(run(), True)).loc["cost of 3D over 2D, per time simulated"]
         assert row["here"] == pytest.approx(4.0)
+    def test_a_run_without_results_has_rows_that_say_why(self) -> None:
+        """As with ``compute: false`` and nothing kept."""
+        nothing = summarise([])
+        empty = run(
+            polar_3d=gather_polar({}),
+            summary=nothing,
+            onset=onset_table(nothing),
+            bubble=bubble_table({}),
+            reference_3d=None,
+            correction=None,
+        )
+        row = by_quantity(paper_table(empty, True)).loc["C_L at 10 deg (15e6 cells)"]
+        assert math.isnan(row["here"])
+        assert "no incidence has a result at resolution coarse" in row["note"]
+        assert "C_L at 10 deg" not in set(paper_table(empty, False)["quantity"])
+
         assert math.isnan(row["relative_difference"])
 
     def test_bubble_and_wall_distance_beside_the_papers(self) -> None:
@@ -352,6 +372,14 @@ class TestTables:
         assert table.loc["C_2", "solid 24 x 89 x 2"] == pytest.approx(50.0 * 3e-5)
         assert table.loc["C_2", "mesh 4 x 15 x 1"] == pytest.approx(1.02 * 50.0 * 3e-5)
         assert table.loc["C_3", "analytic beam"] == pytest.approx(0.004 / 0.37 / (2 * math.pi))
+    @pytest.mark.parametrize("is_paper_case", [True, False])
+    def test_table_1_of_no_result_has_the_papers_columns(self, is_paper_case: bool) -> None:
+        table = table_1(gather_polar({}), is_paper_case)
+        assert list(table.columns) == list(
+            table_1(polar_3d(), True).filter(regex="^(?!.*coarse)").columns
+        )
+        assert len(table) == (len(ANGLES) if is_paper_case else 0)
+
         assert list(table["kind"]) == ["bending", "bending", "torsion", "bending", "torsion"]
 
     def test_table_2_says_what_three_finer_and_finer_meshes_converge_to(self) -> None:

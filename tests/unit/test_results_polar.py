@@ -124,6 +124,7 @@ def test_polar_of_no_case_is_written_and_read(tmp_path: Path) -> None:
     write_dataset(tmp_path / "polar.nc", gather_polar({}))
     polar = read_dataset(tmp_path / "polar.nc")
     assert polar.sizes["resolution"] == 0
+    assert set(polar.data_vars) == {"cd", "cl", "cm", "is_run"}
     with pytest.raises(ResultFileError, match="no resolution 'coarse'"):
         polar_at(polar, "coarse")
 

@@ -23,6 +23,8 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+#: Columns of :func:`onset_table`, in order.
+COLUMNS = ("model", "k_star_stable", "k_star_unstable", "failed_inside", "stable_below")
 _SIGNIFICANT_DIGITS = 4
 
 
@@ -169,7 +171,7 @@ def bracket_of(summary: pd.DataFrame) -> OnsetBracket:
 
 
 def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
-    """Return ``comparison/onset.csv``: the bracket of each model of a summary."""
+    """Return ``comparison/onset.csv``: the bracket of each model of a summary; none of no run."""
     rows = []
     for model, runs in summary.groupby("model", sort=False):
         bracket = bracket_of(runs)
@@ -182,4 +184,4 @@ def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
                 "stable_below": " ".join(f"{k:g}" for k in bracket.islands),
             }
         )
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=list(COLUMNS))

@@ -155,6 +155,9 @@ def _rigid_plate(run: Run) -> dict[str, list[Here]]:
     found = {}
     for angle in angles:
         row = at_incidence(run.polar_3d, resolution, angle)
+    if resolution not in run.polar_3d["resolution"].values:
+        nothing = Here(math.nan, f"no incidence has a result at resolution {resolution}")
+        return {f"{name} at {angle:g} deg": [nothing] for angle in angles for name in COEFFICIENTS}
         for name, short in COEFFICIENTS.items():
             value = math.nan if row is None else float(row[short])
             if row is None:

@@ -29,6 +29,9 @@ def table_1(polar_3d: xr.Dataset, is_paper_case: bool) -> pd.DataFrame:
     if not is_paper_case:
         angles = [float(angle) for angle in polar_3d["incidence_deg"].values]
     resolutions = [str(name) for name in polar_3d["resolution"].values]
+    columns = ["incidence_deg"]
+    columns += [f"{name} paper {mesh}" for mesh in TABLE_1 for name in COEFFICIENTS]
+    columns += [f"{name} {resolution}" for resolution in resolutions for name in COEFFICIENTS]
     rows = []
     for angle in angles:
         row: dict[str, object] = {"incidence_deg": angle}
@@ -45,7 +48,7 @@ def table_1(polar_3d: xr.Dataset, is_paper_case: bool) -> pd.DataFrame:
         )
         row["failures"] = polar_3d.attrs.get("failures", "")
         rows.append(row)
-    return pd.DataFrame(rows)
+    return pd.DataFrame(rows, columns=[*columns, "made_by", "failures"])
 
 
 def at_incidence(polar: xr.Dataset, resolution: str, angle: float) -> xr.Dataset | None:

@@ -68,7 +68,7 @@ def draw(polar: xr.Dataset, grid_study: pd.DataFrame | None = None) -> Figure:
 
 def _convergence(axes: Axes, study: pd.DataFrame) -> None:
     """Draw the index of the finest mesh with the observed order at each point."""
-    shown = study[np.isfinite(study["gci"])]
+    shown = study[np.isfinite(study["gci"].astype(float))]
     if shown.empty:
         say(axes, "No incidence has an observed order of convergence.")
         return

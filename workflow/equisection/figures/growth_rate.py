@@ -53,7 +53,7 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, *, is_paper_case: bool) ->
 
 
 def _over_k_star(axes: Axes, summary: pd.DataFrame, linear: pd.DataFrame, name: str) -> None:
-    known = summary[np.isfinite(summary[name]) & (summary["regime"] != "failed")]
+    known = summary[np.isfinite(summary[name].astype(float)) & (summary["regime"] != "failed")]
     if known.empty and linear.empty:
         say(axes, f"No run has a {_QUANTITIES[name][0]}.")
         return

@@ -50,7 +50,7 @@ def draw(table: pd.DataFrame, summary: pd.DataFrame) -> Figure:
 
 
 def _over_k_star(axes: Axes, table: pd.DataFrame, name: str, factor: float) -> None:
-    known = table[np.isfinite(table[name])]
+    known = table[np.isfinite(table[name].astype(float))]
     if known.empty:
         say(axes, "No section and beam were run at one k*.")
         return

@@ -21,6 +21,7 @@ _SECTIONAL = {
     "cl_section": "sectional lift coefficient",
     "cm_section": "sectional moment coefficient about mid-chord, nose up",
 }
+_IS_RUN = {"units": "1", "long_name": "1 where there is a case of resolution and incidence"}
 
 
 def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
@@ -59,7 +60,7 @@ def gather_polar(results: Mapping[tuple[str, float], xr.Dataset]) -> xr.Dataset:
     polar["is_run"] = (
         ("resolution", "incidence_deg"),
         np.array([[key in results for key in _row(name, angles)] for name in resolutions], np.int8),
-        {"units": "1", "long_name": "1 where there is a case of resolution and incidence"},
+        _IS_RUN,
     )
     failures = [
         f"{resolution} {angle:g} deg: {data.attrs['failure']}"
@@ -89,6 +90,7 @@ def _empty_polar() -> xr.Dataset:
         attrs={"failures": ""},
     )
     _describe(polar)
+    polar["is_run"] = (*nothing[:1], np.empty((0, 0), np.int8), _IS_RUN)
     return polar
 
 
