@@ -16,6 +16,8 @@ from equisection.structure.plate import BOUNDARIES
 from equisection.structure.solid import SOLID_BOUNDARIES
 
 ROOT = Path(__file__).parents[2]
+#: A time step that OpenFOAM takes.
+STEP = {"time_step": 0.02}
 EXAMPLES = sorted((ROOT / "config/examples").glob("*.yaml"))
 
 
@@ -177,3 +179,38 @@ def test_polars_are_looked_up_in_the_working_directory(tmp_path, monkeypatch):
         check_files(Config())
     monkeypatch.chdir(ROOT)
     check_files(Config())
+
+
+def test_flat_plate_is_no_polar_of_the_beam(tmp_path):
+    config = load_config(
+        {"solver": "openfoam", "unsteady": STEP, "steady": {"beam_polar": "flat-plate"}}
+    )
+    with pytest.raises(ConfigError, match=r"beam_polar: 'flat-plate': .* in embedded\.polars$"):
+        check_files(config, tmp_path)
+
+
+def test_results_that_are_only_taken_must_be_there(tmp_path):
+    index = "results/other/unsteady/3d/sweep.json"
+    config = load_config(
+        {
+            "solver": "openfoam",
+            "unsteady": STEP,
+            "compute": False,
+            "reuse": "kept",
+            "sweep": {"models": ["2d"], "taken": {"3d": index}},
+        }
+    )
+    with pytest.raises(ConfigError) as caught:
+        check_files(config, tmp_path)
+    reuse, taken = str(caught.value).splitlines()
+    assert reuse.startswith(f"config: reuse: 'kept': no such folder, seen from {tmp_path}")
+    assert taken.startswith(f"config: sweep.taken.3d: '{index}': no such file")
+    (tmp_path / "kept").mkdir()
+    (tmp_path / index).parent.mkdir(parents=True)
+    (tmp_path / index).touch()
+    check_files(config, tmp_path)
+
+
+def test_results_to_reuse_may_be_none_where_cases_are_computed(tmp_path):
+    config = load_config({"solver": "openfoam", "unsteady": STEP, "reuse": "kept"})
+    check_files(config, tmp_path)

@@ -18,11 +18,13 @@ from equisection.provenance import (
     config_hash,
 )
 from equisection.results.mend import mend
+from equisection.solvers.given_polars import check_polars
 from equisection.solvers.registry import SOLVERS, Capability, check_provided
 
 try:
     CONFIG = load_config(config)
     check_files(CONFIG)
+    check_polars(CONFIG)
     check_provided(CONFIG)
 except ConfigError as error:
     print(error, file=sys.stderr)

@@ -161,7 +161,11 @@ if CONFIG.steady.beam_polar:
             mem_mb=500,
             runtime=5,
         params:
-            code=code("results/polar.py", "aerodynamics/polar_file.py"),
+            code=code(
+                "results/polar.py",
+                "aerodynamics/polar_file.py",
+                "aerodynamics/polar_rows.py",
+            ),
             resolution=CONFIG.steady.resolution,
         message:
             "3d polar, given"

@@ -22,15 +22,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
+from equisection.aerodynamics.polar_rows import SYMMETRY_TOLERANCE
 from equisection.errors import IncidenceOutOfRangeError
 
 Floats = NDArray[np.float64]
 
 TABLE_STEP = 1e-4
 """Step h of the reading table (rad), 0.0057 deg."""
-
-SYMMETRY_TOLERANCE = 1e-4
-"""Largest |c_l| or |c_m| at zero incidence that still counts as round-off of a solver."""
 
 
 @dataclass(frozen=True)

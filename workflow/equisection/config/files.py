@@ -12,7 +12,10 @@ from equisection.errors import ConfigError
 
 
 def check_files(config: Config, directory: Path | None = None) -> None:
-    """Refuse polars that are no files, seen from ``directory`` (by default the working one).
+    """Refuse what is named and not there, seen from ``directory`` (by default the working one).
+
+    These are polars, the folder that results come from where none is computed, and the indices of
+    other runs' results. An index of this run is no other's: its rules make it.
 
     Braces in a path are Snakemake's, which would take what is in them for a wildcard.
 
@@ -30,7 +33,28 @@ def check_files(config: Config, directory: Path | None = None) -> None:
     problems = [
         Problem(key, path, _advice(path, directory, built_in=key != "steady.beam_polar"))
         for key, path in named.items()
-        if path != FLAT_PLATE and not _is_file(directory / path)
+        if not (path == FLAT_PLATE and key != "steady.beam_polar")
+        and not _is_file(directory / path)
+    ]
+    if not config.compute and not _is_folder(directory / config.reuse):
+        problems.append(
+            Problem(
+                "reuse",
+                config.reuse,
+                f"no such folder, seen from {directory}; allowed is a folder with results where "
+                "compute is false",
+            )
+        )
+    own = directory / "results" / config.run
+    problems += [
+        Problem(
+            f"sweep.taken.{model}",
+            path,
+            f"no such file, seen from {directory}; allowed is the index of a run that has ended: "
+            "run its configuration first",
+        )
+        for model, path in config.sweep.taken.items()
+        if not (directory / path).is_relative_to(own) and not _is_file(directory / path)
     ]
     problems += [
         Problem(key, path, "allowed is a path without braces; give the file or folder another name")
@@ -48,11 +72,20 @@ def _is_file(path: Path) -> bool:
         return False
 
 
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
 def _advice(polar: str, directory: Path, *, built_in: bool) -> str:
     place = directory / polar
     what = "a folder" if "\0" not in polar and place.is_dir() else "no such file"
     allowed = f"a CSV file or {FLAT_PLATE}" if built_in else "a CSV file"
     answer = f"{what}, seen from {directory}; allowed is {allowed}"
+    if polar == FLAT_PLATE:
+        return f"{answer}; {FLAT_PLATE} is a polar of the section, in embedded.polars"
     candidates = {FLAT_PLATE: FLAT_PLATE} if built_in else {}
     if "\0" not in polar and place.parent.is_dir():
         candidates |= {

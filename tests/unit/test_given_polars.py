@@ -1,0 +1,76 @@
+"""Polars that a configuration names are looked into before any job starts."""
+
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from equisection.config import load_config
+from equisection.errors import ConfigError
+from equisection.solvers.given_polars import check_polars
+
+ROOT = Path(__file__).parents[2]
+#: A time step that OpenFOAM takes.
+STEP = {"time_step": 0.02}
+GOOD = "incidence_deg,cl,cm,cd\n0,0,0,0.04\n2,0.3,0.06,0.05\n4,0.5,0.08,0.08\n8,0.6,0.06,0.14\n"
+
+
+def lines_of(raw: dict[str, Any], directory: Path) -> list[str]:
+    with pytest.raises(ConfigError) as caught:
+        check_polars(load_config(raw), directory)
+    return str(caught.value).splitlines()
+
+
+def test_a_broken_polar_is_named_by_its_key_and_line(tmp_path: Path) -> None:
+    (tmp_path / "own.csv").write_text(GOOD.replace("0.3,", "much,"))
+    (line,) = lines_of({"embedded": {"polars": {"coarse": "own.csv"}}}, tmp_path)
+    assert line.startswith("config: embedded.polars.coarse: 'own.csv': line 3: cl is 'much'")
+
+
+def test_a_broken_polar_of_the_beam_is_named_whatever_the_solver(tmp_path: Path) -> None:
+    (tmp_path / "beam.csv").write_text("# nothing\n")
+    raw = {"solver": "openfoam", "unsteady": STEP, "steady": {"beam_polar": "beam.csv"}}
+    (line,) = lines_of(raw, tmp_path)
+    assert line.startswith("config: steady.beam_polar: 'beam.csv': line 1: the file is empty")
+
+
+@pytest.mark.parametrize(
+    ("section", "angles", "line"),
+    [
+        ({"polars": {"coarse": "own.csv"}}, [-9, -8, 0, 8], "0: -9: allowed is -8 to 8 deg"),
+        (
+            {"polars": {"coarse": "own.csv"}, "symmetric": False},
+            [-1, 0, 4, 8],
+            "0: -1: allowed is 0 to 8 deg",
+        ),
+        (
+            {"polars": {"coarse": "flat-plate"}},
+            [0, 10, 30, 31],
+            "3: 31: allowed is -30 to 30 deg",
+        ),
+    ],
+)
+def test_incidences_beyond_the_polar_are_named(
+    section: dict[str, Any], angles: list[float], line: str, tmp_path: Path
+) -> None:
+    (tmp_path / "own.csv").write_text(GOOD)
+    raw = {"embedded": section, "steady": {"incidence_deg": angles}}
+    path = section["polars"]["coarse"]
+    assert lines_of(raw, tmp_path) == [
+        f"config: steady.incidence_deg.{line}, what embedded.polars.coarse ({path}) covers"
+    ]
+
+
+def test_polars_of_another_solver_are_left_alone(tmp_path: Path) -> None:
+    check_polars(load_config({"solver": "openfoam", "unsteady": STEP}), tmp_path)
+    check_polars(load_config({}), ROOT)
+
+
+def test_looking_at_polars_loads_no_numerics() -> None:
+    code = "import sys, equisection.solvers.given_polars; print('scipy' in sys.modules)"
+    said = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout
+    assert said.strip() == "False"
