@@ -235,6 +235,30 @@ def test_what_the_solver_cannot_do_is_refused(changes: dict[str, Any], key: str)
     assert str(raised.value).startswith(f"config: {key}: ")
 
 
+@pytest.mark.parametrize(
+    ("channel", "motion", "reason"),
+    [
+        ({"height_chords": 1.5}, "morph", "turned to 10 deg, does not fit into a channel of 1.5 c"),
+        ({"downstream_chords": 3.0}, "morph", "a channel of 4 c from -5 c to 3 c"),
+        ({"upstream_chords": 1.5}, "overset", "a channel of 4 c from -1.5 c to 15 c"),
+    ],
+)
+def test_channel_without_room_for_the_mesh_is_refused(
+    channel: dict[str, float], motion: str, reason: str
+) -> None:
+    raw = openfoam(flow={"channel": channel}, openfoam={"mesh_motion": motion})
+    with pytest.raises(ConfigError) as raised:
+        check_provided(load_config(raw))
+    (line,) = str(raised.value).splitlines()
+    assert line.startswith("config: flow.channel: {height_chords: ")
+    assert reason in line
+
+
+def test_wide_channel_in_the_place_of_free_air_has_room() -> None:
+    wide = {"height_chords": 20, "tip_gap_chords": 10}
+    check_provided(load_config(openfoam(flow={"channel": wide})))
+
+
 def test_case_without_a_channel_or_of_the_beam_is_refused(tmp_path: Path) -> None:
     free = STEADY.model_copy(update={"geometry": GEOMETRY.model_copy(update={"upstream": None})})
     with pytest.raises(SolverError, match=r"flow\.channel: null"):

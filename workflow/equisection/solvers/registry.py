@@ -6,6 +6,7 @@ for each job would cost more than the job; so that much stands here.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
@@ -21,13 +22,15 @@ from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Sol
 class Entry:
     """Where an adapter is, and what it provides; ``dimensions`` are those of its cases.
 
-    ``work`` is the module that tells how much its jobs have to do (:class:`.work.Estimate`).
+    ``work`` is the module that tells how much its jobs have to do (:class:`.work.Estimate`), and
+    ``check`` one whose ``problems`` tells what of a configuration it has no cases for.
     """
 
     module: str
     provides: frozenset[Capability]
     dimensions: tuple[str, ...] = ("2d", "3d")
     work: str = ""
+    check: str = ""
 
 
 SOLVERS: dict[str, Entry] = {
@@ -40,38 +43,42 @@ SOLVERS: dict[str, Entry] = {
         "equisection.solvers.openfoam.adapter",
         frozenset({Capability.MESH, Capability.SURFACE, Capability.FIELDS}),
         work="equisection.solvers.openfoam.work",
+        check="equisection.solvers.openfoam.room",
     ),
 }
 
 
 def check_provided(config: Config) -> None:
-    """Refuse models that the configured solver has no cases for.
+    """Refuse models, and whatever else, that the configured solver has no cases for.
 
     Raises
     ------
     ConfigError
-        With one line for each such model.
+        With one line for each of them.
     """
-    if "3d" in SOLVERS[config.solver].dimensions:
-        return
+    entry = SOLVERS[config.solver]
+    problems = [] if "3d" in entry.dimensions else list(_models_of_the_beam(config))
+    if entry.check:
+        problems += import_module(entry.check).problems(config)
+    if problems:
+        raise ConfigError("\n".join(problem.line for problem in problems))
+
+
+def _models_of_the_beam(config: Config) -> Iterator[Problem]:
     given = bool(config.steady.beam_polar)
     advice = (
         "it has no 3D cases"
         if given
         else "it has no 3D cases; the corrected models need steady.beam_polar, the rigid beam's"
     )
-    problems = [
-        Problem(
-            f"sweep.models.{place}",
-            model,
-            f"allowed with solver '{config.solver}' are models of dimension 2d"
-            f"{'' if given else ' without correction'}: {advice}",
-        )
-        for place, model in enumerate(config.sweep.models)
-        if model == "3d" or ("corrected" in model and not given)
-    ]
-    if problems:
-        raise ConfigError("\n".join(problem.line for problem in problems))
+    for place, model in enumerate(config.sweep.models):
+        if model == "3d" or ("corrected" in model and not given):
+            yield Problem(
+                f"sweep.models.{place}",
+                model,
+                f"allowed with solver '{config.solver}' are models of dimension 2d"
+                f"{'' if given else ' without correction'}: {advice}",
+            )
 
 
 def solver_from_config(config: Config, resolution: str) -> Solver:

@@ -114,7 +114,10 @@ def _root_is_on_a_wall(
 def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
     if solver == "openfoam" and channel is None:
         yield Problem(
-            "flow.channel", channel, "allowed is a channel with solver 'openfoam', which meshes it"
+            "flow.channel",
+            channel,
+            "allowed is a channel with solver 'openfoam', which meshes it; for free air give a "
+            "wide one, for instance flow.channel: {height_chords: 20, tip_gap_chords: 10}",
         )
 
 
