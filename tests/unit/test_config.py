@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from equisection import plan
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS
 from equisection.config import Config, check_files, load_config, resolve_config
 from equisection.config.__main__ import COMMAND, MARK, README, SCHEMA, main
@@ -214,3 +215,11 @@ def test_results_that_are_only_taken_must_be_there(tmp_path):
 def test_results_to_reuse_may_be_none_where_cases_are_computed(tmp_path):
     config = load_config({"solver": "openfoam", "unsteady": STEP, "reuse": "kept"})
     check_files(config, tmp_path)
+
+
+@pytest.mark.parametrize("nothing", [None, ""])
+def test_polar_of_the_beam_of_another_file_is_taken_back(nothing):
+    raw = merged(read(ROOT / "config/openfoam.yaml"), {"steady": {"beam_polar": nothing}})
+    config = load_config(raw)
+    assert config.steady.beam_polar == ""
+    assert plan.steady_dimensions(config) == ("2d", "3d")

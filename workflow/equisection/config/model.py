@@ -97,7 +97,7 @@ def _loads_along_the_span(correction: str, beam_polar: str) -> Iterator[Problem]
             "correction",
             correction,
             "allowed is 'mean' with steady.beam_polar, whose file has no loads along the span that "
-            "modes could weight; or leave out steady.beam_polar, so that the solver runs the beam",
+            'modes could weight; or steady.beam_polar: "", with which the solver runs the beam',
         )
 
 

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from equisection.config.checks import Problem, check
 from equisection.config.sections.base import Section
-from equisection.config.values import Angle, Name
+from equisection.config.values import EMPTY, Angle, Name
 
 
 class Steady(Section):
@@ -31,7 +31,7 @@ class Steady(Section):
         description="Incidences (deg) that the further resolutions are run at, some of "
         "`steady.incidence_deg`; empty for all of them.",
     )
-    beam_polar: str = Field(
+    beam_polar: Annotated[str, EMPTY] = Field(
         "",
         description="Polar of the rigid beam (CSV file: incidence_deg, C_L, C_M, C_D), measured "
         "or computed elsewhere; the solver then runs no rigid beam. Empty to have it run.",
