@@ -85,7 +85,7 @@ def test_root_off_the_wall_is_refused() -> None:
     }
     with pytest.raises(ConfigError, match=r"flow\.root_on_wall: false: allowed is true"):
         load_config(raw)
-    polar = {"beam_polar": "config/polars/paper_plate_3d.csv"}
+    polar = {"beam_polar": "measured.csv"}
     load_config({**raw, "steady": polar, "sweep": {"models": ["2d"]}})
 
 

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import os
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, model_validator
@@ -20,7 +23,13 @@ from equisection.config.sections import (
     Sweep,
     Unsteady,
 )
+from equisection.config.shown import shown
 from equisection.config.values import EMPTY, Name
+
+#: The polar of the paper's rigid plate, of this L/c, h/c, Reynolds number and channel alone.
+PAPER_BEAM_POLAR = Path("config/polars/paper_plate_3d.csv")
+#: Relative difference in these up to which it is the same plate.
+_SAME_POLAR = 0.01
 
 #: Holds the recorded reference runs, which no run may mix with.
 RESERVED_RUN = "reference"
@@ -99,6 +108,43 @@ def _loads_along_the_span(correction: str, beam_polar: str) -> Iterator[Problem]
             "allowed is 'mean' with steady.beam_polar, whose file has no loads along the span that "
             'modes could weight; or steady.beam_polar: "", with which the solver runs the beam',
         )
+
+
+@check("steady.beam_polar", "beam", "flow")
+def _polar_of_this_beam(beam_polar: str, beam: Beam, flow: Flow) -> Iterator[Problem]:
+    """Refuse the paper's polar of the rigid plate for another beam or flow.
+
+    What bends the beam is free: modulus, density, boundary and springs.
+    """
+    if Path(os.path.normpath(beam_polar)).parts[-3:] != PAPER_BEAM_POLAR.parts:
+        return
+    here, paper = _decides_rigid_polar(beam, flow), _decides_rigid_polar(Beam(), Flow())
+    for name, value in paper.items():
+        if not math.isclose(here[name], value, rel_tol=_SAME_POLAR):
+            yield Problem(
+                "steady.beam_polar",
+                beam_polar,
+                f'allowed is the polar of this beam, or "", with which the solver runs it; this '
+                f"one is the paper's plate, of {name} {_short(value)} and not {_short(here[name])}",
+            )
+            return
+
+
+def _decides_rigid_polar(beam: Beam, flow: Flow) -> dict[str, float]:
+    """Return what the polar of the rigid beam depends on, by name (-); free air is infinite."""
+    channel = flow.channel
+    return {
+        "L/c": beam.length / beam.chord,
+        "h/c": beam.thickness / beam.chord,
+        "Reynolds number": flow.density * flow.speed * beam.chord / flow.dynamic_viscosity,
+        "flow.root_on_wall": flow.root_on_wall,
+        "flow.channel.height_chords": channel.height_chords if channel else math.inf,
+        "flow.channel.tip_gap_chords": channel.tip_gap_chords if channel else math.inf,
+    }
+
+
+def _short(value: float) -> str:
+    return shown(value if isinstance(value, bool) else float(f"{value:.4g}"))
 
 
 @check("compute", "reuse")
