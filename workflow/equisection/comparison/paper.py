@@ -52,7 +52,7 @@ def _row(published: Published, here: Here) -> dict[str, object]:
     notes = [published.note, here.note]
     difference = math.nan
     is_number = published.relation in ("equal", "about")
-    if not is_number and math.isfinite(here.value):
+    if not is_number and here.comparable and math.isfinite(here.value):
         notes.insert(0, "holds" if published.holds(here.value) else "does not hold here")
     elif is_number and here.comparable:
         difference = relative_difference(published.value, here.value)

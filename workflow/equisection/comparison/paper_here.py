@@ -62,7 +62,7 @@ class Here:
     model
         The model, where a quantity has one value for each.
     comparable
-        Whether a relative difference from the paper means anything.
+        Whether a relative difference from the paper, or that its bound holds, means anything.
     """
 
     value: float
@@ -73,6 +73,10 @@ class Here:
 
 _NOT_AMONG = "not among the incidences of this run (steady.incidence_deg)"
 _BEYOND = "beyond the incidences of this run (steady.incidence_deg)"
+_MODAL = (
+    "correction: modal, of the loads that the first modes feel, and not of the means that the "
+    "paper's factors are of"
+)
 _NO_BEAM = Here(math.nan, "this run has no rigid beam of its own")
 
 
@@ -151,13 +155,13 @@ def _rigid_plate(run: Run) -> dict[str, list[Here]]:
     angles = next(iter(TABLE_1.values()))
     if run.polar_3d is None:
         return {f"{name} at {angle:g} deg": [_NO_BEAM] for angle in angles for name in COEFFICIENTS}
+    if resolution not in run.polar_3d["resolution"].values:
+        nothing = Here(math.nan, f"no incidence has a result at resolution {resolution}")
+        return {f"{name} at {angle:g} deg": [nothing] for angle in angles for name in COEFFICIENTS}
     solver = str(run.polar_3d.attrs[f"solver_{resolution}"])
     found = {}
     for angle in angles:
         row = at_incidence(run.polar_3d, resolution, angle)
-    if resolution not in run.polar_3d["resolution"].values:
-        nothing = Here(math.nan, f"no incidence has a result at resolution {resolution}")
-        return {f"{name} at {angle:g} deg": [nothing] for angle in angles for name in COEFFICIENTS}
         for name, short in COEFFICIENTS.items():
             value = math.nan if row is None else float(row[short])
             if row is None:
@@ -206,14 +210,19 @@ def _factors(run: Run) -> dict[str, list[Here]]:
     if run.correction is None:
         return {f"{quantity} at {label}": [_NO_BEAM] for quantity in factors for label in angles}
     incidence = run.correction["incidence_deg"].values
+    is_modal = run.correction.attrs.get("correction") == "modal"
     found = {}
     for quantity, name in factors.items():
         for label, angle in angles.items():
-            value, note = factor_at(run.correction, name, angle), ""
+            value, notes = factor_at(run.correction, name, angle), []
             if not math.isfinite(value):
                 covered = incidence.size and incidence[0] <= angle <= incidence[-1]
-                note = "not a positive number in this run" if covered else _BEYOND
-            found[f"{quantity} at {label}"] = [Here(value, note)]
+                notes.append("not a positive number in this run" if covered else _BEYOND)
+            if is_modal:
+                notes.append(_MODAL)
+            found[f"{quantity} at {label}"] = [
+                Here(value, "; ".join(notes), comparable=not is_modal)
+            ]
     return found
 
 

@@ -103,7 +103,7 @@ class TypicalSection:
     @cached_property
     def inverse_mass(self) -> Floats:
         """Inverse of M."""
-        return np.linalg.inv(self.mass_matrix)
+        return np.asarray(np.linalg.inv(self.mass_matrix), dtype=np.float64)
 
     @cached_property
     def stiffness_matrix(self) -> Floats:
