@@ -17,6 +17,11 @@ from equisection.comparison.linear_theory import (
     moment_slope,
     with_linear_theory,
 )
+from equisection.motion.linear_flutter import (
+    FlutterIterationError,
+    TypicalSection,
+    growth_and_frequency,
+)
 
 #: The paper's plate, with the consistent section 6 % stiffer and lighter.
 EQUIVALENT = xr.Dataset(
@@ -59,6 +64,24 @@ def test_stiff_sections_move_at_their_natural_frequencies() -> None:
     table = linear_theory(EQUIVALENT, [21.3e4]).set_index(["reduction", "motion"])
     natural = math.sqrt(21.3e4 / 6.67) / (2 * math.pi)
     assert table.loc[("paper", "pitch"), "frequency_strouhal"] == pytest.approx(natural, rel=0.01)
+
+
+def test_k_star_at_which_the_iteration_finds_nothing_is_missing_alone(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    index = ["reduction", "motion", "k_star"]
+    known = linear_theory(EQUIVALENT, [4.0, 8.0, 21.0]).set_index(index)
+
+    def settles_above(section: TypicalSection, scales: np.ndarray) -> np.ndarray:
+        if np.any(scales < 0.3):
+            raise FlutterIterationError("did not settle")
+        return growth_and_frequency(section, scales)
+
+    monkeypatch.setattr("equisection.comparison.linear_theory.growth_and_frequency", settles_above)
+    found = linear_theory(EQUIVALENT, [4.0, 8.0, 21.0]).set_index(index)
+    is_lost = found.index.get_level_values("k_star") == 4.0
+    assert found[is_lost].isna().all(axis=None)
+    pd.testing.assert_frame_equal(found[~is_lost], known[~is_lost])
 
 
 def test_slope_of_a_polar_that_is_not_there_is_unknown() -> None:

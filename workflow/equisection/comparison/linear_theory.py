@@ -8,6 +8,7 @@ form); a section of the other reduction has its own stiffness at that k*.
 
 from __future__ import annotations
 
+import logging
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -15,9 +16,11 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 import xarray as xr
+from numpy.typing import NDArray
 
 from equisection.errors import IncidenceOutOfRangeError, ResultFileError
 from equisection.motion.linear_flutter import (
+    FlutterIterationError,
     TypicalSection,
     divergence_scale,
     flutter,
@@ -76,11 +79,27 @@ def linear_theory(equivalent: xr.Dataset, k_star: Sequence[float]) -> pd.DataFra
     ascending = sorted(k_star)
     for reduction in (str(name) for name in equivalent["reduction"].values):
         chosen = section_of(equivalent, reduction)
-        p = growth_and_frequency(chosen.section, np.array(ascending) / chosen.k_star)
+        p = _growth_and_frequency(chosen.section, np.array(ascending) / chosen.k_star)
         for column, motion in enumerate(_MOTIONS):
             for value, root in zip(ascending, p[:, column], strict=True):
                 rows.append((reduction, motion, value, root.real, root.imag / (2 * math.pi)))
     return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def _growth_and_frequency(
+    section: TypicalSection, scales: NDArray[np.float64]
+) -> NDArray[np.complex128]:
+    """Return p of both motions at each s, shape (n, 2); NaN where the p-k iteration finds none.
+
+    That may be so just above divergence, where a motion ceases to oscillate.
+    """
+    try:
+        return growth_and_frequency(section, scales)
+    except FlutterIterationError as error:
+        if scales.size > 1:
+            return np.concatenate([_growth_and_frequency(section, one) for one in scales[:, None]])
+        logging.warning("no growth rate by linear theory: %s", error)
+        return np.full((1, 2), complex(math.nan, math.nan))
 
 
 def moment_slope(polar_2d: xr.Dataset, resolution: str, incidence_deg: float) -> float:
