@@ -36,33 +36,6 @@ def test_a_broken_polar_of_the_beam_is_named_whatever_the_solver(tmp_path: Path)
     assert line.startswith("config: steady.beam_polar: 'beam.csv': line 1: the file is empty")
 
 
-@pytest.mark.parametrize(
-    ("section", "angles", "line"),
-    [
-        ({"polars": {"coarse": "own.csv"}}, [-9, -8, 0, 8], "0: -9: allowed is -8 to 8 deg"),
-        (
-            {"polars": {"coarse": "own.csv"}, "symmetric": False},
-            [-1, 0, 4, 8],
-            "0: -1: allowed is 0 to 8 deg",
-        ),
-        (
-            {"polars": {"coarse": "flat-plate"}},
-            [0, 10, 30, 31],
-            "3: 31: allowed is -30 to 30 deg",
-        ),
-    ],
-)
-def test_incidences_beyond_the_polar_are_named(
-    section: dict[str, Any], angles: list[float], line: str, tmp_path: Path
-) -> None:
-    (tmp_path / "own.csv").write_text(GOOD)
-    raw = {"embedded": section, "steady": {"incidence_deg": angles}}
-    path = section["polars"]["coarse"]
-    assert lines_of(raw, tmp_path) == [
-        f"config: steady.incidence_deg.{line}, what embedded.polars.coarse ({path}) covers"
-    ]
-
-
 def test_polars_of_another_solver_are_left_alone(tmp_path: Path) -> None:
     check_polars(load_config({"solver": "openfoam", "unsteady": STEP}), tmp_path)
     check_polars(load_config({}), ROOT)

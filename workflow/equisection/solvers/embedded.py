@@ -27,11 +27,12 @@ from equisection.config.sections import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
 from equisection.results.steady import SteadyResult
 from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.given_polars import FLAT_PLATE_LIMIT_DEG
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 Floats = NDArray[np.float64]
 
+#: Incidences that the thin analytic plate covers (rad).
+FLAT_PLATE_LIMIT = math.radians(30.0)
 #: Cases that run together; bounds the memory of their histories.
 LANES = 500
 
@@ -194,7 +195,7 @@ def read_section_polar(section: Embedded, resolution: str) -> SectionPolar:
     """
     source = section.polars[resolution]
     if source == FLAT_PLATE:
-        return SectionPolar.flat_plate(math.radians(FLAT_PLATE_LIMIT_DEG))
+        return SectionPolar.flat_plate(FLAT_PLATE_LIMIT)
     return read_polar(Path(source), section.symmetric)
 
 

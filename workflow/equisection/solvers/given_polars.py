@@ -11,19 +11,17 @@ from equisection.config.checks import Problem
 from equisection.config.sections import FLAT_PLATE
 from equisection.errors import ConfigError, PolarFileError
 
-#: Incidences that the thin analytic plate covers (deg).
-FLAT_PLATE_LIMIT_DEG = 30.0
-
 
 def check_polars(config: Config, directory: Path | None = None) -> None:
-    """Refuse polars that cannot be read, and incidences that those of the section do not cover.
+    """Refuse polars that cannot be read.
 
-    Paths are seen from ``directory`` (by default the working one).
+    An incidence beyond them is a case that fails, and says so; the others go on. Paths are seen
+    from ``directory`` (by default the working one).
 
     Raises
     ------
     ConfigError
-        With one line for each such file or incidence.
+        With one line for each such file.
     """
     directory = directory or Path.cwd()
     problems: list[Problem] = []
@@ -40,33 +38,12 @@ def check_polars(config: Config, directory: Path | None = None) -> None:
 
 def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
     for name, path in config.embedded.polars.items():
-        key = f"embedded.polars.{name}"
-        low, high = -FLAT_PLATE_LIMIT_DEG, FLAT_PLATE_LIMIT_DEG
-        if path != FLAT_PLATE:
-            try:
-                rows = read_rows(directory / path, config.embedded.symmetric)
-            except PolarFileError as error:
-                yield _unreadable(key, path, error)
-                continue
-            high = rows[-1].incidence_deg
-            low = -high if config.embedded.symmetric else rows[0].incidence_deg
-        for place, angle in _angles(config, name):
-            if not low <= angle <= high:
-                yield Problem(
-                    place,
-                    angle,
-                    f"allowed is {low:g} to {high:g} deg, what {key} ({path}) covers",
-                )
-
-
-def _angles(config: Config, resolution: str) -> Iterator[tuple[str, float]]:
-    """Yield key and incidence (deg) of the steady cases of a resolution."""
-    steady = config.steady
-    key, angles = "steady.incidence_deg", steady.incidence_deg
-    if resolution in steady.study and steady.study_incidence_deg:
-        key, angles = "steady.study_incidence_deg", steady.study_incidence_deg
-    if resolution == steady.resolution or resolution in steady.study:
-        yield from ((f"{key}.{place}", angle) for place, angle in enumerate(angles))
+        if path == FLAT_PLATE:
+            continue
+        try:
+            read_rows(directory / path, config.embedded.symmetric)
+        except PolarFileError as error:
+            yield _unreadable(f"embedded.polars.{name}", path, error)
 
 
 def _unreadable(key: str, path: str, error: PolarFileError) -> Problem:
