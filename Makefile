@@ -22,6 +22,7 @@ endif
 .PHONY: run report paper cost identification cost-model status verify test lint docs bench openfoam slurm clean
 
 run: $(ENV)/run
+	@$(BIN)/equisection folder $(CONFIG) > /dev/null
 	$(SNAKEMAKE)
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && printf '%s\n' '' \
 		"figures:    $$folder/figures/" \

@@ -13,9 +13,7 @@ from pathlib import Path
 import numpy as np
 
 from equisection.aerodynamics.polar import SectionPolar
-from equisection.aerodynamics.polar_rows import COLUMNS, FEWEST_POINTS, read_rows
-
-__all__ = ["COLUMNS", "FEWEST_POINTS", "read_polar"]
+from equisection.aerodynamics.polar_rows import read_rows
 
 
 def read_polar(path: Path | str, symmetric: bool = True) -> SectionPolar:

@@ -90,7 +90,7 @@ def _empty_polar() -> xr.Dataset:
         attrs={"failures": ""},
     )
     _describe(polar)
-    polar["is_run"] = (*nothing[:1], np.empty((0, 0), np.int8), _IS_RUN)
+    polar["is_run"] = (nothing[0], np.empty((0, 0), np.int8), _IS_RUN)
     return polar
 
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import xarray as xr
 
-from equisection.aerodynamics.polar_file import COLUMNS
+from equisection.aerodynamics.polar_rows import COLUMNS
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset
 

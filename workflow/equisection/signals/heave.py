@@ -8,6 +8,7 @@ averaged over a period of the twist, which leaves nothing of what follows the tw
 from __future__ import annotations
 
 import numpy as np
+from scipy.integrate import cumulative_trapezoid
 
 from equisection.signals.cycles import Array, find_cycles
 from equisection.signals.observation import GROWN, Observation
@@ -56,8 +57,7 @@ def heave_swings(seen: Observation) -> Array:
 
 def _averaged(time: Array, signal: Array, width: float) -> tuple[Array, Array]:
     """Return times and averages of a history over ``width`` (c/V) around them."""
-    steps = 0.5 * (signal[1:] + signal[:-1]) * np.diff(time)
-    integral = np.concatenate(((0.0,), np.cumsum(steps)))
+    integral = cumulative_trapezoid(signal, time, initial=0.0)
     inside = (time >= time[0] + width / 2) & (time <= time[-1] - width / 2)
     middle = time[inside]
     until, since = (np.interp(middle + half, time, integral) for half in (width / 2, -width / 2))
