@@ -27,11 +27,17 @@ def main(
     ``rigid`` and ``flexible`` are the indices of the polar and of the sweep; there is none of the
     sweep where the beam is not run. Of the sweep the k* nearest the paper's is shown.
     """
-    names = [name for name in read_index(rigid) if plan.angle_of(name)[0] == resolution]
-    name = min(names, key=lambda name: abs(plan.angle_of(name)[1] - incidence_deg))
-    of_rigid = column_of("rigid", read_dataset(result_file(rigid, name)))
+    columns = [_of_rigid(rigid, resolution, incidence_deg), _of_flexible(flexible)]
     with drawing_style(style):
-        save_figure(draw([of_rigid, _of_flexible(flexible)]), outputs)
+        save_figure(draw(columns), outputs)
+
+
+def _of_rigid(index: Path, resolution: str, incidence_deg: float) -> Column:
+    names = [name for name in read_index(index) if plan.angle_of(name)[0] == resolution]
+    if not names:
+        return Column("rigid", f"The rigid plate has no result at resolution '{resolution}'.")
+    name = min(names, key=lambda name: abs(plan.angle_of(name)[1] - incidence_deg))
+    return column_of("rigid", read_dataset(result_file(index, name)))
 
 
 def _of_flexible(index: Path | None) -> Column:

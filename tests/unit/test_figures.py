@@ -528,6 +528,10 @@ def test_tables_and_polar_of_no_case_are_drawn(tmp_path):
             "No run has a growth rate.",
         ),
         (section_and_beam.draw(as_read(deviations(summary)), summary), "No section and beam"),
+        (
+            fig07_surface.draw({}, as_read(bubble_table({})), "coarse", {}),
+            "No result has surface data.",
+        ),
     ):
         assert says in words(figure)
         lay_out(figure)

@@ -93,3 +93,22 @@ def test_record_goes_on_to_the_longest(monkeypatch: pytest.MonkeyPatch, tmp_path
     run = polled(monkeypatch, Loads(time, drifting, drifting, drifting), 3.3)
     record = follow_unsteady(tmp_path, RECORD, nothing, run)
     assert record.time[-1] == pytest.approx(RECORD.end)
+
+
+def test_what_is_told_of_a_run_that_goes_on_unsteadily_never_goes_back(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    shares: list[float] = []
+
+    def tell(done: float, total: float) -> None:
+        shares.append(done / total)
+
+    iterations = np.arange(1.0, MOST + 1)
+    waving = 0.4 + 0.01 * np.sin(0.3 * iterations)
+    steady = Loads(iterations, waving, waving, waving)
+    follow_iterations(tmp_path, has_converged, tell, polled(monkeypatch, steady, 100.0))
+    time = 0.02 * np.arange(1.0, 5501)
+    drifting = Loads(time, 0.4 + time, 0.4 + time, 0.4 + time)
+    follow_unsteady(tmp_path, RECORD, tell, polled(monkeypatch, drifting, 5.0))
+    assert np.all(np.diff(shares) > 0)
+    assert shares[-1] == pytest.approx(1.0)

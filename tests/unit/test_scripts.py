@@ -20,6 +20,7 @@ from equisection.cases import SteadyCase, case_hash, read_cases, write_cases
 from equisection.config import load_config, resolve_config
 from equisection.config.sections import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
+from equisection.results.index import write_index
 from equisection.results.kept import kept_results
 from equisection.results.netcdf import read_dataset
 from equisection.results.plate_grid import PlateGrid
@@ -300,3 +301,19 @@ def test_fault_of_the_program_keeps_its_traceback(tmp_path: Path) -> None:
     with pytest.raises(ZeroDivisionError), logged(str(log)):
         1 / 0  # noqa: B018
     assert "Traceback" in log.read_text()
+
+
+def test_the_tip_of_a_plate_without_a_result_is_drawn_with_the_reason(
+    load_script: LoadScript, tmp_path: Path
+) -> None:
+    """As with ``compute: false`` and nothing kept."""
+    write_index(tmp_path / "polar.json", {}, {"coarse_a2.5": "not kept"})
+    load_script("fig12_tip_flow").main(
+        tmp_path / "polar.json",
+        "coarse",
+        2.5,
+        None,
+        style=ROOT / "envs" / "equisection.mplstyle",
+        outputs=[tmp_path / "fig12.svg"],
+    )
+    assert "rigid plate has no result" in (tmp_path / "fig12.svg").read_text()

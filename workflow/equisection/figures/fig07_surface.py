@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -128,7 +127,7 @@ def _legend(surfaces: Mapping[float, SectionSurface], bubble: pd.DataFrame) -> l
 
 
 def _bubble(axes: Axes, bubble: pd.DataFrame, stated: Mapping[float, float]) -> None:
-    known = bubble[np.isfinite(bubble["bubble"])]
+    known = bubble[bubble["bubble"].notna()]
     if known.empty:
         say(axes, "No result has surface data.")
         return

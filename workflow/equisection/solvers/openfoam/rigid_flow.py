@@ -67,7 +67,7 @@ def follow_iterations(
     is_converged
         Tells whether loads up to an iteration are those of a converged run.
     tell
-        Told what is done.
+        Told what is done; the steady run is the first half of what may be.
     run
         Runs the solver with what is to end it.
 
@@ -88,7 +88,7 @@ def follow_iterations(
         return first_known(loads, is_converged, FEWEST, ITERATIONS_TO_LOOK)
 
     def watch(iteration: float) -> bool:
-        tell(iteration, MOST)
+        tell(iteration, 2 * MOST)
         return seen.is_due(iteration) and known(read_loads(folder)) is not None
 
     run(watch)
@@ -122,7 +122,7 @@ def follow_unsteady(
         )
 
     def watch(time: float) -> bool:
-        tell(MOST * time / record.end, MOST)
+        tell(MOST * (1 + time / record.end), 2 * MOST)
         if time < shortest or not seen.is_due(time):
             return False
         return known(read_loads(folder)) is not None
