@@ -5,8 +5,10 @@ import shlex
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.image import imread
 
 from equisection.comparison.side_by_side.__main__ import main
 from tests.workflow.project import ROOT, Project, jobs_planned
@@ -48,6 +50,15 @@ def test_page_of_the_claims_is_up_to_date(
     arguments += ["--reference", str(ROOT / "results" / "reference")]
     ended = main([*arguments, "--page", str(ROOT / "docs" / "side-by-side.md"), "--check"])
     assert ended == 0, capsys.readouterr().err
+
+
+def test_picture_of_the_readme_is_up_to_date(paper: Project) -> None:
+    """But for what another version of FreeType makes of the letters."""
+    drawn = imread(paper.folder / "results/paper-figures/figures/fig16-response.png")
+    shown = imread(ROOT / "docs" / "fig16-response.png")
+    assert drawn.shape == shown.shape, "make paper"
+    differ = np.abs(drawn - shown).max(axis=-1) > 0.1
+    assert differ.mean() < 2e-3, "make paper"
 
 
 def test_every_figure_is_drawn_and_nothing_is_computed(paper: Project) -> None:
