@@ -186,11 +186,56 @@ def test_thin_plate_twists_as_the_formula_says(k_star: float) -> None:
 
 
 @pytest.mark.parametrize("k_star", [0.5 * np.pi, 0.5 * np.pi * 0.999, 0.5])
-@pytest.mark.parametrize("theta_0", [0.01, 0.0, -0.01])
+def test_undeflected_state_may_be_unstable(k_star: float) -> None:
+    thin = CorrectionFactors(THIN_PLATE, THIN_PLATE)
+    with pytest.raises(DivergenceError, match=rf"k\* = {k_star:.4g} .*statically unstable"):
+        corrected_equilibrium(thin, 0.0, [21.0, k_star], RATIO)
+
+
+@pytest.mark.parametrize("k_star", [0.5 * np.pi, 0.5 * np.pi * 0.999, 0.5])
+@pytest.mark.parametrize("theta_0", [0.01, -0.01])
 def test_divergence_is_an_error_with_k_star_and_range(k_star: float, theta_0: float) -> None:
     thin = CorrectionFactors(THIN_PLATE, THIN_PLATE)
     with pytest.raises(ReductionError, match=rf"k\* = {k_star:.4g} .*-28.65 to 28.65 deg"):
         corrected_equilibrium(thin, theta_0, [21.0, k_star], RATIO)
+
+
+def half(polar: SectionPolar, residue: float = 0.0) -> SectionPolar:
+    """The half from zero incidence on, with what a solver may leave of zero there."""
+    kept = polar.incidence >= 0
+    lift, moment = polar.lift[kept], polar.moment[kept]
+    lift[0] = residue
+    return SectionPolar(polar.incidence[kept], polar.drag[kept], lift, moment, polar.label)
+
+
+def test_factors_are_the_same_whether_the_other_half_is_listed_or_not() -> None:
+    alpha = np.radians([-9.0, -0.3, 0.0, 0.3, 1.0, 2.4, 2.5, 7.0, 10.0])
+    halves = CorrectionFactors(half(SECTION), half(BEAM))
+    np.testing.assert_allclose(halves.lift_factor(alpha), PLATE.lift_factor(alpha), rtol=1e-12)
+    np.testing.assert_allclose(halves.moment_factor(alpha), PLATE.moment_factor(alpha), rtol=1e-12)
+    np.testing.assert_allclose(halves.lift_factor(-alpha), halves.lift_factor(alpha), rtol=1e-12)
+    for theta_0 in (0.3, 2.5):
+        ends = [
+            corrected_equilibrium(factors, np.radians(theta_0), 6.44, RATIO)
+            for factors in (halves, PLATE)
+        ]
+        assert ends[0].twist_rad == pytest.approx(ends[1].twist_rad, rel=1e-12)
+
+
+def test_what_a_solver_leaves_of_zero_is_no_camber() -> None:
+    alpha = np.radians([1.0, 2.5, 7.0])
+    left = CorrectionFactors(half(SECTION), half(BEAM, -4e-4)).lift_factor(alpha)
+    np.testing.assert_allclose(left, PLATE.lift_factor(alpha), rtol=0.02)
+
+
+def test_cambered_polar_is_not_continued() -> None:
+    cambered = SectionPolar(BEAM.incidence[3:], BEAM.drag[3:], BEAM.lift[3:], BEAM.moment[3:], "c")
+    lifted = SectionPolar(
+        cambered.incidence, cambered.drag, cambered.lift + 0.05, cambered.moment, "c"
+    )
+    assert lifted.continued is lifted
+    with pytest.raises(IncidenceOutOfRangeError):
+        CorrectionFactors(lifted, lifted).lift_factor(-0.01)
 
 
 def test_no_incidence_no_twist() -> None:

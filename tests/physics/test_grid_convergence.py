@@ -71,6 +71,14 @@ def test_order_is_undefined_where_changes_do_not_become_smaller(
     assert math.isnan(found.index)
 
 
+@pytest.mark.parametrize("values", [(1.0, 1.1, 1.3), (1.01, 1.0, 1.1), (1.0, 1.1, 1.25)])
+def test_changes_that_do_not_become_smaller_have_no_index_of_any_order(
+    values: tuple[float, float, float],
+) -> None:
+    """That of second order would be less than the change from grid to grid."""
+    assert math.isnan(grid_convergence(values, (4, 2, 1)).index_second_order)
+
+
 def test_value_of_zero_has_no_relative_index() -> None:
     found = grid_convergence((0.16, 0.04, 0.0), (4, 2, 1))
     assert found.order == pytest.approx(math.log2(3.0))

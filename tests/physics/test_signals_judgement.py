@@ -149,6 +149,41 @@ def test_divergence_without_oscillation():
     assert early(S, 0.3 * (1.0 - np.exp(-S / 40.0)), REST).regime != "growing"
 
 
+@pytest.mark.parametrize("mean", [0.5, 5.0, 9.0, 20.0])
+def test_first_swing_of_a_stable_release_is_no_divergence(mean):
+    """It goes from rest to twice the equilibrium, which may be beyond the bound."""
+    twist = np.radians(mean) * (1.0 - np.exp(-0.05 * S) * np.cos(OMEGA * S))
+    verdict = early(S, twist, REST, step=0.5)
+    assert verdict.regime == "settled"
+    assert verdict.end_time > 30.0
+
+
+@pytest.mark.parametrize("rate", [0.05, 0.3, 2.0])
+def test_departure_from_rest_below_divergence_is_growing(rate):
+    """Without damping theta'' = rate^2 (theta + 1 deg)."""
+    twist = np.radians(np.cosh(np.minimum(rate * S, 6.0)) - 1.0)
+    upto = rate * S <= 5.0
+    verdict = early(S[upto], twist[upto], REST[upto], step=0.5)
+    assert verdict.regime == "growing"
+    assert math.degrees(twist[np.searchsorted(S, verdict.end_time)]) < 30.0
+
+
+def test_slow_divergence_is_seen_at_the_end():
+    twist = np.radians(0.05 * np.exp(0.0135 * S))
+    assert assess(S, twist, REST, final=True).regime == "growing"
+    creeping = np.radians(20.0 * (1.0 - np.exp(-0.005 * S)))
+    assert assess(S, creeping, REST, final=True).regime == "settled"
+
+
+def test_swings_that_grow_until_the_polar_ends_are_growing():
+    """Turns at 2.6 and -13.4 deg, then gone: k* = 1.2 of the flat plate in one of its runs."""
+    twist = np.radians(np.interp(S, [0.0, 4.0, 10.0, 16.0], [0.0, 2.6, -13.4, 43.9]))
+    upto = S <= 16.0
+    verdict = assess(S[upto], twist[upto], REST[upto], final=True)
+    assert verdict.regime == "growing"
+    assert early(S[upto], twist[upto], REST[upto], step=1.0).regime == "growing"
+
+
 def test_beating_is_not_steady_until_it_has_died():
     beat = np.cos(2.0 * np.pi * S / 60.0)
     dying = np.radians(2.0 * (1.0 + 0.3 * np.exp(-0.02 * S) * beat) * np.sin(OMEGA * S))

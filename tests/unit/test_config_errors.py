@@ -175,6 +175,13 @@ MALFORMED = [
         "first six digits",
     ),
     ({"steady": {"incidence_deg": [0, 1, 2, 95]}}, "steady.incidence_deg.3", "95", "below 90"),
+    ({"flow": {"incidence_deg": 0}}, "flow.incidence_deg", "0", "nothing sets it in motion"),
+    (
+        {"flow": {"incidence_deg": 0}, "embedded": {"symmetric": False}, "solver": "openfoam"},
+        "flow.incidence_deg",
+        "0",
+        "nothing sets it in motion",
+    ),
     ({"steady": {"study": ["coarse"]}}, "steady.study.0", "'coarse'", "neither before it"),
     (
         {"steady": {"study_incidence_deg": [0, 2.6]}},
@@ -383,7 +390,7 @@ def test_junk_at_known_keys_is_refused_in_words(values):
     aspect=st.floats(1.1, 50),
     k_star=st.lists(st.integers(1, 500), min_size=1, unique=True),
     channel=st.none() | st.fixed_dictionaries({"tip_gap_chords": st.floats(0.01, 3)}),
-    incidence_deg=st.floats(0, 10),
+    incidence_deg=st.floats(0.01, 10),
 )
 def test_resolving_and_loading_again_changes_nothing(chord, aspect, k_star, channel, incidence_deg):
     raw = {

@@ -54,6 +54,22 @@ def test_number_that_a_run_does_not_have_does_not_spoil_the_others() -> None:
     assert over_all.loc["2d", "twist"] == 0.0
 
 
+def test_section_that_failed_where_it_is_hardest_is_not_the_closer_for_it() -> None:
+    twist = {"2d": [1.2, 0.408], "2d-paper": [1.2, 0.44]}  # +50 % at 5; +2 % and +10 % at 10
+    regime = {"2d": "settled", "2d-paper": ["failed", "settled"]}
+    sections = [runs(name, mean_twist_deg=twist[name], regime=regime[name]) for name in twist]
+    over_all = root_mean_square(deviations(pd.concat([*sections, runs("3d")])))["twist"]
+    assert over_all.to_dict() == pytest.approx({"2d": 0.02, "2d-paper": 0.1})
+
+
+def test_section_without_a_number_at_any_k_star_takes_it_from_no_other() -> None:
+    silent = runs("2d-paper", frequency_strouhal=np.nan)
+    table = deviations(pd.concat([silent, runs("2d", frequency_strouhal=0.24), runs("3d")]))
+    over_all = root_mean_square(table)["frequency"]
+    assert np.isnan(over_all["2d-paper"])
+    assert over_all["2d"] == pytest.approx(np.hypot(1.0, 1.0 / 3.0) / np.sqrt(2))
+
+
 def test_figure_has_a_line_for_each_section_and_its_root_mean_square() -> None:
     summary = pd.concat([runs("2d", mean_twist_deg=[0.88, 0.44]), runs("2d-corrected"), runs("3d")])
     figure = section_and_beam.draw(deviations(summary), summary)

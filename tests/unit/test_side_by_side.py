@@ -192,6 +192,7 @@ def test_claims_that_hold_agree() -> None:
         response.mean_twist_uncorrected,
         response.mean_bending_uncorrected,
         response.means_corrected,
+        response.growing_inside,
         response.cost,
     ],
 )
@@ -215,6 +216,30 @@ def test_section_that_bends_less_than_the_plate_contradicts_the_paper() -> None:
     changed = replace(complete(), reductions=reductions(beam=bending))
     finding = response.mean_bending_uncorrected(changed)
     assert finding.verdict is Verdict.DIFFERS
+
+
+@pytest.mark.parametrize(
+    ("growth_of_the_plate", "verdict"),
+    [
+        ((0.03, 0.002), Verdict.PARTLY),
+        ((0.03, 0.02), Verdict.DIFFERS),
+        ((0.0, 0.0), Verdict.AGREES),
+    ],
+)
+def test_growth_is_compared_at_the_same_k_star(
+    growth_of_the_plate: tuple[float, float], verdict: Verdict
+) -> None:
+    """Not at the stiffest that grows, where growth is next to nothing for either."""
+    section: list[Run] = [
+        (k_star, "growing", 1.0, growth, 0.8, 0.4)
+        for k_star, growth in [(5.0, 0.02), (5.5, 0.01), (8.0, 0.0001)]
+    ]
+    plate: list[Run] = [
+        (k_star, "growing", 1.0, growth, 0.8, 0.4)
+        for k_star, growth in zip((5.0, 5.5), growth_of_the_plate, strict=True)
+    ]
+    both = summary(m2d_corrected_paper=section, m3d=plate)
+    assert response.growing_inside(replace(complete(), reductions=both)).verdict is verdict
 
 
 def test_decay_is_not_judged_on_runs_at_low_stiffness() -> None:

@@ -30,6 +30,14 @@ Floats = NDArray[np.float64]
 TABLE_STEP = 1e-4
 """Step h of the reading table (rad), 0.0057 deg."""
 
+NIL = 1e-3
+"""A coefficient this small where it is to vanish, relative to the largest of its polar, is zero."""
+
+
+def is_nil(value: float, coefficients: Floats) -> bool:
+    """Whether a coefficient vanishes beside others, but for what a solver leaves of zero."""
+    return bool(abs(value) <= NIL * np.max(np.abs(coefficients)))
+
 
 @dataclass(frozen=True)
 class _Curve:
@@ -156,6 +164,25 @@ class SectionPolar:
 
         drag = np.concatenate([self.drag[:0:-1], self.drag])
         return SectionPolar(odd(self.incidence), drag, odd(self.lift), odd(self.moment), self.label)
+
+    @cached_property
+    def continued(self) -> SectionPolar:
+        """The polar, continued to alpha < 0 by symmetry where it starts at 0 without loads there.
+
+        c_l and c_m are continued as odd functions about what a solver leaves of zero at zero
+        incidence, so that the cubics have the slope of a symmetric section there; between the
+        given points beyond the first they are what they are without it.
+        """
+        coefficients = (self.lift, self.moment)
+        if self.incidence[0] != 0.0 or not all(is_nil(c[0], c) for c in coefficients):
+            return self
+
+        def reflected(values: Floats) -> Floats:
+            return np.concatenate([2.0 * values[0] - values[:0:-1], values])
+
+        drag = np.concatenate([self.drag[:0:-1], self.drag])
+        lift, moment = reflected(self.lift), reflected(self.moment)
+        return SectionPolar(reflected(self.incidence), drag, lift, moment, self.label)
 
     @property
     def incidence_range(self) -> tuple[float, float]:

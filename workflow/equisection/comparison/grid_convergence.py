@@ -49,11 +49,13 @@ class GridConvergence:
     order
         Observed order p (-); NaN where it is undefined.
     extrapolated
-        Value at h = 0 (unit of the value).
+        Value at h = 0 (unit of the value), by Eq. 6, which is the limit of a monotonic convergence;
+        of an oscillatory one the paper gives the same, and it lies on the far side of the finest.
     index
         Grid convergence index of the finest grid, as a part of its value (-).
     index_second_order
-        The same with the formal order 2 in place of p: the larger one if p is beyond 2.
+        The same with the formal order 2 in place of p: the larger one if p is beyond 2. NaN where
+        the last change is not smaller than the one before, so that nothing converges.
     """
 
     convergence: Convergence
@@ -86,7 +88,8 @@ def grid_convergence(
     r_21, r_32 = sizes[1] / sizes[2], sizes[0] / sizes[1]
     e_21, e_32 = medium - fine, coarse - medium
     largest = max(map(abs, values))
-    second = _index(e_21, fine, r_21, 2.0)
+    is_smaller = abs(e_21) < abs(e_32) or not abs(e_21) > _NO_CHANGE * largest
+    second = _index(e_21, fine, r_21, 2.0) if is_smaller else math.nan
     if not min(abs(e_21), abs(e_32)) > _NO_CHANGE * largest:
         return GridConvergence(Convergence.UNDEFINED, math.nan, math.nan, math.nan, second)
     sign = math.copysign(1.0, e_32 / e_21)

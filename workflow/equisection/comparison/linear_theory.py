@@ -108,7 +108,7 @@ def moment_slope(polar_2d: xr.Dataset, resolution: str, incidence_deg: float) ->
     NaN where too few incidences have a result, or none beyond this one.
     """
     try:
-        return polar_at(polar_2d, resolution).moment_slope(math.radians(incidence_deg))
+        return polar_at(polar_2d, resolution).continued.moment_slope(math.radians(incidence_deg))
     except (ResultFileError, IncidenceOutOfRangeError):
         return math.nan
 

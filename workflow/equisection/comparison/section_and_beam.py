@@ -56,6 +56,13 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
 
 
 def root_mean_square(table: pd.DataFrame) -> pd.DataFrame:
-    """Return the root mean square over k* of each deviation, one line for each model."""
-    squares = table.set_index("model")[list(QUANTITIES)] ** 2
-    return np.sqrt(squares.groupby("model", sort=False).mean())
+    """Return the root mean square over k* of each deviation, one line for each model.
+
+    It is over the k* at which all models have it, but for those that have it at none: one that
+    fails where it is hardest to be close must not be the closer for it.
+    """
+    lines = {}
+    for name in QUANTITIES:
+        by_k_star = table.pivot(index="k_star", columns="model", values=name).astype(float)
+        lines[name] = np.sqrt((by_k_star.dropna(axis="columns", how="all").dropna() ** 2).mean())
+    return pd.DataFrame(lines, index=table["model"].drop_duplicates())

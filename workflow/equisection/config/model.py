@@ -196,6 +196,18 @@ def _resolutions_exist(
             )
 
 
+@check("flow.incidence_deg", "embedded.symmetric", "solver")
+def _set_in_motion(incidence_deg: float, symmetric: bool, solver: str) -> Iterator[Problem]:
+    """Refuse a release from an equilibrium, after which anything looks stable."""
+    if incidence_deg == 0 and (symmetric or solver != "embedded"):
+        yield Problem(
+            "flow.incidence_deg",
+            incidence_deg,
+            "allowed is any other, such as 0.1: a symmetric section has no loads at 0 deg, so "
+            "nothing sets it in motion and the sweep would say nothing of its stability",
+        )
+
+
 @check("flow.incidence_deg", "steady.incidence_deg")
 def _incidence_within_polar(incidence_deg: float, angles: tuple[float, ...]) -> Iterator[Problem]:
     low, high = min(angles), max(angles)

@@ -7,10 +7,10 @@ the section are multiplied by
 
 (Eqs. 19, 20), the first for m_2D and k_w, the second for I_2D and k_theta. A symmetric section
 has 0/0 at zero incidence. The quotient is continuous there: it is that of c_l/alpha and C_L/alpha,
-which tend to the slopes (even, with the kink that the curvature of the monotone cubic at its
-first point leaves). Where only one of the two vanishes, or they differ in sign, the corrected mass
-would be zero, infinite or negative: there is no factor (NaN), and no equivalent section for a beam
-whose equilibrium is there.
+which tend to the slopes. A polar that is given from zero incidence on is continued by symmetry, so
+that the quotient is the same whether its other half is listed or not. Where only one of the two
+vanishes, or they differ in sign, the corrected mass would be zero, infinite or negative: there is
+no factor (NaN), and no equivalent section for a beam whose equilibrium is there.
 
 Taken at every instant the factors would make the mass depend on the angle. They are taken once,
 at the aeroelastic equilibrium, where the corrected section obeys
@@ -33,13 +33,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator, PPoly
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import SectionPolar, is_nil
 from equisection.errors import DivergenceError, ReductionError
 
 Floats = NDArray[np.float64]
-
-#: A coefficient this small where it is to vanish, relative to the largest of its polar, is zero.
-_ZERO = 1e-3
 
 
 @dataclass(frozen=True)
@@ -65,10 +62,10 @@ class CorrectionFactors:
         Raises
         ------
         IncidenceOutOfRangeError
-            A polar does not cover ``alpha``.
+            A polar, continued by symmetry, does not cover ``alpha``.
         """
-        self._require(alpha)
-        return _quotient(self.section.lift_cubic, self.beam.lift_cubic, alpha)
+        section, beam = self._covering(alpha)
+        return _quotient(section.lift_cubic, beam.lift_cubic, alpha)
 
     def moment_factor(self, alpha: ArrayLike) -> Floats:
         """c_m/C_M (1) at ``alpha`` (rad, any shape): the factor of I_2D and k_theta.
@@ -78,14 +75,17 @@ class CorrectionFactors:
         Raises
         ------
         IncidenceOutOfRangeError
-            A polar does not cover ``alpha``.
+            A polar, continued by symmetry, does not cover ``alpha``.
         """
-        self._require(alpha)
-        return _quotient(self.section.moment_cubic, self.beam.moment_cubic, alpha)
+        section, beam = self._covering(alpha)
+        return _quotient(section.moment_cubic, beam.moment_cubic, alpha)
 
-    def _require(self, alpha: ArrayLike) -> None:
-        self.section.require(alpha)
-        self.beam.require(alpha)
+    def _covering(self, alpha: ArrayLike) -> tuple[SectionPolar, SectionPolar]:
+        """Return both polars, a half one continued by symmetry."""
+        section, beam = self.section.continued, self.beam.continued
+        section.require(alpha)
+        beam.require(alpha)
+        return section, beam
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,11 +137,11 @@ def corrected_equilibrium(
         A polar does not cover theta_0 or the equilibrium.
     """
     stiffness = np.atleast_1d(np.asarray(k_star, dtype=np.float64))
-    factors.beam.require(incidence_rad)
-    twist = np.array([_first_twist(factors.beam, incidence_rad, float(k)) for k in stiffness])
+    section, beam = factors.section.continued, factors.beam.continued
+    beam.require(incidence_rad)
+    twist = np.array([_first_twist(beam, incidence_rad, float(k)) for k in stiffness])
     incidence = incidence_rad + twist
     lift_factor, moment_factor = factors.lift_factor(incidence), factors.moment_factor(incidence)
-    section, beam = factors.section, factors.beam
     _require_factor(lift_factor, section.lift_cubic, beam.lift_cubic, incidence, "C_L")
     _require_factor(moment_factor, section.moment_cubic, beam.moment_cubic, incidence, "C_M")
     return CorrectedEquilibrium(
@@ -191,8 +191,7 @@ def _vanishes_at_zero(curve: PchipInterpolator) -> bool:
 
 def _is_nil(curve: PchipInterpolator, alpha: float) -> bool:
     """Tell whether a curve vanishes at ``alpha`` (rad), but for what a solver leaves of zero."""
-    greatest = np.max(np.abs(curve(curve.x)))
-    return bool(abs(curve(alpha)) <= _ZERO * greatest)
+    return is_nil(float(curve(alpha)), curve(curve.x))
 
 
 def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
@@ -219,7 +218,11 @@ def _first_twist(beam: SectionPolar, incidence_rad: float, k_star: float) -> flo
     if _is_nil(cubic, incidence_rad):
         if k_star > slope:
             return 0.0
-        raise DivergenceError(_diverges(beam, incidence_rad, k_star))
+        raise DivergenceError(
+            f"at k* = {k_star:.4g} the undeflected state is statically unstable: at theta_0 = "
+            f"{np.degrees(incidence_rad):.4g} deg polar {beam.label!r} has no moment, but a slope "
+            f"of {slope:.4g}, which outgrows the stiffness (static divergence)"
+        )
     coefficients = cubic.c.copy()  # of C_M(alpha) - k* (alpha - theta_0), knot by knot
     coefficients[2] -= k_star
     coefficients[3] -= k_star * (cubic.x[:-1] - incidence_rad)

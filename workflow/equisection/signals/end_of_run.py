@@ -6,13 +6,15 @@ import math
 
 import numpy as np
 
-from equisection.signals.observation import GROWN, UNDIMINISHED, Observation
+from equisection.signals.observation import GROWN, RUNS_AWAY, UNDIMINISHED, Observation
 from equisection.signals.verdict import Regime
 from equisection.signals.wording import change, degrees
 
 _AT_THE_END = "decided by the trend at the end of the run: "
 # A trend has stalled when the last half of the window keeps less than this part of its rate.
 _STALLED = 0.3
+# With fewer extrema the swing from the release to the first is needed to compare with.
+_FEWEST_EXTREMA = 3
 
 
 def decide_by_trend(seen: Observation) -> tuple[Regime, str]:
@@ -60,6 +62,9 @@ def _by_swings(seen: Observation) -> tuple[Regime, str]:
     """Decide from the few swings of a record with hardly a cycle in it."""
     if seen.half_range < math.radians(seen.criteria.settled_amplitude_deg):
         return "settled", f"{_AT_THE_END}the twist stayed within {degrees(seen.half_range)}"
+    departure = _departure(seen)
+    if departure:
+        return "growing", f"{_AT_THE_END}{departure}"
     swing = 0.5 * np.abs(np.diff(seen.cycles.value))
     if not seen.ringing or swing.size < 2:
         return "settled", f"{_AT_THE_END}the twist moves without oscillating"
@@ -71,3 +76,16 @@ def _by_swings(seen: Observation) -> tuple[Regime, str]:
     if last > GROWN * first:
         return "growing", words
     return ("settled" if first > GROWN * last else "limit-cycle"), words
+
+
+def _departure(seen: Observation) -> str:
+    """Reason why a twist with hardly a swing has not come to rest, or ''."""
+    swings = seen.half_swings
+    is_long = seen.time[-1] - seen.time[0] >= seen.criteria.minimal_time
+    if seen.faster_by > (GROWN if is_long else RUNS_AWAY):
+        return f"the twist leaves ever faster, by {degrees(2.0 * float(swings[-1]))} so far"
+    if seen.cycles.time.size < _FEWEST_EXTREMA and swings.size > 1:
+        first, largest = float(swings[0]), float(swings[1:].max())
+        if largest > GROWN * first:
+            return f"half swings of {degrees(first)} and then {degrees(largest)}"
+    return ""

@@ -36,7 +36,7 @@ from equisection.signals.end_of_run import decide_by_trend
 from equisection.signals.heave import growing_heave, unseen_decay
 from equisection.signals.history import checked
 from equisection.signals.means import Means, means, window_means
-from equisection.signals.observation import GROWN, UNDIMINISHED, Observation, observe
+from equisection.signals.observation import GROWN, RUNS_AWAY, UNDIMINISHED, Observation, observe
 from equisection.signals.verdict import Criteria, Regime, Verdict
 from equisection.signals.wording import change, degrees
 
@@ -48,6 +48,8 @@ _HIDDEN_CHANGE = 3.0
 # sigma ~ 1 - (A/A_0)^n it has d ln|sigma|/d ln A = n r^n/(r^n - 1) > n for r = A/A_0 > 1, and n
 # is 1 or more (2 for the cubic law). Below half of 1 there is no limit cycle beneath.
 _NO_SLOWING = 0.5
+# A half swing of this many times all before it is no part of an oscillation that decays.
+_DEPARTS = 2.0
 # Fall of ln A between two windows from which the slowing can be told.
 _FALL_TO_TELL = 0.1
 
@@ -161,21 +163,33 @@ def _beyond_bound(seen: Observation) -> str:
     """Reason why the motion is growing beyond the bound, or ''."""
     bound = math.radians(seen.criteria.growing_amplitude_deg)
     amplitude = seen.cycles.amplitude
-    if amplitude.size >= 2:
-        last, smallest = float(amplitude[-1]), float(amplitude.min())
-        if last > bound and last > GROWN * smallest:
-            return (
-                f"twist amplitude {degrees(last)}, grown from {degrees(smallest)}, is beyond "
-                f"the bound of {degrees(bound)}"
-            )
-    if seen.cycles.time.size < 2:
-        # No oscillation: static divergence, a departure that gets faster.
-        first, last = float(seen.twist[0]), float(seen.twist[-1])
-        middle = float(seen.twist[seen.twist.size // 2])
-        if abs(last - first) > 2.0 * bound and abs(last - middle) > abs(middle - first):
-            return (
-                f"the twist runs away without oscillating, from {degrees(first)} to {degrees(last)}"
-            )
+    if amplitude.size < 2:
+        return _runs_away(seen, bound)
+    last, smallest = float(amplitude[-1]), float(amplitude.min())
+    if last > bound and last > GROWN * smallest:
+        return (
+            f"twist amplitude {degrees(last)}, grown from {degrees(smallest)}, is beyond "
+            f"the bound of {degrees(bound)}"
+        )
+    return ""
+
+
+def _runs_away(seen: Observation, bound: float) -> str:
+    """Reason why a motion too short to have cycles has left for good, or ''.
+
+    A stable release swings from rest to about twice its equilibrium and back, and nowhere further.
+    """
+    swings = seen.half_swings
+    if seen.faster_by > RUNS_AWAY and swings[-1] > bound:
+        return (
+            f"the twist runs away without oscillating, from {degrees(float(seen.twist[0]))} to "
+            f"{degrees(float(seen.twist[-1]))}"
+        )
+    if swings.size > 1 and swings[-1] > max(bound, _DEPARTS * float(swings[:-1].max())):
+        return (
+            f"a half swing of {degrees(float(swings[-1]))} follows one of "
+            f"{degrees(float(swings[:-1].max()))} and is beyond the bound of {degrees(bound)}"
+        )
     return ""
 
 

@@ -19,6 +19,9 @@ _AMPLITUDE_NOISE = 0.5
 GROWN = 1.1
 # A rate goes on undiminished when it keeps this part of what it was before.
 UNDIMINISHED = 0.8
+# A load that sets in and stays moves the twist three times as far in the second half of the time
+# as in the first, an oscillation less far; an exponential departure further in the end.
+RUNS_AWAY = 4.0
 # Creep of less than this part of the steadiness, per window, is no creep.
 _NEGLIGIBLE_CREEP = 0.25
 # Largest of some hundred samples of white noise, in standard deviations.
@@ -93,6 +96,26 @@ class Observation:
             return False
         quiet = float(self.time[-1] - self.cycles.time[-1])
         return quiet < _SILENT_PERIODS * self.cycles.period(2 * self.criteria.periods)
+
+    @cached_property
+    def half_swings(self) -> Array:
+        """Half the swings (rad) from the release to the first extremum, on, and to the end."""
+        turns = np.concatenate((self.twist[:1], self.cycles.value, self.twist[-1:]))
+        swings: Array = 0.5 * np.abs(np.diff(turns))
+        return swings
+
+    @property
+    def faster_by(self) -> float:
+        """How many times as far the twist went in the second half of the time as in the first.
+
+        0 if it turned on its way.
+        """
+        if self.cycles.time.size:
+            return 0.0
+        first, middle, last = np.interp(
+            np.linspace(self.time[0], self.time[-1], 3), self.time, self.twist
+        )
+        return float(abs(last - middle) / max(abs(middle - first), np.finfo(float).tiny))
 
     @cached_property
     def period(self) -> float:

@@ -83,7 +83,7 @@ def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
         )
     except ResultFileError as error:
         return _without_numbers(Regime.FAILED, failure or str(error))
-    if failure and not _beyond_bound(case, verdict):
+    if failure and not _had_grown(case, tip, verdict):
         return _without_numbers(Regime.FAILED, failure)
     return {
         "regime": str(Regime(verdict.regime)),
@@ -182,9 +182,14 @@ def decided_at(case: UnsteadyCase, tip: Motion) -> float:
     return math.inf
 
 
-def _beyond_bound(case: UnsteadyCase, verdict: Verdict) -> bool:
+def _had_grown(case: UnsteadyCase, tip: Motion, verdict: Verdict) -> bool:
+    """Tell whether a motion was beyond the bound, and not by a first swing that may be its last."""
     bound = math.radians(case.criteria.growing_amplitude_deg)
-    return verdict.regime == "growing" and verdict.twist_amplitude > bound
+    return (
+        verdict.regime == "growing"
+        and verdict.twist_amplitude > bound
+        and (verdict.periods_used > 0 or is_decided(case, tip))
+    )
 
 
 def _without_numbers(regime: Regime, reason: str) -> dict[str, Any]:

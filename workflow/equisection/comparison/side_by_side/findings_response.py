@@ -218,22 +218,41 @@ def limit_cycle(evidence: Evidence) -> Finding:
 
 
 def growing_inside(evidence: Evidence) -> Finding:
-    """Judge the runs just inside the onset: the stiffest that grow."""
-    parts, growth = [], {}
-    for model in (_CORRECTED, _BEAM):
-        runs = evidence.runs(model)
-        growing = runs[runs["regime"] == "growing"]
-        if len(growing):
-            run = growing.iloc[-1]
-            growth[model] = float(run["growth_rate"])
-            parts.append(f"{model} at k* = {run['k_star']:g}: {_in_words(run)}")
-    if not parts:
-        return open_finding("an unstable run")
-    if _BEAM not in growth:
-        parts.append(f"{_BEAM}: not run yet")
-    abrupt = growth.get(_CORRECTED, math.nan) > growth.get(_BEAM, math.nan)
-    verdict = Verdict.AGREES if abrupt else Verdict.PARTLY
-    return Finding(verdict, "; ".join(parts), resolution_of(evidence.summary, _CORRECTED, _BEAM))
+    """Judge whether the paper's corrected section grows faster than the plate, k* by k*."""
+    model = f"{_CORRECTED}-paper"
+    both = _growing(evidence.reductions, model)
+    if both.empty:
+        return open_finding(_BOTH_REDUCTIONS)
+    faster = both["here"] > both["beam"]
+    finer = _growing(evidence.summary, _CORRECTED)
+    return Finding(
+        Verdict.AGREES if faster.all() else Verdict.PARTLY if faster.any() else Verdict.DIFFERS,
+        _growth_in_words(both),
+        resolution_of(evidence.reductions, model, _BEAM),
+        "Section and plate have the same cells in the plane ([reductions](reductions.md))."
+        + (f" The section on the sweep's mesh: {_growth_in_words(finer)}." if len(finer) else ""),
+    )
+
+
+def _growing(runs: pd.DataFrame, model: str) -> pd.DataFrame:
+    """Return k* and growth rate (V/c) of a model and of the beam where both grow."""
+    growing = runs[runs["regime"] == "growing"]
+    section, beam = (growing[growing["model"] == name] for name in (model, _BEAM))
+    joined = section.merge(beam, on="k_star", suffixes=("", "_beam")).sort_values("k_star")
+    return pd.DataFrame(
+        {
+            "k_star": joined["k_star"],
+            "here": joined["growth_rate"],
+            "beam": joined["growth_rate_beam"],
+        }
+    ).dropna()
+
+
+def _growth_in_words(both: pd.DataFrame) -> str:
+    words = ", ".join(
+        f"{row.here:+.4f} and {row.beam:+.4f} at {row.k_star:g}" for row in both.itertuples()
+    )
+    return f"growth of section and plate (V/c): {words} (k*)"
 
 
 def decay_at_high_stiffness(evidence: Evidence) -> Finding:
@@ -260,7 +279,7 @@ def decay_at_high_stiffness(evidence: Evidence) -> Finding:
 
 def _in_words(run: pd.Series) -> str:
     return (
-        f"{str(run['regime']).replace('-', ' ')}, amplitude {run['twist_amplitude_deg']:.2g} deg, "
+        f"{str(run['regime']).replace('-', ' ')}, amplitude {run['twist_amplitude_deg']:.3g} deg, "
         f"growth {run['growth_rate']:+.4f} V/c"
     )
 
