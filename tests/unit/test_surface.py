@@ -149,10 +149,18 @@ def test_table_has_bubble_and_wall_distance_of_the_sides_without_the_edges() -> 
     table = bubble_table(results).set_index("incidence_deg")
     assert table.loc[5.0, "bubble"] == pytest.approx(0.4)
     assert table.loc[-5.0, "bubble"] == pytest.approx(0.2)
-    assert table["side"].tolist() == ["upper", "lower"]
+    assert table["side"].to_dict() == {5.0: "upper", -5.0: "lower"}
     assert table.loc[5.0, "y_plus_largest"] == 2.0
     assert table.loc[5.0, "y_plus_below_1"] == pytest.approx(0.76)
     assert table.loc[5.0, "y_plus_mean"] == pytest.approx(0.24 * 2.0 + 0.76 * 0.5)
+
+
+def test_table_goes_by_resolution_and_ascending_incidence() -> None:
+    """Cases come by their names, where a10 is before a2; a line of Fig. 7 joins neighbours."""
+    cases = [("medium", 10.0), ("medium", 2.0), ("coarse", 0.0), ("coarse", 10.0), ("coarse", 5.0)]
+    table = bubble_table({case: result(section()) for case in cases})
+    found = list(zip(table["resolution"], table["incidence_deg"], strict=True))
+    assert found == [*reversed(cases[:2]), ("coarse", 0.0), ("coarse", 5.0), ("coarse", 10.0)]
 
 
 def test_table_says_why_there_is_no_bubble() -> None:

@@ -31,13 +31,13 @@ def bubble_table(results: Mapping[tuple[str, float], xr.Dataset]) -> pd.DataFram
     Parameters
     ----------
     results
-        Steady result of each resolution and incidence (deg). One that has no value, or no surface
-        data, has a line that says so.
+        Steady result of each resolution and incidence (deg), in any order. One that has no value,
+        or no surface data, has a line that says so.
     """
-    rows = [
-        (resolution, angle, *_line(surface_from_dataset(result), angle, result))
-        for (resolution, angle), result in results.items()
-    ]
+    resolutions = list(dict.fromkeys(resolution for resolution, _ in results))
+    ordered = sorted(results, key=lambda case: (resolutions.index(case[0]), case[1]))
+    surfaces = {case: surface_from_dataset(results[case]) for case in ordered}
+    rows = [(*case, *_line(surface, case[1], results[case])) for case, surface in surfaces.items()]
     return pd.DataFrame(rows, columns=COLUMNS)
 
 

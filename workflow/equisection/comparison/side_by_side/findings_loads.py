@@ -99,8 +99,10 @@ def independence_of_the_mesh(evidence: Evidence) -> Finding:
         return open_finding("the section's polar on three meshes")
     changes = study["coarse"] / study["fine"] - 1.0
     words = "; ".join(
-        f"{row.coefficient} at {row.incidence_deg:g} deg: coarse {percent(change)} from fine"
-        for row, change in zip(study.itertuples(), changes, strict=True)
+        f"{row.coefficient} at {row.incidence_deg:g} deg: "
+        f"coarse {percent(row.coarse / row.fine - 1)}, "
+        f"medium {percent(row.medium / row.fine - 1)} from fine"
+        for row in study.itertuples()
     )
     near_stall = study["incidence_deg"].max() >= 5.0
     verdict = graded(changes, 0.05, 0.1)
