@@ -98,11 +98,12 @@ def independence_of_the_mesh(evidence: Evidence) -> Finding:
     if study.empty:
         return open_finding("the section's polar on three meshes")
     changes = study["coarse"] / study["fine"] - 1.0
+    coarser = [name for name in ("coarse", "medium") if name in study]
     words = "; ".join(
-        f"{row.coefficient} at {row.incidence_deg:g} deg: "
-        f"coarse {percent(row.coarse / row.fine - 1)}, "
-        f"medium {percent(row.medium / row.fine - 1)} from fine"
-        for row in study.itertuples()
+        f"{row['coefficient']} at {row['incidence_deg']:g} deg: "
+        + ", ".join(f"{name} {percent(row[name] / row['fine'] - 1)}" for name in coarser)
+        + " from fine"
+        for _, row in study.iterrows()
     )
     near_stall = study["incidence_deg"].max() >= 5.0
     verdict = graded(changes, 0.05, 0.1)
