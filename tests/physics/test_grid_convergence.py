@@ -79,6 +79,14 @@ def test_changes_that_do_not_become_smaller_have_no_index_of_any_order(
     assert math.isnan(grid_convergence(values, (4, 2, 1)).index_second_order)
 
 
+@pytest.mark.parametrize("coarse", [1.0, 1.1, math.nan])
+def test_index_of_second_order_needs_two_grids_only(coarse: float) -> None:
+    """1.25 |e_21/f_1|/(2^2 - 1), of changes that become smaller or are none."""
+    fine = 1.1 if coarse == 1.1 else 1.13
+    found = grid_convergence((coarse, 1.1, fine), (4, 2, 1))
+    assert found.index_second_order == pytest.approx(1.25 * (fine / 1.1 - 1) * 1.1 / fine / 3)
+
+
 def test_value_of_zero_has_no_relative_index() -> None:
     found = grid_convergence((0.16, 0.04, 0.0), (4, 2, 1))
     assert found.order == pytest.approx(math.log2(3.0))

@@ -159,11 +159,9 @@ class SectionPolar:
                 "at zero incidence; those of a symmetric section vanish there"
             )
 
-        def odd(values: Floats) -> Floats:
-            return np.concatenate([-values[:0:-1], [0.0], values[1:]])
-
-        drag = np.concatenate([self.drag[:0:-1], self.drag])
-        return SectionPolar(odd(self.incidence), drag, odd(self.lift), odd(self.moment), self.label)
+        lift, moment = self.lift.copy(), self.moment.copy()
+        lift[0] = moment[0] = 0.0
+        return SectionPolar(self.incidence, self.drag, lift, moment, self.label)._both_halves()
 
     @cached_property
     def continued(self) -> SectionPolar:
@@ -176,6 +174,10 @@ class SectionPolar:
         coefficients = (self.lift, self.moment)
         if self.incidence[0] != 0.0 or not all(is_nil(c[0], c) for c in coefficients):
             return self
+        return self._both_halves()
+
+    def _both_halves(self) -> SectionPolar:
+        """Return the polar with its reflection at zero incidence, where it starts."""
 
         def reflected(values: Floats) -> Floats:
             return np.concatenate([2.0 * values[0] - values[:0:-1], values])

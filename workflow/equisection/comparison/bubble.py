@@ -26,7 +26,7 @@ MISSING = (
 
 
 def bubble_table(results: Mapping[tuple[str, float], xr.Dataset]) -> pd.DataFrame:
-    """Return ``tables/bubble.csv``: a line for each resolution and incidence.
+    """Return ``tables/bubble.csv``: a line for each resolution and ascending incidence.
 
     Parameters
     ----------
@@ -34,11 +34,11 @@ def bubble_table(results: Mapping[tuple[str, float], xr.Dataset]) -> pd.DataFram
         Steady result of each resolution and incidence (deg), in any order. One that has no value,
         or no surface data, has a line that says so.
     """
-    resolutions = list(dict.fromkeys(resolution for resolution, _ in results))
-    ordered = sorted(results, key=lambda case: (resolutions.index(case[0]), case[1]))
-    surfaces = {case: surface_from_dataset(results[case]) for case in ordered}
-    rows = [(*case, *_line(surface, case[1], results[case])) for case, surface in surfaces.items()]
-    return pd.DataFrame(rows, columns=COLUMNS)
+    rows = [
+        (resolution, angle, *_line(surface_from_dataset(result), angle, result))
+        for (resolution, angle), result in results.items()
+    ]
+    return pd.DataFrame(rows, columns=COLUMNS).sort_values(list(COLUMNS[:2]), ignore_index=True)
 
 
 def plate_bubble_table(results: Iterable[xr.Dataset]) -> pd.DataFrame:

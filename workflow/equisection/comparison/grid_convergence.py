@@ -88,8 +88,8 @@ def grid_convergence(
     r_21, r_32 = sizes[1] / sizes[2], sizes[0] / sizes[1]
     e_21, e_32 = medium - fine, coarse - medium
     largest = max(map(abs, values))
-    is_smaller = abs(e_21) < abs(e_32) or not abs(e_21) > _NO_CHANGE * largest
-    second = _index(e_21, fine, r_21, 2.0) if is_smaller else math.nan
+    is_no_smaller = abs(e_21) >= abs(e_32) and abs(e_21) > _NO_CHANGE * largest
+    second = math.nan if is_no_smaller else _index(e_21, fine, r_21, 2.0)
     if not min(abs(e_21), abs(e_32)) > _NO_CHANGE * largest:
         return GridConvergence(Convergence.UNDEFINED, math.nan, math.nan, math.nan, second)
     sign = math.copysign(1.0, e_32 / e_21)

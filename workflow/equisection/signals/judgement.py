@@ -4,7 +4,8 @@ The same judgement serves while a run goes on, when it may answer ``undecided``,
 run's end, when it has to decide. In this order:
 
 growing
-    The amplitude is beyond the bound and larger than it has been. Never from a trend alone
+    The amplitude is beyond the bound and larger than it has been, or the twist is gone before it
+    has cycles, further than a release swings. Never from a trend alone
     while the run goes on: what grows may yet saturate below the bound.
 settled
     The amplitude is below what counts as an oscillation and does not grow, or it has fallen

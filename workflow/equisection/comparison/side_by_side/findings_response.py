@@ -115,7 +115,12 @@ def _by_the_other_reduction(evidence: Evidence, model: str, columns: tuple[str, 
 def _pairs(runs: pd.DataFrame, model: str, column: str) -> pd.DataFrame:
     """Return k* and a mean of a model and of the beam where the motion of both is small."""
     small = runs[(runs["twist_amplitude_deg"] < _SMALL) & (runs["regime"] != "failed")]
-    section, beam = (small[small["model"] == name] for name in (model, _BEAM))
+    return _beside(small, model, column)
+
+
+def _beside(runs: pd.DataFrame, model: str, column: str) -> pd.DataFrame:
+    """Return k* and a column of a model and of the beam at the k* that both have."""
+    section, beam = (runs[runs["model"] == name] for name in (model, _BEAM))
     joined = section.merge(beam, on="k_star", suffixes=("", "_beam")).sort_values("k_star")
     return pd.DataFrame(
         {"k_star": joined["k_star"], "here": joined[column], "beam": joined[f"{column}_beam"]}
@@ -236,16 +241,7 @@ def growing_inside(evidence: Evidence) -> Finding:
 
 def _growing(runs: pd.DataFrame, model: str) -> pd.DataFrame:
     """Return k* and growth rate (V/c) of a model and of the beam where both grow."""
-    growing = runs[runs["regime"] == "growing"]
-    section, beam = (growing[growing["model"] == name] for name in (model, _BEAM))
-    joined = section.merge(beam, on="k_star", suffixes=("", "_beam")).sort_values("k_star")
-    return pd.DataFrame(
-        {
-            "k_star": joined["k_star"],
-            "here": joined["growth_rate"],
-            "beam": joined["growth_rate_beam"],
-        }
-    ).dropna()
+    return _beside(runs[runs["regime"] == "growing"], model, "growth_rate")
 
 
 def _growth_in_words(both: pd.DataFrame) -> str:
