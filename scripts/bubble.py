@@ -1,5 +1,6 @@
 """Length of the bubble, and y+, at each resolution and incidence."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from equisection import plan
@@ -10,11 +11,13 @@ from equisection.results.netcdf import read_dataset
 from equisection.script import logged
 
 
-def main(index: Path, output: Path) -> None:
-    """Read the surface data of every steady case of the section."""
+def main(index: Path, cases: Sequence[str], output: Path) -> None:
+    """Read the surface data of what cases of the section there are, in their order."""
+    found = read_index(index)
     results = {
-        plan.angle_of(name): read_dataset(result_file(index, name), str(attributes["case_hash"]))
-        for name, attributes in read_index(index).items()
+        plan.angle_of(name): read_dataset(result_file(index, name), str(found[name]["case_hash"]))
+        for name in cases
+        if name in found
     }
     with written_whole(output) as aside:
         bubble_table(results).to_csv(aside, index=False, float_format="%.6g")
@@ -22,4 +25,4 @@ def main(index: Path, output: Path) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
-        main(Path(snakemake.input.index), Path(snakemake.output[0]))
+        main(Path(snakemake.input.index), snakemake.params.cases, Path(snakemake.output[0]))

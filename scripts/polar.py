@@ -1,5 +1,6 @@
 """Gather the steady results of a dimension into its polar."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from equisection import plan
@@ -9,15 +10,17 @@ from equisection.results.polar import gather_polar
 from equisection.script import logged
 
 
-def main(index: Path, output: Path) -> None:
-    """Gather the results, each checked to be that of its case."""
+def main(index: Path, cases: Sequence[str], output: Path) -> None:
+    """Gather what results there are, in the order of the cases, each checked to be of its case."""
+    found = read_index(index)
     gathered = {
-        plan.angle_of(name): read_dataset(result_file(index, name), str(attributes["case_hash"]))
-        for name, attributes in read_index(index).items()
+        plan.angle_of(name): read_dataset(result_file(index, name), str(found[name]["case_hash"]))
+        for name in cases
+        if name in found
     }
     write_dataset(output, gather_polar(gathered))
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
-        main(Path(snakemake.input.index), Path(snakemake.output[0]))
+        main(Path(snakemake.input.index), snakemake.params.cases, Path(snakemake.output[0]))

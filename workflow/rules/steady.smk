@@ -190,6 +190,7 @@ rule polar:
         runtime=5,
     params:
         code=code("results"),
+        cases=STEADY,
     message:
         "{wildcards.dimension} polar"
     script:
@@ -304,6 +305,7 @@ rule bubble:
         runtime=5,
     params:
         code=code("comparison/bubble.py", "results/surface.py"),
+        cases=STEADY,
     message:
         "bubble of the section"
     script:

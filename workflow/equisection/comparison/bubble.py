@@ -31,14 +31,17 @@ def bubble_table(results: Mapping[tuple[str, float], xr.Dataset]) -> pd.DataFram
     Parameters
     ----------
     results
-        Steady result of each resolution and incidence (deg), in any order. One that has no value,
-        or no surface data, has a line that says so.
+        Steady result of each resolution and incidence (deg), the resolutions in the order of the
+        table. One that has no value, or no surface data, has a line that says so.
     """
+    resolutions = list(dict.fromkeys(resolution for resolution, _ in results))
     rows = [
         (resolution, angle, *_line(surface_from_dataset(result), angle, result))
-        for (resolution, angle), result in results.items()
+        for (resolution, angle), result in sorted(
+            results.items(), key=lambda entry: (resolutions.index(entry[0][0]), entry[0][1])
+        )
     ]
-    return pd.DataFrame(rows, columns=COLUMNS).sort_values(list(COLUMNS[:2]), ignore_index=True)
+    return pd.DataFrame(rows, columns=COLUMNS)
 
 
 def plate_bubble_table(results: Iterable[xr.Dataset]) -> pd.DataFrame:
