@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 from typing import cast
 
-from equisection.cases import SteadyCase, case_hash, read_cases
+from equisection.cases import SteadyCase, canonical, case_hash, read_cases
 from equisection.files import written_whole
 from equisection.results.kept import PLATE_MESH, kept_mesh
 from equisection.results.netcdf import write_dataset
@@ -30,6 +30,7 @@ def main(cases: Path, store: Path, output: Path) -> None:
         solver_version=solver.version,
         solver_description=solver.describe("3d"),
         resolution=case.resolution,
+        mesh_of=canonical(case),
     )
     write_dataset(output, dataset)
 
@@ -37,19 +38,9 @@ def main(cases: Path, store: Path, output: Path) -> None:
 def take_kept(cases: Path, reuse: Path, output: Path) -> None:
     """Take the mesh that is kept of the one case of ``cases``, or one without cells."""
     ((_, case),) = read_cases(cases).items()
-    span, thickness = case.geometry.span, case.geometry.thickness
-    kept = kept_mesh(
-        reuse,
-        PLATE_MESH,
-        {
-            "solver": case.solver.name,
-            "resolution": case.resolution,
-            "incidence_deg": case.incidence_deg,
-            "span": span,
-            "thickness": thickness,
-        },
-    )
+    kept = kept_mesh(reuse, PLATE_MESH, case)
     if kept is None:
+        span, thickness = case.geometry.span, case.geometry.thickness
         write_dataset(output, no_grid(case.incidence_deg, span, thickness).to_dataset())
         return
     with written_whole(output) as aside:

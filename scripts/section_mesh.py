@@ -4,7 +4,7 @@ import shutil
 from pathlib import Path
 from typing import cast
 
-from equisection.cases import SteadyCase, case_hash, read_cases
+from equisection.cases import SteadyCase, canonical, case_hash, read_cases
 from equisection.files import written_whole
 from equisection.results.kept import SECTION_MESH, kept_mesh
 from equisection.results.netcdf import write_dataset
@@ -30,6 +30,7 @@ def main(cases: Path, time_step: float, store: Path, output: Path) -> None:
         solver_version=solver.version,
         solver_description=solver.describe("2d"),
         resolution=case.resolution,
+        mesh_of=canonical(case),
     )
     write_dataset(output, dataset)
 
@@ -37,8 +38,7 @@ def main(cases: Path, time_step: float, store: Path, output: Path) -> None:
 def take_kept(cases: Path, time_step: float, reuse: Path, output: Path) -> None:
     """Take the mesh that is kept of the one case of ``cases``, or one without cells."""
     ((_, case),) = read_cases(cases).items()
-    wanted = {"solver": case.solver.name, "resolution": case.resolution, "time_step": time_step}
-    kept = kept_mesh(reuse, SECTION_MESH, {**wanted, "incidence_deg": case.incidence_deg})
+    kept = kept_mesh(reuse, SECTION_MESH, case, time_step=time_step)
     if kept is None:
         write_dataset(output, no_mesh(case.incidence_deg, time_step).to_dataset())
         return

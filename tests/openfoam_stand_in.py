@@ -5,7 +5,7 @@
 The free section is an oscillator under loads that its motion damps. Rows and states are written
 piece by piece, so that a kill leaves what kills leave. ``STAND_IN_FAULT`` names what
 goes wrong, ``STAND_IN_SOFTEST`` the torsional stiffness k*/2 below which it does, ``STAND_IN_PACE``
-the seconds of a time step.
+the seconds of a time step, ``STAND_IN_WRONG_FROM`` the time of the fault.
 """
 
 import json
@@ -19,8 +19,6 @@ from typing import TextIO
 
 END = "// ************************************************************************* //\n"
 FIELDS = ("U", "p", "k", "omega", "nut", "phi")
-#: Time (c/V) from which a fault is due.
-WRONG_FROM = 7.0
 FATAL = """
 
 --> FOAM FATAL {kind}:
@@ -33,6 +31,8 @@ FOAM exiting
 
 """
 FAULT = os.environ.get("STAND_IN_FAULT", "")
+#: Time (c/V) from which a fault is due.
+WRONG_FROM = float(os.environ.get("STAND_IN_WRONG_FROM", "7"))
 PACE = float(os.environ.get("STAND_IN_PACE", "0"))
 
 
@@ -72,8 +72,9 @@ def free() -> None:
     motion = {"twist": 0.0, "rate": 0.0, "lift": 0.0, "speed": 0.0}
     if start != "0":
         motion = json.loads((Path(start) / "uniform/time").read_text().partition("\n")[0])
-    loads = history("loads", start, "coefficient.dat", "Cd Cl CmPitch")
-    places = history("motion", start, "sixDoFRigidBodyState.dat", "centreOfRotation rotation")
+    if FAULT == "library":
+        go_wrong(0.0)
+    loads = places = None
     wrong = stiffness < float(os.environ.get("STAND_IN_SOFTEST", "inf"))
     for number in range(round(float(start) / step) + 1, round(end / step) + 1):
         now = f"{number * step:.10g}"
@@ -85,6 +86,11 @@ def free() -> None:
         motion["lift"] += step * motion["speed"]
         if wrong and (FAULT in ("set-up", "start") or number * step >= WRONG_FROM):
             lift = go_wrong(lift)
+        if loads is None or places is None:  # opened behind the first step, as by OpenFOAM
+            loads = history("loads", start, "coefficient.dat", "Cd Cl CmPitch")
+            places = history(
+                "motion", start, "sixDoFRigidBodyState.dat", "centreOfRotation rotation"
+            )
         # the loads are about the centre at rest
         row(loads, now, f"0.05 {lift!r} {moment + 0.05 * motion['lift']!r}")
         row(places, now, f"(0 {motion['lift']!r} 0) (0 0 {-motion['twist']!r})")
@@ -98,6 +104,9 @@ def free() -> None:
 
 
 def go_wrong(lift: float) -> float:
+    if FAULT == "library":
+        say(FATAL.format(kind="ERROR", words='could not load "liboverset.so"'))
+        sys.exit(1)
     if FAULT == "set-up":
         say(FATAL.format(kind="ERROR", words="Unknown solver type GAMMG"))
         sys.exit(1)

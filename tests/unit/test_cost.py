@@ -12,7 +12,7 @@ from equisection.cases import SolverBlock, canonical, case_hash
 from equisection.command_line import main
 from equisection.config import load_config
 from equisection.errors import ConfigError
-from equisection.jobs import solver_jobs
+from equisection.jobs import solver_jobs, steady_batch_work, unsteady_batch_work
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.solvers import cost
 from equisection.solvers.cost import CellCost, megabytes, minutes, read_cost_model, seconds
@@ -52,6 +52,22 @@ def test_work_grows_with_mesh_steps_and_iterations() -> None:
     assert openfoam_work("2d", outer_correctors=50) == openfoam_work("2d", outer_correctors=8)
     assert openfoam_work("2d", mesh_motion="overset").steps > section.steps
     assert openfoam_work("3d", mesh_motion="overset").steps == plate.steps
+
+
+@pytest.mark.parametrize(("dimension", "longest"), [("2d", 110.0), ("3d", 70.0)])
+def test_rigid_case_may_go_on_as_long_as_its_record_can_be(dimension: str, longest: float) -> None:
+    """The plate's is shorter, for what it costs (docs/openfoam.md and docs/plate.md)."""
+    work = cost.steady_work(load_config(OPENFOAM), dimension, "coarse")
+    assert work.steps == pytest.approx(longest / 0.02 * 3)
+
+
+def test_job_that_looks_up_what_is_kept_asks_for_no_solver() -> None:
+    raw = yaml.safe_load((ROOT / "config" / "paper.yaml").read_text(encoding="utf-8"))
+    computes, looks_up = (load_config({**raw, "compute": compute}) for compute in (True, False))
+    assert steady_batch_work(computes, "3d").cells > 1e6
+    for work in (steady_batch_work(looks_up, "3d"), unsteady_batch_work(looks_up, "3d")):
+        assert megabytes(work, CELL, 1) <= 2000
+        assert minutes(work, CELL, 1) <= 60
 
 
 def test_batch_of_the_embedded_solver_has_the_work_of_its_cases() -> None:

@@ -71,6 +71,18 @@ def test_result_that_is_no_longer_kept_does_not_stay(tmp_path: Path) -> None:
     assert not (tmp_path / "out/a.nc").exists()
 
 
+def test_history_that_is_no_longer_kept_is_not_judged(tmp_path: Path) -> None:
+    """Not even where an earlier answer has left it in the store."""
+    path = tmp_path / "kept/k.nc"
+    keep_history(path, RUN, 60.0, 0.012)
+    shorter = RUN.model_copy(update={"duration": 55.0})
+    assert answers({"k": shorter}, tmp_path).found["k"]["growth_rate"] > 0
+    keep_history(path, RUN, 60.0, -0.02)
+    assert answers({"k": shorter}, tmp_path).found["k"]["growth_rate"] < 0
+    path.unlink()
+    assert answers({"k": shorter}, tmp_path).missing
+
+
 @pytest.mark.parametrize("growth", [0.012, -0.0005], ids=["growing", "hardly decaying"])
 def test_shorter_history_is_judged_as_far_as_it_goes(growth: float, tmp_path: Path) -> None:
     other = RUN.criteria.model_copy(update={"periods": 7})

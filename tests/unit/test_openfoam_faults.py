@@ -144,6 +144,40 @@ def test_fault_of_the_machine_leaves_no_result_and_is_tried_again(
     assert_same_history(tmp_path, undisturbed)
 
 
+def test_fault_of_the_set_up_at_a_resumption_is_none_of_the_case(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, undisturbed: xr.Dataset
+) -> None:
+    monkeypatch.setenv("STAND_IN_FAULT", "kill")
+    with pytest.raises(SolverError, match="ended with signal 9"):
+        run(tmp_path)
+    monkeypatch.setenv("STAND_IN_FAULT", "library")
+    with pytest.raises(SolverError, match="could not load"):
+        run(tmp_path)
+    assert list(tmp_path.rglob("*.nc")) == []
+    monkeypatch.delenv("STAND_IN_FAULT")
+    run(tmp_path)
+    assert_same_history(tmp_path, undisturbed)
+
+
+def test_what_goes_wrong_after_the_verdict_is_not_in_the_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The program goes on until its end is noticed; a job that comes later does not start it."""
+    case = CASE.model_copy(update={"duration": 200.0})
+    undisturbed = run(tmp_path / "undisturbed", case)
+    assert undisturbed["regime"] == "settled"
+    verdict = undisturbed["end_time"]
+    monkeypatch.setenv("STAND_IN_FAULT", "fpe")
+    monkeypatch.setenv("STAND_IN_WRONG_FROM", f"{verdict + 0.1}")
+    found = run(tmp_path / "late", case)
+    assert (found["regime"], found["end_time"]) == ("settled", verdict)
+    for result in (tmp_path / "undisturbed").rglob("*.nc"):
+        result.unlink()
+    monkeypatch.setenv("STAND_IN_FAULT", "library")
+    found = run(tmp_path / "undisturbed", case)
+    assert (found["regime"], found["end_time"]) == ("settled", verdict)
+
+
 def test_steps_that_are_missing_in_a_history_are_not_passed_over(tmp_path: Path) -> None:
     run(tmp_path)
     folder = free_folder(tmp_path)

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from equisection.errors import SolverError
+from equisection.motion.modal_response import ModalState
 from equisection.solvers.openfoam.histories import read_history, read_table
 from equisection.solvers.openfoam.loads import Loads, reasonable
+from equisection.solvers.openfoam.plate_history import add_row, keep_until, require_state
 
 HEADER = "# Force coefficients\n# CofR : (0 0 0)\n# Time\tCd\tCl\tCmPitch\n"
 
@@ -99,3 +101,32 @@ def test_loads_count_until_they_are_beyond_reason() -> None:
     assert reasonable(loads) == 60
     lift[3] = np.nan
     assert reasonable(loads) == 3
+
+
+STEP = 0.04
+
+
+def structure(path: Path, rows: int) -> None:
+    """Write the history of two modes over a number of steps."""
+    with path.open("w", encoding="ascii") as stream:
+        for number in range(rows):
+            state = ModalState(number * STEP, *(np.full(2, float(number)) for _ in range(4)))
+            add_row(stream, state, 0.3, 0.07)
+
+
+def test_structure_is_taken_up_from_the_step_before_the_flow(tmp_path: Path) -> None:
+    structure(tmp_path / "structure.txt", 101)
+    state = keep_until(tmp_path / "structure.txt", 4.0 - 0.5 * STEP, 2).state()
+    require_state(state, 4.0, STEP, tmp_path)
+    assert state is not None
+    assert state.time == pytest.approx(4.0 - STEP)
+
+
+@pytest.mark.parametrize(("rows", "known"), [(90, "3.56 c/V"), (0, "nothing")])
+def test_steps_that_are_missing_in_the_structure_are_not_passed_over(
+    tmp_path: Path, rows: int, known: str
+) -> None:
+    structure(tmp_path / "structure.txt", rows)
+    state = keep_until(tmp_path / "structure.txt", 4.0 - 0.5 * STEP, 2).state()
+    with pytest.raises(SolverError, match=f"from 4 c/V, the structure from {known}: steps are"):
+        require_state(state, 4.0, STEP, tmp_path)

@@ -72,6 +72,20 @@ class TestProcess:
     def test_this_one_lives(self) -> None:
         assert Process.this().lives()
 
+    @pytest.mark.parametrize(("shown", "lives"), [(None, True), ("", True), ("1", False)])
+    def test_another_users_lives_unless_the_system_shows_that_it_is_another(
+        self, monkeypatch: pytest.MonkeyPatch, shown: str | None, lives: bool
+    ) -> None:
+        """A system may hide the processes of other users (``hidepid``)."""
+
+        def forbidden(pid: int, number: int) -> None:
+            raise PermissionError
+
+        process = replace(Process.this(), birth="2")
+        monkeypatch.setattr(progress.os, "kill", forbidden)
+        monkeypatch.setattr(progress, "_birth", lambda pid: shown)
+        assert process.lives() is lives
+
     def test_one_that_ended_does_not(self) -> None:
         with subprocess.Popen([sys.executable, "-c", ""]) as child:
             process = replace(Process.this(), pid=child.pid, birth="")

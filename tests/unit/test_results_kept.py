@@ -7,7 +7,7 @@ import pytest
 import xarray as xr
 from tests.sample_cases import STEADY, UNSTEADY
 
-from equisection.cases import Case, case_hash
+from equisection.cases import Case, canonical, case_hash
 from equisection.command_line import main
 from equisection.results.kept import SECTION_MESH, keep_results, kept_mesh, kept_results
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -52,18 +52,17 @@ def test_results_of_cases_are_kept_but_for_failed_ones(run: Path, tmp_path: Path
 
 
 def test_section_mesh_is_kept_and_found_by_what_it_is_of(run: Path, tmp_path: Path) -> None:
-    mesh = no_mesh(2.5, 0.02).to_dataset().assign_attrs(resolution="coarse")
+    mesh = no_mesh(2.5, 0.02).to_dataset().assign_attrs(mesh_of=canonical(STEADY))
     write_dataset(run / SECTION_MESH, mesh)
-    keep_results(run, tmp_path / "kept/my-beam")
-    path = tmp_path / "kept/my-beam" / SECTION_MESH
-    assert (
-        kept_mesh(tmp_path / "kept", SECTION_MESH, {"resolution": "coarse", "time_step": 0.02})
-        == path
-    )
-    assert (
-        kept_mesh(tmp_path / "kept", SECTION_MESH, {"resolution": "fine", "time_step": 0.02})
-        is None
-    )
+    kept = tmp_path / "kept"
+    keep_results(run, kept / "my-beam")
+    path = kept / "my-beam" / SECTION_MESH
+    assert kept_mesh(kept, SECTION_MESH, STEADY, time_step=0.02) == path
+    assert kept_mesh(kept, SECTION_MESH, STEADY, time_step=0.01) is None
+    thicker = STEADY.geometry.model_copy(update={"thickness": 0.06})
+    for change in ({"resolution": "fine"}, {"geometry": thicker}):
+        other = STEADY.model_copy(update=change)
+        assert kept_mesh(kept, SECTION_MESH, other, time_step=0.02) is None
     assert path not in {kept.path for kept in kept_results(tmp_path / "kept")}
 
 

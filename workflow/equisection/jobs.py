@@ -20,6 +20,9 @@ from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
 from equisection.solvers.work import Work
 
+#: Work of a job that runs no case but takes those that are kept (``compute: false``).
+LOOKING_UP = Work(cells=0.0)
+
 
 @dataclass(frozen=True)
 class Jobs:
@@ -74,13 +77,17 @@ def solver_jobs(config: Config, model: CostModel) -> list[Jobs]:
 
 
 def steady_batch_work(config: Config, dimension: str) -> Work:
-    """Return the work of the job that runs all rigid cases of a dimension."""
+    """Return the work of the job that runs all rigid cases of a dimension, or looks them up."""
+    if not config.compute:
+        return LOOKING_UP
     cases = len(plan.steady_cases(config))
     return cost.steady_work(config, dimension, config.steady.resolution, cases)
 
 
 def unsteady_batch_work(config: Config, dimension: str) -> Work:
     """Return the work of the job that runs the sweep of a model, or a round of refinement."""
+    if not config.compute:
+        return LOOKING_UP
     cases = max(len(plan.sweep_cases(config)), config.sweep.onset_points)
     return cost.unsteady_work(config, dimension, cases)
 

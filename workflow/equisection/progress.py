@@ -55,8 +55,9 @@ class Process:
             os.kill(self.pid, 0)  # asks, and sends nothing
         except ProcessLookupError:
             return False
-        except PermissionError:
-            pass
+        except PermissionError:  # it runs as another user, and the system may hide it
+            birth = _birth(self.pid)
+            return not birth or not self.birth or birth == self.birth
         birth = _birth(self.pid)
         return birth is not None and (birth == self.birth or not self.birth)
 

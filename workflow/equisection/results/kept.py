@@ -95,11 +95,26 @@ def keep_results(run: Path, folder: Path) -> list[Path]:
     return copies
 
 
-def kept_mesh(folder: Path, name: Path, attributes: dict[str, Any]) -> Path | None:
-    """Return the first mesh of a name below a folder that has some attributes, if there is one."""
+def kept_mesh(folder: Path, name: Path, case: Case, **attributes: Any) -> Path | None:
+    """Return the first mesh of a name below a folder that is of a rigid case, if there is one.
+
+    Parameters
+    ----------
+    folder
+        Folder with what is kept.
+    name
+        :data:`SECTION_MESH` or :data:`PLATE_MESH`.
+    case
+        The case, which the file holds as its attribute ``mesh_of``.
+    **attributes
+        What else the file has to say.
+    """
+    wanted = json.loads(canonical(case))
     for path in sorted(folder.rglob(str(name))):
         found = _attributes(path)
-        if found and all(found.get(name) == value for name, value in attributes.items()):
+        if are_alike(json.loads(found.get("mesh_of", "{}")), wanted) and all(
+            found.get(name) == value for name, value in attributes.items()
+        ):
             return path
     return None
 

@@ -53,7 +53,8 @@ def answer_from_kept(cases: Mapping[str, Case], folder: Path, store: Path, reuse
         output = folder / f"{name}.nc"
         for asked in (case, *_shorter(case, kept)):
             task = task_of(asked)
-            found = results.take(task, kept) or results.judge_again(task, kept)
+            found = results.take(task, kept)
+            found = found or results.judge_again(task, kept, kept_alone=True)
             if found is not None:
                 answers.found[name] = found
                 publish(results.result(task), output)

@@ -112,11 +112,15 @@ class ResultStore:
         if not runs_batches(task.case):
             own["case"] = canonical(task.case)
         attributes = write_dataset(path, dataset.assign_attrs(own), made_by)
+        self._put_history(task, attributes)
+        return attributes
+
+    def _put_history(self, task: Task, attributes: Mapping[str, Any]) -> None:
+        """Have the result of a case as its history, if that is the longest."""
         if task.history and not failure_of(attributes):
             longest = self._history(task)
             if float(attributes["end_time"]) > _length(longest):
-                publish(path, longest)
-        return attributes
+                publish(self.result(task), longest)
 
     def take(self, task: Task, kept: Sequence[Kept]) -> dict[str, Any] | None:
         """Take a kept result of a case, or of one that is alike; its attributes."""
@@ -126,7 +130,9 @@ class ResultStore:
                 stored = self.result(task)
                 with written_whole(stored) as aside:
                     shutil.copyfile(one.path, aside)
-                return read_attributes(stored, task.hash)
+                attributes = read_attributes(stored, task.hash)
+                self._put_history(task, attributes)
+                return attributes
         if not runs_batches(task.case):
             for one in kept:
                 if one.is_of(task.case):
@@ -134,12 +140,18 @@ class ResultStore:
                     return self._put_known(task, read_dataset(one.path), one.attributes)
         return None
 
-    def judge_again(self, task: Task, kept: Sequence[Kept]) -> dict[str, Any] | None:
-        """Answer a case from its history, if there is one and it is long enough; attributes."""
+    def judge_again(
+        self, task: Task, kept: Sequence[Kept], *, kept_alone: bool = False
+    ) -> dict[str, Any] | None:
+        """Answer a case from its history, if there is one and it is long enough; attributes.
+
+        ``kept_alone`` leaves out the history that the store has from before.
+        """
         case = task.case
         if not task.history or not isinstance(case, UnsteadyCase):
             return None
-        histories = [self._history(task)] if _length(self._history(task)) else []
+        own = self._history(task)
+        histories = [own] if not kept_alone and _length(own) else []
         histories += [one.path for one in kept if one.has_history_of(case)]
         for path in histories:
             history = read_dataset(path)

@@ -72,6 +72,11 @@ class Loads:
         )
 
 
+def has_loads(folder: Path) -> bool:
+    """Tell whether a case has written loads; their file is opened behind the first step."""
+    return any((folder / "postProcessing" / LOADS).glob("*/coefficient*.dat"))
+
+
 def read_loads(folder: Path) -> Loads:
     """Return the loads of a case so far.
 

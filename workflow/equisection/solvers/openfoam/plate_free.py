@@ -47,6 +47,7 @@ from equisection.solvers.openfoam.plate_history import (
     add_row,
     keep_until,
     read_plate,
+    require_state,
 )
 from equisection.solvers.openfoam.plate_mesh import PlateMesh
 from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_control
@@ -128,12 +129,15 @@ class PlateRun(FreeRun[PlateMesh]):
             if not is_ready(self.folder):
                 self._set_up(tell)
             start = self._last_common_state()
-            if start < case.duration:
+            if start < case.duration and not (start and self._is_over()):
                 self._go_on(start, tell)
         except BlowUpError as error:
             failure = f"{error}{self._where()}"
             if not is_ready(self.folder):
                 return refused(case.model_copy(update={"refusal": failure}))
+        if failure and self._is_over():
+            logger.info("what went wrong is later than the verdict: %s", failure)
+            failure = ""
         tip_flow = None if failure else self._tip_flow()
         return replace(self._result(failure), tip_flow=tip_flow, spent=spent(self.work))
 
@@ -171,6 +175,12 @@ class PlateRun(FreeRun[PlateMesh]):
         drop_histories_after(self.folder, start)
         return start
 
+    def _is_over(self) -> bool:
+        """Tell whether the verdict is in."""
+        case = self.case
+        history = self.history().sampled(case.time_step, case.output_interval, case.duration)
+        return math.isfinite(decided_at(case, self.tip_motion(history)))
+
     def _go_on(self, start: float, tell: Tell) -> None:
         self._write_system()
         # a case that was divided stays so, on however many ranks its job runs now
@@ -182,6 +192,8 @@ class PlateRun(FreeRun[PlateMesh]):
         # the loads at the start are handed over anew in the first step
         before = start - 0.5 * self.case.time_step
         state = keep_until(self.history_file, before, self.points.frequency.size).state()
+        if start:
+            require_state(state, start, self.case.time_step, self.folder)
         structure = Staggered(ModalStep(self.points.frequency, self.case.time_step), state)
         pipes = Pipes(self.folder, SILENCE)
         try:
@@ -214,9 +226,14 @@ class PlateRun(FreeRun[PlateMesh]):
         program, ranks = "checkMesh", len(parts(self.folder))
         log = self.folder / f"log.{program}"
         log.unlink(missing_ok=True)  # what was said before is of another mesh
-        run_program(
-            self.installation, program, self.folder, arguments=("-latestTime",), ranks=ranks
-        )
+        try:
+            run_program(
+                self.installation, program, self.folder, arguments=("-latestTime",), ranks=ranks
+            )
+        except SolverError as error:
+            # the run has its result, whatever becomes of the search for its cause
+            logger.warning("the mesh at its end was not checked: %s", error)
+            return ""
         try:
             require_sound_mesh(log)
         except SolverError as error:
@@ -276,7 +293,7 @@ class _Exchange:
         self, run: PlateRun, structure: Staggered, pipes: Pipes, start: float, tell: Tell
     ) -> None:
         self._run, self._structure, self._pipes, self._tell = run, structure, pipes, tell
-        self._due = Every(LOOKS_EVERY, start)
+        self._due = Every(LOOKS_EVERY, last_look(start))
         self._resumed = structure.proposed_position
         self._last: Handed | None = None
         self._answer = ""

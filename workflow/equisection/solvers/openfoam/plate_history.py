@@ -14,6 +14,7 @@ from typing import IO
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.motion.modal_response import ModalState
 
@@ -78,6 +79,33 @@ def keep_until(path: Path, time: float, modes: int) -> PlateHistory:
     lines = path.read_text(encoding="ascii").splitlines(keepends=True) if path.exists() else []
     write_text(path, "".join(lines[: int((history.time <= time).sum())]))
     return read_plate(path, modes)
+
+
+def require_state(state: ModalState | None, start: float, step: float, folder: Path) -> None:
+    """Refuse to go on from a state of the flow without the structure's a step before.
+
+    Parameters
+    ----------
+    state
+        The last state of the modes that is known before.
+    start
+        Time (c/V) of the flow's state.
+    step
+        Time step (c/V).
+    folder
+        Folder of the run.
+
+    Raises
+    ------
+    SolverError
+        There is none, or steps are missing in between.
+    """
+    if state is None or abs(state.time + step - start) > 0.5 * step:
+        known = "nothing" if state is None else f"{state.time:g} c/V"
+        raise SolverError(
+            f"{folder}: the flow goes on from {start:g} c/V, the structure from {known}: steps are "
+            f"missing in its history; delete {folder} and run again"
+        )
 
 
 def add_row(stream: IO[str], state: ModalState, lift: float, moment: float) -> None:

@@ -216,9 +216,10 @@ def _disk_is_full(folder: Path) -> str:
 def _fault(program: str, status: int, log: Path, start: int) -> SolverError:
     """Return what went wrong, in the words of the log.
 
-    A program that gives up with a ``FOAM FATAL ERROR`` after steps that went well was set up
-    rightly: the case went where it cannot be computed. Before the first step, or in reading and
-    writing files (``FOAM FATAL IO ERROR``), it is a fault of the set-up or the machine.
+    A program that gives up with a ``FOAM FATAL ERROR`` in a step, after steps that went well in
+    this start or an earlier one, was set up rightly: the case went where it cannot be computed.
+    Before the first step, or in reading and writing files (``FOAM FATAL IO ERROR``), it is a fault
+    of the set-up or the machine.
     """
     whole = log.read_bytes()
     said = whole[start:].decode(errors="replace")
@@ -231,7 +232,8 @@ def _fault(program: str, status: int, log: Path, start: int) -> SolverError:
     if _is_full(log.parent):
         return SolverError(f"{_disk_is_full(log.parent)} ({program}: {words}); see {log}")
     if fatal >= 0:
-        gave_up = said.startswith("FOAM FATAL ERROR", fatal) and _STEP_DONE in whole
+        in_a_step = _STEP_DONE in whole and _TIME.search(whole, start) is not None
+        gave_up = said.startswith("FOAM FATAL ERROR", fatal) and in_a_step
         return (BlowUpError if gave_up else SolverError)(f"{program}: {words}; see {log}")
     if "sigFpe" in said or status in (-signal.SIGFPE, 128 + signal.SIGFPE):
         return BlowUpError(f"{program}: floating-point exception; see {log}")

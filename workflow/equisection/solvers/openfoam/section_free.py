@@ -30,7 +30,7 @@ from equisection.solvers.openfoam.case_folder import (
 )
 from equisection.solvers.openfoam.dictionaries import control, write_system
 from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun
-from equisection.solvers.openfoam.loads import Loads, read_loads, require_reasonable
+from equisection.solvers.openfoam.loads import Loads, has_loads, read_loads, require_reasonable
 from equisection.solvers.openfoam.mesh import Mesh
 from equisection.solvers.openfoam.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
@@ -102,19 +102,29 @@ class SectionRun(FreeRun[Mesh]):
             drop_histories_after(self.folder, start)
             if start:
                 logger.info("goes on from %g c/V", start)
-            if start < case.duration:
+            if start < case.duration and not (start and self._is_over()):
                 self.write_system(self.folder)
                 run_program(self.installation, "pimpleFoam", self.folder, self._watch(start, tell))
                 require_reasonable(read_loads(self.folder), self.folder)
         except BlowUpError as error:
             failure = str(error)
-            if not is_ready(self.folder):
+            if not is_ready(self.folder) or not has_loads(self.folder):
                 return refused(case.model_copy(update={"refusal": failure}))
         so_far = self.history()
+        if failure and self._is_over():
+            logger.info("what went wrong is later than the verdict: %s", failure)
+            failure = ""
         if failure and so_far.time.size:
             failure = f"{failure}; {self._where(so_far)}"
         result = _result(case, self.folder, so_far, failure)
         return replace(result, spent=spent(self.work))
+
+    def _is_over(self) -> bool:
+        """Tell whether the verdict is in."""
+        if not has_loads(self.folder):
+            return False
+        history = _from_release(self.folder, self.history(), self.case, self.case.duration)
+        return math.isfinite(decided_at(self.case, _tip(self.case.section, history)))
 
     def _where(self, so_far: SectionHistory) -> str:
         """Return where the section was when the flow blew up, and what the mesh has to do with it.
@@ -146,7 +156,7 @@ class SectionRun(FreeRun[Mesh]):
         return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
 
     def _watch(self, start: float, tell: Tell) -> Watch:
-        case, due = self.case, Every(LOOKS_EVERY, start)
+        case, due = self.case, Every(LOOKS_EVERY, last_look(start))
 
         def decided(time: float) -> bool:
             tell(time, case.duration)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
+from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.tip_flow import TipFlow
 from equisection.solvers.openfoam.dictionaries import dictionary
@@ -58,8 +59,8 @@ def sample_tip_flow(
 ) -> TipFlow | None:
     """Return the flow near the tip in the last state of a run.
 
-    There is none of a plate without a tip, and none where the program sampled nothing: a picture
-    that is missing is no reason to lose a result.
+    There is none of a plate without a tip, and none where the program failed or sampled nothing: a
+    picture that is missing is no reason to lose a result.
 
     Parameters
     ----------
@@ -75,11 +76,6 @@ def sample_tip_flow(
         How the plate stands in it.
     mean
         Whether the means over time are to be sampled.
-
-    Raises
-    ------
-    SolverError
-        The program failed.
     """
     if not mesh.gap:
         return None
@@ -91,7 +87,12 @@ def sample_tip_flow(
     output = folder / "postProcessing" / _NAME
     shutil.rmtree(output, ignore_errors=True)
     arguments = ("-latestTime", "-func", _NAME)
-    run_program(installation, "postProcess", folder, arguments=arguments, ranks=len(parts(folder)))
+    try:
+        ranks = len(parts(folder))
+        run_program(installation, "postProcess", folder, arguments=arguments, ranks=ranks)
+    except SolverError as error:
+        logger.warning("%s: the flow near the tip is not known: %s", folder, error)
+        return None
     files = [next(output.glob(f"*/{_SET}_{field}.xy"), None) for field in fields]
     if None in files:
         logger.warning("%s: nothing was sampled near the tip; see log.postProcess", folder)

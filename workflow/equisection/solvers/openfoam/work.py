@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from equisection.config import Config
 from equisection.config.sections.openfoam import MORPH
+from equisection.solvers.openfoam import plate_rigid, section_rigid
 from equisection.solvers.openfoam.presets import PRESETS
 from equisection.solvers.openfoam.rigid_flow import MOST, STEP
-from equisection.solvers.openfoam.section_rigid import RECORD
 from equisection.solvers.work import Work
 
 #: What a time step on overset meshes costs, with their cells, over one on the mesh that morphs.
@@ -17,7 +17,8 @@ ENOUGH = 4
 
 def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
     """Return the work of a rigid case: a steady flow, and the unsteady one where there is none."""
-    steps = RECORD.end / STEP * iterations_of(config.openfoam.outer_correctors)
+    longest = section_rigid.RECORD if dimension == "2d" else plate_rigid.RECORD
+    steps = longest.end / STEP * iterations_of(config.openfoam.outer_correctors)
     return Work(cells_of(config.openfoam.meshes[resolution], dimension) * cases, MOST, steps)
 
 
