@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.figures.fig16_response import draw, read_response
+from equisection.config.sections.beam import FREE_TIP
+from equisection.figures.fig16_response import AT_MIDSPAN, AT_THE_TIP, draw, read_response
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.index import result_files
@@ -20,13 +21,15 @@ def main(
     equivalent: Path,
     reduction: str,
     *,
+    boundary: str,
     style: Path,
     outputs: Sequence[Path],
 ) -> None:
     """Draw the means of all models, and the histories of the chosen cases."""
     i_star = float(read_dataset(equivalent)["i_star"].sel(reduction=reduction))
+    place = AT_THE_TIP if boundary in FREE_TIP else AT_MIDSPAN
     response = read_response(
-        pd.read_csv(summary), pd.read_csv(onset), result_files(indices), i_star
+        pd.read_csv(summary), pd.read_csv(onset), result_files(indices), i_star, place
     )
     with drawing_style(style):
         save_figure(draw(response), outputs)
@@ -40,6 +43,7 @@ if __name__ == "__main__":
             [Path(path) for path in snakemake.input.indices],
             Path(snakemake.input.equivalent),
             snakemake.params.reduction,
+            boundary=snakemake.params.boundary,
             style=Path(snakemake.input.style),
             outputs=[Path(path) for path in snakemake.output],
         )

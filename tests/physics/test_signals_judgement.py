@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from equisection.errors import ResultFileError
-from equisection.signals import Criteria, assess
+from equisection.signals import Criteria, assess, swings_grow
 
 PERIOD = 6.0
 OMEGA = 2.0 * np.pi / PERIOD
@@ -182,6 +182,39 @@ def test_swings_that_grow_until_the_polar_ends_are_growing():
     verdict = assess(S[upto], twist[upto], REST[upto], final=True)
     assert verdict.regime == "growing"
     assert early(S[upto], twist[upto], REST[upto], step=1.0).regime == "growing"
+
+
+def test_growth_out_of_the_ringing_of_the_release_is_seen_at_the_end():
+    """The release rings at a hundred times the amplitude from which another motion grows."""
+    s = np.linspace(0.0, 400.0, 8001)
+    envelope = 2.0 * np.exp(-0.03 * s) + 0.02 * np.exp(0.005 * s)
+    twist = np.radians(1.3 - envelope * np.cos(2.0 * np.pi * 0.054 * s))
+    verdict = assess(s, twist, np.zeros_like(s), Criteria(periods=10), final=True)
+    assert verdict.regime == "growing"
+    assert verdict.growth_rate == pytest.approx(0.005, rel=0.1)
+
+
+def test_growth_that_its_modulation_hides_is_none_of_a_limit_cycle():
+    """Three periods after the transient, the last far beyond all before: k* = 5 of a short run."""
+    s = np.linspace(0.0, 45.0, 901)
+    at = [0.0, 13.0, 17.0, 21.0, 25.0, 30.0, 34.0, 38.0, 45.0]
+    envelope = np.interp(s, at, [1.5, 1.29, 1.22, 1.2, 1.23, 1.36, 1.57, 1.8, 2.0])
+    verdict = assess(s, np.radians(envelope * np.cos(0.75 * s)), 0.0 * s, final=True)
+    assert verdict.regime == "growing"
+
+
+@pytest.mark.parametrize(
+    ("turns", "grow"),
+    [
+        ([0.0, 15.4, -13.0, 32.2, -55.8], True),
+        ([0.0, 15.4, -40.0], False),  # no more than a first swing and one back
+        ([0.0, 15.4, 5.0, 11.0, 7.0], False),
+    ],
+)
+def test_swings_that_grow_are_told_from_a_release(turns, grow):
+    s = np.linspace(0.0, 20.0, 401)
+    twist = np.radians(np.interp(s, np.linspace(0.0, 20.0, len(turns)), turns))
+    assert swings_grow(s, twist, math.radians(6.0)) is grow
 
 
 def test_beating_is_not_steady_until_it_has_died():

@@ -156,6 +156,12 @@ MALFORMED = [
         "'mean' with steady.beam_polar",
     ),
     (
+        {"sweep": {"onset": "refine", "k_star": [3]}},
+        "sweep.k_star",
+        "[3",
+        "allowed with sweep.onset 'refine' are two k* or more",
+    ),
+    (
         {"compute": False, "sweep": {"onset": "refine"}},
         "sweep.onset",
         "'refine'",

@@ -39,6 +39,7 @@ from equisection.figures import (
 )
 from equisection.figures.correction import SteadyData
 from equisection.figures.incidences import nearest_incidences
+from equisection.figures.models import LOOKS
 from equisection.figures.rule_graph import RuleGraph, RuleText
 from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
@@ -619,6 +620,15 @@ def test_response_opens_no_file_that_it_does_not_draw(tmp_path):
     assert set(response.histories) == set("ABCDEF")
 
 
+def test_means_of_a_beam_held_at_both_ends_are_those_of_midspan(tmp_path):
+    data = sweep(tmp_path, SWEEPS["one k*"])
+    for place in (fig16_response.AT_THE_TIP, fig16_response.AT_MIDSPAN):
+        response = fig16_response.read_response(*data, 6.7, place)
+        found = words(fig16_response.draw(response))
+        assert f"mean twist {place}" in found
+        assert f"mean deflection {place}" in found
+
+
 def test_failed_runs_are_crosses_on_the_axis(tmp_path):
     figure = fig16_response.draw(
         fig16_response.read_response(*sweep(tmp_path, SWEEPS["all models"]), 6.7)
@@ -675,6 +685,17 @@ def test_growth_of_runs_and_of_linear_theory_stand_in_one_panel():
     drawn = [tuple(line.get_ydata()) for line in figure.axes[0].get_lines()]
     assert {(0.01, -0.02), (-0.03, -0.02), (-0.05, -0.04)} <= set(drawn)
     lay_out(figure)
+
+
+def test_model_with_a_frequency_alone_is_in_the_legend_and_one_point_is_seen():
+    nothing = growth(growth_rate=np.nan)
+    alone = linear_theory().drop_duplicates("motion")
+    figure = growth_rate.draw(nothing, alone, is_paper_case=False)
+    (legend,) = figure.legends
+    assert LOOKS["2d"].label in [text.get_text() for text in legend.get_texts()]
+    lines = [line for line in figure.axes[0].get_lines() if str(line.get_label())[0] != "_"]
+    assert len(lines) == 2
+    assert all(line.get_marker() == "." for line in lines)
 
 
 def test_failed_runs_have_no_growth():

@@ -1,5 +1,7 @@
 """Polars that a configuration names are looked into before any job starts."""
 
+import math
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -34,6 +36,22 @@ def test_a_broken_polar_of_the_beam_is_named_whatever_the_solver(tmp_path: Path)
     raw = {"solver": "openfoam", "unsteady": STEP, "steady": {"beam_polar": "beam.csv"}}
     (line,) = lines_of(raw, tmp_path)
     assert line.startswith("config: steady.beam_polar: 'beam.csv': line 1: the file is empty")
+
+
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_a_polar_without_the_runs_incidence_is_refused(tmp_path: Path, symmetric: bool) -> None:
+    """Such as one in radians: each of its cases would fail."""
+    text = re.sub(
+        r"^[248],", lambda degrees: f"{math.radians(int(degrees[0][0])):.3f},", GOOD, flags=re.M
+    )
+    (tmp_path / "own.csv").write_text(text)
+    raw: dict[str, Any] = {"embedded": {"polars": {"coarse": "own.csv"}, "symmetric": symmetric}}
+    (line,) = lines_of(raw, tmp_path)
+    first = -0.14 if symmetric else 0
+    assert line == (
+        f"config: flow.incidence_deg: 2.5: allowed is {first:g} to 0.14 deg, what own.csv covers "
+        "(is it in degrees?)"
+    )
 
 
 def test_polars_of_another_solver_are_left_alone(tmp_path: Path) -> None:

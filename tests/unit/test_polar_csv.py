@@ -66,6 +66,7 @@ def test_results_that_make_no_polar_are_refused_by_name(
         (again, "of the same incidence"),
         (unsteady, r"k5\.nc: no result of a steady case"),
         (tmp_path / "none.nc", r"none\.nc: missing"),
+        (ROOT / "config/polars/own_section.csv", r"csv: no NetCDF file; give files of results"),
     ):
         with pytest.raises(ResultFileError, match=words):
             polar_csv([one, other])

@@ -83,7 +83,9 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         load_script("steady_cases").main(raw, dimension, plan.steady_cases(config), cases)
         index = folder / "steady" / dimension / "polar.json"
         run.main(cases, index, folder / "store", folder / "progress.json")
-        load_script("polar").main(index, folder / f"polar_{dimension}.nc")
+        load_script("polar").main(
+            index, plan.steady_cases(config), folder / f"polar_{dimension}.nc"
+        )
     load_script("correction_factors").main(
         folder / "polar_2d.nc", folder / "polar_3d.nc", "thin", folder / "correction.nc"
     )

@@ -234,8 +234,9 @@ def _config(files: Sequence[Path]) -> Config:
     import yaml  # noqa: PLC0415
     from snakemake.utils import update_config  # noqa: PLC0415
 
-    from equisection.config import load_config  # noqa: PLC0415
+    from equisection.config import check_repeated_keys, load_config  # noqa: PLC0415
 
+    check_repeated_keys(files)
     raw: dict[str, object] = {}
     for path in (Path("config/config.yaml"), *files):
         try:

@@ -100,7 +100,8 @@ def words(found: Verified) -> list[str]:
     if found.unrecorded:
         lines.append(
             f"{found.name}: {len(found.unrecorded)} files have no record of what they are made "
-            "from: they are from before records were kept, and judged by the hashes of cases alone"
+            "from: they are copies, or from before records were kept, and judged by the hashes of "
+            "cases alone"
         )
     if found.waiting:
         lines.append(f"{found.name}: {found.waiting} cases have no result yet")

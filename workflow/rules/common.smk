@@ -7,7 +7,12 @@ from pathlib import Path
 
 import equisection
 from equisection import plan
-from equisection.config import check_files, load_config, resolve_config
+from equisection.config import (
+    check_files,
+    check_repeated_keys,
+    load_config,
+    resolve_config,
+)
 from equisection.config.sections import FLAT_PLATE
 from equisection.errors import ConfigError
 from equisection.figures.models_shown import beam_model, section_model
@@ -22,6 +27,7 @@ from equisection.solvers.given_polars import check_polars
 from equisection.solvers.registry import SOLVERS, Capability, check_provided
 
 try:
+    check_repeated_keys(map(Path, workflow.configfiles))
     CONFIG = load_config(config)
     check_files(CONFIG)
     check_polars(CONFIG)

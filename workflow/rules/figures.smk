@@ -518,6 +518,7 @@ rule fig16_response:
     params:
         code=code(*DRAWING, *CASES_SHOWN, "figures/fig16_response.py"),
         reduction=CONFIG.reduction,
+        boundary=CONFIG.beam.boundary,
     message:
         "Fig. 16, response"
     script:

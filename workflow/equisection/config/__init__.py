@@ -8,5 +8,6 @@ reference of all keys (``config/README.md``) come from the models of
 from equisection.config.files import check_files
 from equisection.config.load import load_config, resolve_config
 from equisection.config.model import Config
+from equisection.config.repeated_keys import check_repeated_keys
 
-__all__ = ["Config", "check_files", "load_config", "resolve_config"]
+__all__ = ["Config", "check_files", "check_repeated_keys", "load_config", "resolve_config"]

@@ -78,7 +78,7 @@ def draw(modes: xr.Dataset, beam: AnalyticShapes) -> Figure:
     ]
     handles.append(Line2D([], [], color=GREY, linewidth=0.6, label="analytic beam"))
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
-    mesh = "" if modes.attrs["elements"] == "none" else f", {modes.attrs['elements']} elements"
+    mesh = "" if modes.attrs["elements"] == "none" else f", elements: {modes.attrs['elements']}"
     add_provenance(figure, f"modes by method '{modes.attrs['method']}'{mesh}", "no flow solver")
     return figure
 

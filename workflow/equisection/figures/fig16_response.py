@@ -31,6 +31,8 @@ from equisection.figures.panels import in_words, letter, say
 from equisection.figures.provenance import add_provenance, solvers_of
 from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 
+#: Where twist and deflection are: the first modes are largest at a free tip, or at midspan.
+AT_THE_TIP, AT_MIDSPAN = "of the tip", "of midspan"
 #: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
 _BOUNDED = ("settled", "limit-cycle")
 #: Marks, on the axis, of runs without a mean.
@@ -41,8 +43,8 @@ _MOST_MARKERS = 40
 _TOO_CLOSE = 0.03
 #: Symbols and units of the two upper panels.
 _QUANTITIES = {
-    "mean_twist_deg": r"mean twist of the tip  $\overline{\theta}$ (deg)",
-    "mean_deflection_chords": r"mean deflection of the tip  $\overline{w}/c$",
+    "mean_twist_deg": r"mean twist {place}  $\overline{\theta}$ (deg)",
+    "mean_deflection_chords": r"mean deflection {place}  $\overline{w}/c$",
 }
 
 
@@ -69,6 +71,8 @@ class Response:
         Histories by the letters of the cases.
     extents
         Between what values the section moves, at each k* at which its motion is bounded.
+    place
+        Where along the beam twist and deflection are, in words.
     """
 
     summary: pd.DataFrame
@@ -76,6 +80,7 @@ class Response:
     cases: Mapping[str, Sequence[ShownCase]] = field(default_factory=dict)
     histories: Mapping[str, History] = field(default_factory=dict)
     extents: Sequence[Extent] = ()
+    place: str = AT_THE_TIP
 
 
 #: Extents of the section that are read and drawn; more would not be told apart in the panel.
@@ -83,7 +88,11 @@ MOST_EXTENTS = 200
 
 
 def read_response(
-    summary: pd.DataFrame, onset: pd.DataFrame, results: Sequence[Path], i_star: float
+    summary: pd.DataFrame,
+    onset: pd.DataFrame,
+    results: Sequence[Path],
+    i_star: float,
+    place: str = AT_THE_TIP,
 ) -> Response:
     """Choose the cases and read their histories alone, and the extents of the bounded section."""
     models = list(dict.fromkeys(summary["model"]))
@@ -106,7 +115,7 @@ def read_response(
             apart = -(-len(bounded) // MOST_EXTENTS) or 1
             k_stars = bounded["k_star"].sort_values().iloc[::apart]
             extents = [read_extent(result_at(files, k_star)) for k_star in k_stars]
-    return Response(summary, onset, cases, histories, extents)
+    return Response(summary, onset, cases, histories, extents, place)
 
 
 def draw(response: Response) -> Figure:
@@ -138,7 +147,7 @@ def draw(response: Response) -> Figure:
 def _means(axes: Axes, response: Response, name: str) -> None:
     """Draw the mean of one quantity over k*, with the bracket of the onset."""
     summary = response.summary
-    axes.set(xlabel="$k^*$", ylabel=_QUANTITIES[name])
+    axes.set(xlabel="$k^*$", ylabel=_QUANTITIES[name].replace("{place}", response.place))
     if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
         say(axes, "No run of the sweep has a mean: every one failed or diverged.")
         return

@@ -41,9 +41,13 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, *, is_paper_case: bool) ->
         _over_k_star(axes, summary, linear, name)
         if is_paper_case:
             axes.axvline(_PAPER_ONSET, color=GREY, linewidth=0.8, linestyle=":")
-    handles, _ = panels[0].get_legend_handles_labels()
-    if handles:
-        figure.legend(handles=handles, loc="outside upper center", ncols=3)
+    entries = {
+        label: handle
+        for axes in panels
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    if entries:
+        figure.legend(handles=list(entries.values()), loc="outside upper center", ncols=3)
     sources = solvers_of(
         (f"solver '{solver}'", str(resolution))
         for solver, resolution in summary[["solver", "resolution"]].drop_duplicates().values
@@ -76,5 +80,6 @@ def _over_k_star(axes: Axes, summary: pd.DataFrame, linear: pd.DataFrame, name: 
             rows[name],
             color=GREY,
             linestyle=DASHES[number],
+            marker="." if len(rows) == 1 else "",
             label=f"linear, {motion}, {reduction} reduction",
         )

@@ -50,11 +50,12 @@ def polar_csv(paths: Sequence[Path]) -> str:
 
 
 def _steady(path: Path) -> xr.Dataset:
+    wanted = "give files of results/<run>/steady/<dimension>/"
+    if path.suffix != ".nc":
+        raise ResultFileError(f"{path}: no NetCDF file; {wanted}")
     data = read_dataset(path)
     if not {"method", "failure", "incidence_deg"} <= data.attrs.keys():
-        raise ResultFileError(
-            f"{path}: no result of a steady case; give files of results/<run>/steady/<dimension>/"
-        )
+        raise ResultFileError(f"{path}: no result of a steady case; {wanted}")
     return data.assign_attrs(path=str(path))
 
 

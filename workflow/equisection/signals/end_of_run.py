@@ -41,21 +41,33 @@ def decide_by_trend(seen: Observation) -> tuple[Regime, str]:
 
 
 def _direction(seen: Observation) -> int:
-    """Sign of a clear trend that reaches beyond what was seen before; 0 if there is none.
+    """Sign of a clear trend; 0 if there is none.
 
-    A modulated amplitude rises and falls, but it comes back to where it was before.
+    A modulated amplitude rises and falls, but it comes back to where it was before, so a trend
+    has to reach beyond that. Growth at a rate that does not fall counts in any case: what grows
+    out of the ringing of the release may be smaller than that was.
     """
     steadiness = seen.criteria.steadiness
     rate, last = seen.trend.growth_rate, float(seen.amplitude[-1])
     if seen.creeps:
         return int(np.sign(rate))
-    late = seen.halves[1]
+    early, late = seen.halves
     lately = math.copysign(late.growth_rate, rate * late.growth_rate) + 2.0 * late.standard_error
-    if not seen.trend.clear(steadiness) or lately < _STALLED * abs(rate):
+    if lately < _STALLED * abs(rate):
         return 0
+    if not seen.trend.clear(steadiness):
+        return int(_leaves_all_behind(seen))
     if rate > 0.0:
-        return int(last > (1.0 + steadiness) * seen.long_before.max(initial=0.0))
+        undiminished = early.clear(0.0) and late.growth_rate >= early.growth_rate > 0.0
+        return int(undiminished or last > (1.0 + steadiness) * seen.long_before.max(initial=0.0))
     return -int(last < (1.0 - steadiness) * seen.long_before.min(initial=math.inf))
+
+
+def _leaves_all_behind(seen: Observation) -> bool:
+    """Tell whether an amplitude has grown beyond all before, though at no steady rate."""
+    middle = seen.amplitude.size // 2
+    before = max(seen.amplitude[: middle + 1].max(), seen.long_before.max(initial=0.0))
+    return bool(seen.amplitude[-1] > GROWN * before)
 
 
 def _by_swings(seen: Observation) -> tuple[Regime, str]:

@@ -29,6 +29,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from equisection.errors import ResultFileError
@@ -116,6 +117,22 @@ def assess(
         else:
             reason += "; the mean still drifted, so it is no better than the window's average"
     return _with_means(_verdict(seen, regime, reason), average)
+
+
+def swings_grow(time: ArrayLike, twist: ArrayLike, bound: float) -> bool:
+    """Tell whether each of the last three half swings is larger than the one before.
+
+    The last has to be beyond a bound (rad). A stable release swings from rest to about twice its
+    equilibrium, and less far from then on.
+
+    Raises
+    ------
+    ResultFileError
+        A value is not finite or time does not increase.
+    """
+    s, theta, _ = checked(time, twist, np.zeros_like(time))
+    swings = observe(s, theta, np.zeros_like(s), Criteria(), math.nan).half_swings[-3:]
+    return bool(swings.size == 3 and (np.diff(swings) > 0.0).all() and swings[-1] > bound)
 
 
 def _last(time: Array) -> float:

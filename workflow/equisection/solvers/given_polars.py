@@ -13,10 +13,10 @@ from equisection.errors import ConfigError, PolarFileError
 
 
 def check_polars(config: Config, directory: Path | None = None) -> None:
-    """Refuse polars that cannot be read.
+    """Refuse polars that cannot be read, and a section's that does not hold the run's incidence.
 
-    An incidence beyond them is a case that fails, and says so; the others go on. Paths are seen
-    from ``directory`` (by default the working one).
+    Any other incidence beyond them is a case that fails, and says so; the others go on. Paths are
+    seen from ``directory`` (by default the working one).
 
     Raises
     ------
@@ -41,9 +41,19 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
         if path == FLAT_PLATE:
             continue
         try:
-            read_rows(directory / path, config.embedded.symmetric)
+            rows = read_rows(directory / path, config.embedded.symmetric)
         except PolarFileError as error:
             yield _unreadable(f"embedded.polars.{name}", path, error)
+            continue
+        last = max(row.incidence_deg for row in rows)
+        first = -last if config.embedded.symmetric else min(row.incidence_deg for row in rows)
+        incidence = config.flow.incidence_deg
+        if name == config.steady.resolution and not first <= incidence <= last:
+            yield Problem(
+                "flow.incidence_deg",
+                incidence,
+                f"allowed is {first:g} to {last:g} deg, what {path} covers (is it in degrees?)",
+            )
 
 
 def _unreadable(key: str, path: str, error: PolarFileError) -> Problem:

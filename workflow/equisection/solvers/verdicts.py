@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from equisection.cases import UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady import Regime, UnsteadyResult
-from equisection.signals import Criteria, Verdict, assess
+from equisection.signals import Criteria, Verdict, assess, swings_grow
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -93,7 +93,7 @@ def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
         "mean_twist_deg": math.degrees(verdict.mean_twist),
         "mean_deflection_chords": verdict.mean_deflection,
         "twist_amplitude_deg": math.degrees(verdict.twist_amplitude),
-        "frequency_strouhal": verdict.frequency,
+        "frequency_strouhal": verdict.frequency if verdict.periods_used else math.nan,
         "growth_rate": verdict.growth_rate,
     }
 
@@ -188,7 +188,11 @@ def _had_grown(case: UnsteadyCase, tip: Motion, verdict: Verdict) -> bool:
     return (
         verdict.regime == "growing"
         and verdict.twist_amplitude > bound
-        and (verdict.periods_used > 0 or is_decided(case, tip))
+        and (
+            verdict.periods_used > 0
+            or is_decided(case, tip)
+            or swings_grow(tip.time, tip.twist, bound)
+        )
     )
 
 

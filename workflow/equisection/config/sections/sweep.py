@@ -122,6 +122,16 @@ def _distinct_in_range(k_star: Range) -> Iterator[Problem]:
         )
 
 
+@check("sweep.k_star", "sweep.onset")
+def _two_to_refine(k_star: tuple[float, ...] | Range, onset: str) -> Iterator[Problem]:
+    if onset == "refine" and not isinstance(k_star, Range) and len(k_star) < 2:
+        yield Problem(
+            "sweep.k_star",
+            list(k_star),
+            "allowed with sweep.onset 'refine' are two k* or more, with the onset between them",
+        )
+
+
 @check("sweep.models", "sweep.taken")
 def _run_or_taken(models: tuple[str, ...], taken: dict[str, str]) -> Iterator[Problem]:
     for model, path in taken.items():

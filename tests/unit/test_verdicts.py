@@ -1,0 +1,44 @@
+"""Attributes of a verdict, for every solver alike."""
+
+import math
+
+import numpy as np
+import pytest
+from tests.sample_cases import UNSTEADY
+
+from equisection.solvers.verdicts import Motion, judge
+
+TIME = np.arange(0.0, 60.0, 0.05)
+LEFT = "an incidence of 25.1 deg left the section polar"
+
+
+def moved(turns_deg: list[float], end: float) -> Motion:
+    """Return a twist that goes from turn to turn, in equal times."""
+    time = TIME[end >= TIME]
+    twist = np.radians(np.interp(time, np.linspace(0.0, end, len(turns_deg)), turns_deg))
+    return Motion(time, twist, 0.1 * twist)
+
+
+@pytest.mark.parametrize(
+    ("turns_deg", "regime"),
+    [
+        ([0.0, 15.4, -13.0, 32.2, -55.8], "growing"),
+        ([0.0, 15.4], "failed"),  # may be the first swing of a release that is stable
+    ],
+)
+def test_what_leaves_the_polar_by_ever_larger_swings_has_grown(
+    turns_deg: list[float], regime: str
+) -> None:
+    verdict = judge(UNSTEADY, moved(turns_deg, 30.0), LEFT)
+    assert verdict["regime"] == regime
+    assert LEFT in verdict["reason"]
+
+
+def test_frequency_is_that_of_an_oscillation_or_not_known() -> None:
+    """Not the structure's in vacuum, which stands in for a period where there is none."""
+    ringing = np.radians(np.exp(-0.01 * TIME) * np.cos(1.1 * TIME))
+    found = judge(UNSTEADY, Motion(TIME, ringing, 0.1 * ringing))
+    assert found["frequency_strouhal"] == pytest.approx(1.1 / (2 * math.pi), rel=1e-3)
+    creeping = np.radians(1.0 - np.exp(-0.1 * TIME))
+    found = judge(UNSTEADY, Motion(TIME, creeping, 0.1 * creeping))
+    assert math.isnan(found["frequency_strouhal"])
