@@ -97,7 +97,9 @@ def test_limit_cycle_waits_for_the_mean():
     final = assess(S, twist, drifting, final=True)
     assert final.regime == "limit-cycle"
     assert "mean still drifted" in final.reason
+    assert not final.mean_known
     verdict = early(S, twist, deflection)
+    assert verdict.mean_known
     assert verdict.regime == "limit-cycle"
     assert verdict.mean_deflection == pytest.approx(0.3, abs=0.002)
 

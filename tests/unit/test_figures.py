@@ -246,12 +246,13 @@ def sweep(folder: Path, runs: dict[str, dict[float, str]]):
             paths.append(path)
             mean = math.nan if regime in ("failed", "diverged") else 5.0 / k_star
             told = regime.replace("diverged", "growing")
-            rows.append((model, k_star, told, mean, mean, "made-up", "coarse"))
+            known = int(regime in ("settled", "limit-cycle"))
+            rows.append((model, k_star, told, mean, mean, "made-up", "coarse", known))
         stable = [k for k, regime in regimes.items() if regime in ("settled", "limit-cycle")]
         growing = [k for k, regime in regimes.items() if regime in ("growing", "diverged")]
         brackets.append((model, min(stable, default=math.nan), max(growing, default=math.nan)))
     columns = "model k_star regime mean_twist_deg mean_deflection_chords solver resolution"
-    summary = pd.DataFrame(rows, columns=columns.split())
+    summary = pd.DataFrame(rows, columns=[*columns.split(), "mean_known"])
     onset = pd.DataFrame(brackets, columns=["model", "k_star_stable", "k_star_unstable"])
     return summary, onset, paths
 
@@ -627,6 +628,17 @@ def test_means_of_a_beam_held_at_both_ends_are_those_of_midspan(tmp_path):
         found = words(fig16_response.draw(response))
         assert f"mean twist {place}" in found
         assert f"mean deflection {place}" in found
+
+
+def test_mean_that_still_drifted_has_an_open_marker(tmp_path):
+    summary, onset, paths = sweep(tmp_path, SWEEPS["all stable"])
+    summary.loc[0, "mean_known"] = 0
+    figure = fig16_response.draw(fig16_response.read_response(summary, onset, paths, 6.7))
+    lines = figure.axes[0].get_lines()
+    (drifting,) = (line for line in lines if line.get_markerfacecolor() == "white")
+    assert drifting.get_xdata().tolist() == [4.0]
+    (legend,) = figure.legends
+    assert "still drifting" in [text.get_text() for text in legend.get_texts()]
 
 
 def test_failed_runs_are_crosses_on_the_axis(tmp_path):

@@ -23,6 +23,7 @@ COLUMNS = (
     "reason",
     "solver",
     "resolution",
+    "mean_known",
 )
 
 
@@ -36,7 +37,7 @@ def summarise(rows: Iterable[tuple[str, Mapping[str, Any]]]) -> pd.DataFrame:
     """
     frame = pd.DataFrame(
         [
-            {"model": model, **{name: attributes[name] for name in COLUMNS[1:]}}
+            {"model": model, **{name: _of(attributes, name) for name in COLUMNS[1:]}}
             for model, attributes in rows
         ],
         columns=list(COLUMNS),
@@ -46,3 +47,10 @@ def summarise(rows: Iterable[tuple[str, Mapping[str, Any]]]) -> pd.DataFrame:
         ["model", "k_star"],
         key=lambda column: column.map(order) if column.name == "model" else column,
     ).reset_index(drop=True)
+
+
+def _of(attributes: Mapping[str, Any], name: str) -> Any:
+    """Return an attribute; of results without ``mean_known`` only growth makes a mean unknown."""
+    if name == "mean_known" and name not in attributes:
+        return int(attributes["regime"] in {"settled", "limit-cycle"})
+    return attributes[name]

@@ -157,7 +157,7 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     for model, runs in summary.groupby("model", sort=False):
         look = LOOKS[str(model)]
         there = runs[runs[name].notna() & (runs["regime"] != "failed")]
-        bounded = there["regime"].isin(_BOUNDED)
+        bounded = there["mean_known"] == 1
         axes.plot(there["k_star"], there[name], color=look.colour, linestyle=look.line)
         for chosen, filled in ((there[bounded], True), (there[~bounded], False)):
             axes.plot(
@@ -274,9 +274,12 @@ def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
         Line2D([], [], color=look.colour, marker=look.marker, linestyle=look.line, label=look.label)
         for look in (LOOKS[model] for model in models)
     ]
-    regimes = set(response.summary["regime"])
-    if "growing" in regimes:
-        handles.append(_mark("o", "still growing"))
+    run = response.summary[response.summary["regime"] != "failed"]
+    drifts = (run["mean_known"] == 0) & run["regime"].isin(_BOUNDED)
+    grows = run["regime"] == "growing"
+    words = [word for word, there in (("growing", grows), ("drifting", drifts)) if there.any()]
+    if words:
+        handles.append(_mark("o", f"still {' or '.join(words)}"))
     labels = {_FAILED: "failed", _DIVERGED: "diverged, no mean"}
     handles += [_mark(mark, labels[mark]) for mark in _without_mean(response.summary)]
     handles += [

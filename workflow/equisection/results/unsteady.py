@@ -30,6 +30,7 @@ VERDICT_ATTRIBUTES = {
     "window_start": "start of the window that the verdict rests on (c/V)",
     "mean_twist_deg": "mean twist of the tip (section twist over its recovery factor) (deg)",
     "mean_deflection_chords": "mean deflection of the tip (chords)",
+    "mean_known": "1 where both means are settled, 0 where the motion still grows or drifts",
     "twist_amplitude_deg": "amplitude of the tip's twist (deg)",
     "frequency_strouhal": "frequency of the twist f c/V",
     "growth_rate": "growth rate of the twist's amplitude (V/c)",

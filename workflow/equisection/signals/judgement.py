@@ -293,4 +293,9 @@ def _verdict(seen: Observation, regime: Regime, reason: str) -> Verdict:
 
 
 def _with_means(verdict: Verdict, average: Means) -> Verdict:
-    return replace(verdict, mean_twist=average.twist, mean_deflection=average.deflection)
+    return replace(
+        verdict,
+        mean_twist=average.twist,
+        mean_deflection=average.deflection,
+        mean_known=average.known,
+    )

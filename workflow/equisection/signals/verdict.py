@@ -91,6 +91,9 @@ class Verdict:
         Mean of the twist (rad).
     mean_deflection : float
         Mean of the deflection (chords).
+    mean_known : bool
+        Whether both means are settled; otherwise they are averages over the window, of a motion
+        that still grows or drifts.
     twist_amplitude : float
         Half peak-to-peak of the twist (rad): the mean over the window's cycles in a limit
         cycle, that of the last cycle otherwise.
@@ -110,6 +113,7 @@ class Verdict:
     end_time: float = math.nan
     mean_twist: float = math.nan
     mean_deflection: float = math.nan
+    mean_known: bool = False
     twist_amplitude: float = math.nan
     deflection_amplitude: float = math.nan
     frequency: float = math.nan

@@ -92,6 +92,7 @@ def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
         "window_start": verdict.start_time,
         "mean_twist_deg": math.degrees(verdict.mean_twist),
         "mean_deflection_chords": verdict.mean_deflection,
+        "mean_known": int(verdict.mean_known),
         "twist_amplitude_deg": math.degrees(verdict.twist_amplitude),
         "frequency_strouhal": verdict.frequency if verdict.periods_used else math.nan,
         "growth_rate": verdict.growth_rate,
@@ -209,5 +210,6 @@ def _without_numbers(regime: Regime, reason: str) -> dict[str, Any]:
         "regime": str(regime),
         "reason": reason,
         "periods_used": 0.0,
+        "mean_known": 0,
         **dict.fromkeys(unknown, math.nan),
     }
