@@ -2,7 +2,8 @@
 
 On the histories of OpenFOAM that are kept, of section and plate, cycle by cycle: to 2 % of
 the work. Where gain and loss within a cycle cancel, what is missing is judged as what it does to
-the growth rate instead: dE/(2 E T), less than 0.0002 V/c.
+the growth rate instead: dE/(2 E T), less than 0.0003 V/c. As much is left at amplitudes of 0.3 deg,
+where the iterations of a time step end with loads that are 3 % of the step late (docs/openfoam.md).
 """
 
 import math
@@ -18,7 +19,7 @@ from equisection.cases import SectionProperties
 from equisection.results.netcdf import read_dataset
 
 #: Part of the work, and growth rate (V/c).
-TOLERANCE, GROWTH = 0.02, 2e-4
+TOLERANCE, GROWTH = 0.02, 3e-4
 KEPT_PLATES = KEPT.parents[1] / "paper-plate-openfoam-3d" / "unsteady"
 SECTION = SectionProperties(
     torsional_stiffness=10.0,

@@ -21,7 +21,6 @@ def runs(model: str, **changes: object) -> pd.DataFrame:
         "growth_rate": [0.01, -0.005],
         "solver": "made-up",
         "resolution": "coarse",
-        "mean_known": 1,
     }
     return pd.DataFrame({**columns, **changes})
 
@@ -46,14 +45,6 @@ def test_what_failed_or_was_run_on_one_side_only_is_left_out() -> None:
     beam = runs("3d", k_star=[5.0, 21.0])
     section = runs("2d", regime=["failed", "settled"])
     assert deviations(pd.concat([section, beam])).empty
-
-
-def test_mean_that_still_drifted_is_not_compared() -> None:
-    """That of a growing motion is: both are over the last periods."""
-    section = runs("2d", mean_known=[0, 0], regime=["growing", "settled"])
-    table = deviations(pd.concat([section, runs("3d")])).set_index("k_star")
-    assert table["twist"].to_dict() == pytest.approx({5.0: 0.0, 10.0: np.nan}, nan_ok=True)
-    assert table["growth"].to_dict() == {5.0: 0.0, 10.0: 0.0}
 
 
 def test_number_that_a_run_does_not_have_does_not_spoil_the_others() -> None:

@@ -73,6 +73,8 @@ def kept(*rows: tuple[str, float, float, float, float]) -> pd.DataFrame:
         end_time=100.0,
         regime="settled",
         growth_rate=-0.01,
+        growth_by_60=-0.01,
+        growth_by_100=-0.01,
         twist_amplitude_deg=0.1,
         folder="a-run",
     )
@@ -287,11 +289,19 @@ def test_linear_theory_that_grows_at_the_onset_would_contradict_the_paper() -> N
     assert finding.verdict is Verdict.DIFFERS
 
 
+def test_section_on_the_sweeps_mesh_is_set_against_the_plate_over_the_same_time() -> None:
+    """Not by growth rates of 200 and of 60 c/V: the rate falls with the amplitude."""
+    both = kept(("2d-corrected", 1e4, 0.02, 5.5, 300.0), ("3d", 8e4, 0.04, 5.5, 900.0))
+    both["growth_by_60"] = [0.018, 0.002]
+    why = response.growing_inside(replace(complete(), kept=both)).why
+    assert "over the plate's 60 c/V: growth of section and plate (V/c): +0.0180 and +0.0020" in why
+
+
 def test_growth_by_mesh_stands_with_the_onset() -> None:
     two = kept(("2d", 1e4, 0.02, 8.0, 400.0), ("2d", 2e4, 0.02, 8.0, 800.0))
     two["resolution"] = ["coarse", "medium"]
     two["settings"] = [f'{{"mesh": "{mesh}", "outer_correctors": 3}}' for mesh in two["resolution"]]
-    two["growth_rate"] = [0.004, -0.001]
+    two["growth_by_100"] = [0.004, -0.001]
     assert (
         "k* = 8: +0.0040 (coarse), -0.0010 (medium)"
         in response.onset(replace(complete(), kept=two)).here

@@ -36,13 +36,10 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
     -------
     pd.DataFrame
         ``twist``, ``deflection`` and ``frequency``: section over beam, less one (-); ``growth``:
-        section less beam (V/c). NaN where one of both has no such number, and of the means where
-        that of a motion that stays bounded still drifted (a growing one has that of its last
-        periods).
+        section less beam (V/c). NaN where one of both has no such number. Means that are not
+        settled (``mean_known``) are compared as they are, over the last periods of both.
     """
-    run = summary[summary["regime"] != "failed"].copy()
-    drifts = (run["mean_known"] == 0) & (run["regime"] != "growing")
-    run.loc[drifts, [_RATIOS["twist"], _RATIOS["deflection"]]] = np.nan
+    run = summary[summary["regime"] != "failed"]
     beam = run[run["model"] == BEAM].drop(columns="model")
     both = run[run["model"] != BEAM].merge(beam, on="k_star", suffixes=("", "_beam"))
     return pd.DataFrame(

@@ -198,10 +198,11 @@ def _mesh_shift(kept: pd.DataFrame) -> str:
             by_mesh = alike.drop_duplicates("cells").sort_values("cells")
             if len(by_mesh) > 1:
                 words = ", ".join(
-                    f"{row.growth_rate:+.4f} ({row.resolution})" for row in by_mesh.itertuples()
+                    f"{row.growth_by_100:+.4f} ({row.resolution})" for row in by_mesh.itertuples()
                 )
                 parts.append(f"k* = {k_star:g}: {words}")
-    return f". Growth (V/c) of the section by mesh: {'; '.join(parts)}" if parts else ""
+    of = "Growth (V/c) of the section over the last periods of the first 100 c/V, by mesh"
+    return f". {of}: {'; '.join(parts)}" if parts else ""
 
 
 def limit_cycle(evidence: Evidence) -> Finding:
@@ -229,14 +230,26 @@ def growing_inside(evidence: Evidence) -> Finding:
     if both.empty:
         return open_finding(_BOTH_REDUCTIONS)
     faster = both["here"] > both["beam"]
-    finer = _growing(evidence.summary, _CORRECTED)
+    finer = _growing(_first_60(evidence.summary, evidence.kept), _CORRECTED)
     return Finding(
         Verdict.AGREES if faster.all() else Verdict.PARTLY if faster.any() else Verdict.DIFFERS,
         _growth_in_words(both),
         resolution_of(evidence.reductions, model, _BEAM),
         "Section and plate have the same cells in the plane ([reductions](reductions.md))."
-        + (f" The section on the sweep's mesh: {_growth_in_words(finer)}." if len(finer) else ""),
+        + (
+            f" The section on the sweep's mesh, over the plate's 60 c/V: {_growth_in_words(finer)}."
+            if len(finer)
+            else ""
+        ),
     )
+
+
+def _first_60(summary: pd.DataFrame, kept: pd.DataFrame) -> pd.DataFrame:
+    """Return runs with the growth rate that each shows in its first 60 c/V, if it is kept."""
+    keys = ["model", "k_star", "end_time"]
+    known = kept[[*keys, "growth_by_60"]].drop_duplicates(keys)
+    first = summary.merge(known, on=keys, how="inner")
+    return first.assign(growth_rate=first["growth_by_60"])
 
 
 def _growing(runs: pd.DataFrame, model: str) -> pd.DataFrame:

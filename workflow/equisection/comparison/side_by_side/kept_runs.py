@@ -10,9 +10,13 @@ from typing import Any
 
 import pandas as pd
 
+from equisection.cases import UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.plan import model
-from equisection.results.kept import kept_results
+from equisection.results.kept import Kept, kept_results
+from equisection.results.netcdf import read_dataset
+from equisection.solvers.judged_again import tip_motion
+from equisection.solvers.verdicts import judge
 
 #: Columns of :func:`kept_runs`, in order.
 COLUMNS = (
@@ -26,6 +30,8 @@ COLUMNS = (
     "settings",
     "regime",
     "growth_rate",
+    "growth_by_60",
+    "growth_by_100",
     "twist_amplitude_deg",
     "end_time",
     "cpu_seconds",
@@ -36,7 +42,9 @@ def kept_runs(folder: Path) -> pd.DataFrame:
     """Return a line for each unsteady result below a folder that has its case and has not failed.
 
     ``model`` is the name of the folder that a result is in, ``folder`` that of its run, and
-    ``settings`` the words of the solver's settings.
+    ``settings`` the words of the solver's settings. ``growth_by_60`` and ``growth_by_100`` are the
+    growth rates (V/c) over the last periods of the first 60 and 100 c/V, or of the whole of a run
+    that ended before: growth changes with time, so runs of different length are compared by these.
     """
     rows = []
     for kept in kept_results(folder):
@@ -49,10 +57,18 @@ def kept_runs(folder: Path) -> pd.DataFrame:
                 "cells": cells_of(str(kept.attributes["solver_description"])),
                 "time_step": kept.case["time_step"],
                 "settings": json.dumps(solver["settings"], sort_keys=True),
+                "growth_by_60": _growth_by(60.0, kept),
+                "growth_by_100": _growth_by(100.0, kept),
             }
             rows.append(row)
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     return table.sort_values(["model", "k_star", "cells", "folder"], ignore_index=True)
+
+
+def _growth_by(end: float, kept: Kept) -> float:
+    """Return the growth rate (V/c) that a run shows up to a time (c/V)."""
+    case = UnsteadyCase.model_validate(kept.case)
+    return float(judge(case, tip_motion(read_dataset(kept.path), end))["growth_rate"])
 
 
 def cells_of(description: str) -> float:
