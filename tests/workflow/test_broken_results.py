@@ -92,7 +92,7 @@ def test_a_steady_result_exchanged_during_the_run_is_refused_by_name(
     folder = section.results / "steady" / "2d"
     shutil.copyfile(folder / "coarse_a5.nc", folder / "coarse_a10.nc")
     with pytest.raises(ResultFileError, match=r"coarse_a10\.nc: foreign: .* run again"):
-        load_script("polar").main(folder / "polar.json", tmp_path / "polar.nc")
+        load_script("polar").main(folder / "polar.json", ["coarse_a10"], tmp_path / "polar.nc")
     assert not (tmp_path / "polar.nc").exists()
 
 
