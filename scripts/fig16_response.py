@@ -6,7 +6,7 @@ from pathlib import Path
 import pandas as pd
 
 from equisection.config.sections.beam import FREE_TIP
-from equisection.figures.fig16_response import AT_MIDSPAN, AT_THE_TIP, draw, read_response
+from equisection.figures.fig16_response import AT_THE_TIP, WHERE_LARGEST, draw, read_response
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.index import result_files
@@ -27,7 +27,7 @@ def main(
 ) -> None:
     """Draw the means of all models, and the histories of the chosen cases."""
     i_star = float(read_dataset(equivalent)["i_star"].sel(reduction=reduction))
-    place = AT_THE_TIP if boundary in FREE_TIP else AT_MIDSPAN
+    place = AT_THE_TIP if boundary in FREE_TIP else WHERE_LARGEST
     response = read_response(
         pd.read_csv(summary), pd.read_csv(onset), result_files(indices), i_star, place
     )

@@ -2,8 +2,9 @@
 
 On the histories of OpenFOAM that are kept, of section and plate, cycle by cycle: to 2 % of
 the work. Where gain and loss within a cycle cancel, what is missing is judged as what it does to
-the growth rate instead: dE/(2 E T), less than 0.0003 V/c. As much is left at amplitudes of 0.3 deg,
-where the iterations of a time step end with loads that are 3 % of the step late (docs/openfoam.md).
+the growth rate instead: dE/(2 E T), less than 0.0002 V/c, and less than 0.0003 where the twist
+swings by less than 0.5 deg: there the iterations of a time step end with loads that are some 3 % of
+the step late (docs/openfoam.md).
 """
 
 import math
@@ -19,7 +20,9 @@ from equisection.cases import SectionProperties
 from equisection.results.netcdf import read_dataset
 
 #: Part of the work, and growth rate (V/c).
-TOLERANCE, GROWTH = 0.02, 3e-4
+TOLERANCE, GROWTH = 0.02, 2e-4
+#: Amplitude of the twist (deg) below which the growth rate may be larger (V/c).
+SMALL_DEG, GROWTH_OF_SMALL = 0.5, 3e-4
 KEPT_PLATES = KEPT.parents[1] / "paper-plate-openfoam-3d" / "unsteady"
 SECTION = SectionProperties(
     torsional_stiffness=10.0,
@@ -85,4 +88,7 @@ def assert_balanced(path: Path, fewest: int) -> None:
     for cycle in found:
         missing = abs(cycle.change - cycle.work)
         growth = missing / (2 * cycle.swing * cycle.period)
-        assert missing < TOLERANCE * abs(cycle.work) or growth < GROWTH, cycle
+        twist = known["tip_twist"].sel(time=slice(cycle.start, cycle.start + cycle.period))
+        amplitude = math.degrees(np.ptp(twist.values)) / 2
+        bound = GROWTH_OF_SMALL if amplitude < SMALL_DEG else GROWTH
+        assert missing < TOLERANCE * abs(cycle.work) or growth < bound, cycle

@@ -621,9 +621,9 @@ def test_response_opens_no_file_that_it_does_not_draw(tmp_path):
     assert set(response.histories) == set("ABCDEF")
 
 
-def test_means_of_a_beam_held_at_both_ends_are_those_of_midspan(tmp_path):
+def test_means_of_a_beam_held_at_both_ends_are_not_those_of_a_tip(tmp_path):
     data = sweep(tmp_path, SWEEPS["one k*"])
-    for place in (fig16_response.AT_THE_TIP, fig16_response.AT_MIDSPAN):
+    for place in (fig16_response.AT_THE_TIP, fig16_response.WHERE_LARGEST):
         response = fig16_response.read_response(*data, 6.7, place)
         found = words(fig16_response.draw(response))
         assert f"mean twist {place}" in found

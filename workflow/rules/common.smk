@@ -27,7 +27,8 @@ from equisection.solvers.given_polars import check_polars
 from equisection.solvers.registry import SOLVERS, Capability, check_provided
 
 try:
-    check_repeated_keys(map(Path, workflow.configfiles))
+    if workflow.is_main_process:
+        check_repeated_keys(map(Path, workflow.configfiles))
     CONFIG = load_config(config)
     check_files(CONFIG)
     check_polars(CONFIG)

@@ -31,8 +31,8 @@ from equisection.figures.panels import in_words, letter, say
 from equisection.figures.provenance import add_provenance, solvers_of
 from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 
-#: Where twist and deflection are: the first modes are largest at a free tip, or at midspan.
-AT_THE_TIP, AT_MIDSPAN = "of the tip", "of midspan"
+#: Where twist and deflection are: where the first mode of each is largest, at a free tip or inside.
+AT_THE_TIP, WHERE_LARGEST = "of the tip", "where it is largest"
 #: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
 _BOUNDED = ("settled", "limit-cycle")
 #: Marks, on the axis, of runs without a mean.

@@ -57,18 +57,19 @@ def kept_runs(folder: Path) -> pd.DataFrame:
                 "cells": cells_of(str(kept.attributes["solver_description"])),
                 "time_step": kept.case["time_step"],
                 "settings": json.dumps(solver["settings"], sort_keys=True),
-                "growth_by_60": _growth_by(60.0, kept),
-                "growth_by_100": _growth_by(100.0, kept),
+                **_growth(kept),
             }
             rows.append(row)
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     return table.sort_values(["model", "k_star", "cells", "folder"], ignore_index=True)
 
 
-def _growth_by(end: float, kept: Kept) -> float:
-    """Return the growth rate (V/c) that a run shows up to a time (c/V)."""
-    case = UnsteadyCase.model_validate(kept.case)
-    return float(judge(case, tip_motion(read_dataset(kept.path), end))["growth_rate"])
+def _growth(kept: Kept) -> dict[str, float]:
+    """Return the growth rates (V/c) that a run shows in its first 60 and 100 c/V."""
+    case, whole = UnsteadyCase.model_validate(kept.case), tip_motion(read_dataset(kept.path))
+    return {
+        f"growth_by_{end}": float(judge(case, whole.until(end))["growth_rate"]) for end in (60, 100)
+    }
 
 
 def cells_of(description: str) -> float:

@@ -121,8 +121,6 @@ class SectionRun(FreeRun[Mesh]):
 
     def _is_over(self) -> bool:
         """Tell whether the verdict is in."""
-        if not has_loads(self.folder):
-            return False
         history = _from_release(self.folder, self.history(), self.case, self.case.duration)
         return math.isfinite(decided_at(self.case, _tip(self.case.section, history)))
 
