@@ -1,6 +1,7 @@
-"""A steady and an unsteady case to start from."""
+"""The paper's plate, and a steady and an unsteady case to start from."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
@@ -19,6 +20,8 @@ from equisection.structure.analytic import bending_modes, torsion_modes
 from equisection.structure.plate import Plate
 from equisection.structure.span import normalise
 
+#: Section 2 of the paper.
+PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
 GEOMETRY = Geometry(
     chord=0.1,
     span=3.7,
@@ -62,6 +65,15 @@ UNSTEADY = UnsteadyCase(
     ),
     solver=SOLVER,
 )
+
+
+def plate_with(boundary: str) -> Plate:
+    """Return the paper's plate held otherwise; on springs where a boundary has them."""
+    if boundary == "spring-root":
+        return replace(
+            PAPER, boundary=boundary, root_torsional_stiffness=7.0, root_bending_stiffness=5.0
+        )
+    return replace(PAPER, boundary=boundary)
 
 
 def beam_modes(stiffness: float = 1.0, mass: float = 1.0, modes: int = 2) -> BeamModes:

@@ -28,6 +28,7 @@ from equisection.solvers.openfoam.section_free import SectionRun
 from equisection.solvers.openfoam.section_rigid import mesh_of
 from tests.benchmarks.many_cases import cases_of_section
 from tests.sample_cases import STEADY_PLATE, UNSTEADY, UNSTEADY_PLATE
+from tests.watching import nothing
 
 #: Memory is full grown after a few iterations of the steady flow and steps of the free run.
 FEW = {"duration": 0.4, "time_step": 0.02, "output_interval": 0.02}
@@ -41,13 +42,13 @@ def openfoam() -> Iterator[str]:
     for name in ("coarse", "medium", "fine"):
         mesh = mesh_of(section, PRESETS[name].refinement)
         with tempfile.TemporaryDirectory() as folder:
-            SectionRun(find(), section, mesh, Coupling(1), Path(folder)).run(_nothing)
+            SectionRun(find(), section, mesh, Coupling(1), Path(folder)).run(nothing)
         yield f"section, {name}, {mesh.cells} cells: {_memory(resource.RUSAGE_CHILDREN):.0f} kB"
     preset = PRESETS["coarse"]
     with tempfile.TemporaryDirectory() as folder:
         PlateRun(
             find(), plate, plate_mesh_of(plate, preset.plate), Coupling(1), Path(folder), 1
-        ).run(_nothing)
+        ).run(nothing)
     yield f"plate, coarse, {preset.plate_cells} cells: {_memory(resource.RUSAGE_CHILDREN):.0f} kB"
 
 
@@ -72,7 +73,7 @@ def beams() -> Iterator[str]:
         for incidence in np.linspace(0.0, 10.0, 21)
     ]
     start = time.process_time()
-    solver.run_steady(rigid_beams, Path(), _nothing)
+    solver.run_steady(rigid_beams, Path(), nothing)
     took = time.process_time() - start
     yield f"{len(rigid_beams)} rigid beams: {took / len(rigid_beams) / strips:.2e} s a section"
     yield _sweep("beam", free_beams, strips)
@@ -81,7 +82,7 @@ def beams() -> Iterator[str]:
 def _sweep(what: str, cases: list[UnsteadyCase], strips: int) -> str:
     solver = Adapter.from_settings(cases[0].solver.settings)
     before, start = _memory(resource.RUSAGE_SELF), time.process_time()
-    results = solver.run_unsteady(cases, Path(), _nothing)
+    results = solver.run_unsteady(cases, Path(), nothing)
     took = time.process_time() - start
     longest = max(float(result.time[-1]) for result in results)
     work = len(cases) * strips * longest / cases[0].time_step
@@ -95,10 +96,6 @@ def _sweep(what: str, cases: list[UnsteadyCase], strips: int) -> str:
 def _memory(who: int) -> float:
     """Return the largest memory so far, of this process or of its largest child (kB)."""
     return float(resource.getrusage(who).ru_maxrss)
-
-
-def _nothing(done: float, total: float) -> None:
-    del done, total
 
 
 if __name__ == "__main__":

@@ -30,6 +30,7 @@ from equisection.solvers.openfoam.section_rigid import (
     unsteady_mean,
 )
 from equisection.solvers.registry import solver_from_config
+from tests.watching import nothing
 
 CONFIG = Path("config/openfoam.yaml")
 
@@ -66,20 +67,16 @@ def main(mesh_name: str, incidence_deg: float, coupling: Coupling) -> None:
     case, preset = section(incidence_deg), PRESETS[mesh_name]
     mesh = mesh_of(case, preset.refinement, preset.spacing)
     work = Path("results") / f"rigid-{mesh_name}"
-    folder, history, converged = run_steady(find(), case, mesh, work, _nothing)
+    folder, history, converged = run_steady(find(), case, mesh, work, nothing)
     if not converged:
         raise SystemExit(f"the steady solver does not converge at {incidence_deg:g} deg")
     loads = {
         "steady": steady_mean(find(), folder, history, mesh),
-        "unsteady": unsteady_mean(find(), folder, mesh, work, _nothing, coupling=coupling),
+        "unsteady": unsteady_mean(find(), folder, mesh, work, nothing, coupling=coupling),
     }
     print(f"{mesh_name}, {mesh.cells} cells, {incidence_deg:g} deg, {coupling}")
     print("; ".join(this.method for this in loads.values()))
     print(table(loads, incidence_deg).to_string(float_format="%.4g", na_rep=""))
-
-
-def _nothing(done: float, total: float) -> None:
-    del done, total
 
 
 if __name__ == "__main__":

@@ -5,13 +5,13 @@ What is compared with numbers was measured with OpenFOAM v1912.
 
 import math
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.benchmarks.morphing import mesh_at_rest
 from tests.sample_cases import STEADY, UNSTEADY
+from tests.watching import interrupt_after, nothing
 
 from equisection.cases import UnsteadyCase
 from equisection.results.unsteady import UnsteadyResult
@@ -24,10 +24,6 @@ from equisection.solvers.openfoam.section_rigid import WINDOW, mesh_of
 #: Coarser than any preset, about 5,000 cells: for what does not depend on the mesh.
 VERY_COARSE = 0.6
 STEP = 0.04
-
-
-def nothing(done: float, total: float) -> None:
-    del done, total
 
 
 def soft(duration: float) -> UnsteadyCase:
@@ -143,7 +139,7 @@ def test_overset_run_that_was_killed_goes_on_without_a_jump(
     control.write_text(control.read_text().replace("endTime 7.6", "endTime 4"))
 
     with pytest.raises(KeyboardInterrupt):
-        again.run(_interrupt_after(3.0))
+        again.run(interrupt_after(3.0))
     again.run(nothing)
 
     one, other = run.history(), again.history()
@@ -154,12 +150,3 @@ def test_overset_run_that_was_killed_goes_on_without_a_jump(
     assert other.deflection == pytest.approx(
         one.deflection[early], abs=2e-3 * other.deflection.max()
     )
-
-
-def _interrupt_after(time: float) -> Callable[[float, float], None]:
-    def tell(done: float, total: float) -> None:
-        del total
-        if done >= time:
-            raise KeyboardInterrupt
-
-    return tell

@@ -17,6 +17,7 @@ import numpy as np
 import pytest
 from tests.processes import wait_until
 from tests.sample_cases import STEADY_PLATE, UNSTEADY_PLATE, beam_modes
+from tests.watching import nothing
 
 from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
@@ -39,10 +40,6 @@ from equisection.solvers.openfoam.tip_flow import sample_tip_flow
 #: Coarser than any preset, 15,128 cells.
 VERY_COARSE = 0.3
 COUPLING = Coupling(2, 0.98)
-
-
-def nothing(done: float, total: float) -> None:
-    del done, total
 
 
 def rigid(

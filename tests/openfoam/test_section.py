@@ -5,13 +5,13 @@ What is compared with numbers was measured with OpenFOAM v1912.
 
 import math
 import shutil
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 from scipy.optimize import minimize_scalar
 from tests.sample_cases import STEADY, UNSTEADY
+from tests.watching import interrupt_after, nothing
 
 from equisection.cases import SectionProperties, UnsteadyCase
 from equisection.solvers.openfoam.flow import Coupling
@@ -30,10 +30,6 @@ from equisection.solvers.openfoam.section_rigid import (
 
 #: Coarser than any preset, about 4,000 cells: for what does not depend on the mesh.
 VERY_COARSE = 0.6
-
-
-def nothing(done: float, total: float) -> None:
-    del done, total
 
 
 def rigid(
@@ -166,7 +162,7 @@ def test_run_that_was_killed_goes_on_without_a_jump(
         shutil.rmtree(path)
 
     with pytest.raises(KeyboardInterrupt):
-        interrupted.run(_interrupt_after(3.3))
+        interrupted.run(interrupt_after(3.3))
     assert not (interrupted.folder / "4").exists()
     interrupted.run(nothing)
 
@@ -217,12 +213,3 @@ def test_output_of_the_motion_has_the_expected_columns(whole: SectionRun) -> Non
     )
     assert motion["omega"].shape == (250, 3)
     assert np.abs(motion["omega"][:, :2]).max() == 0.0
-
-
-def _interrupt_after(time: float) -> Callable[[float, float], None]:
-    def tell(done: float, total: float) -> None:
-        del total
-        if done >= time:
-            raise KeyboardInterrupt
-
-    return tell

@@ -6,8 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.conftest import ROOT
-from tests.sample_cases import GEOMETRY, STEADY, UNSTEADY
+from tests.sample_cases import GEOMETRY, STEADY, UNSTEADY, UNSTEADY_PLATE, beam_modes
+from tests.watching import nothing
 
+from equisection.aerodynamics.induction import cosine_strips, induction_matrix
+from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar_file import read_polar
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import load_config
@@ -31,16 +34,12 @@ def solver() -> Adapter:
     return adapter()
 
 
-def ignore(done: float, total: float) -> None:
-    """Progress that nobody watches."""
-
-
 def steady(solver: Adapter, *cases: SteadyCase) -> list[SteadyResult]:
-    return solver.run_steady(cases, Path("unused"), ignore)
+    return solver.run_steady(cases, Path("unused"), nothing)
 
 
 def unsteady(solver: Adapter, *cases: UnsteadyCase) -> list[UnsteadyResult]:
-    return solver.run_unsteady(cases, Path("unused"), ignore)
+    return solver.run_unsteady(cases, Path("unused"), nothing)
 
 
 def rigid(dimension: str, incidence_deg: float, **geometry: object) -> SteadyCase:
@@ -112,6 +111,40 @@ def test_beam_between_walls_without_a_gap_is_the_section(
     assert beam.lift == pytest.approx(section.lift, rel=1e-9)
     assert beam.moment == pytest.approx(section.moment, rel=1e-9)
     np.testing.assert_allclose(beam.section_lift, section.lift, rtol=1e-9)
+
+
+def test_rigid_beam_is_the_lifting_line_in_its_channel(solver: Adapter) -> None:
+    """Span 3.7 c, a gap of 0.3 c to the far wall, 4 c from floor to ceiling."""
+    strips = cosine_strips(12)
+    induction = induction_matrix(strips, 1.0, 3.7, 4.0, 4.0)
+    expected = LiftingLine(read_polar(POLAR, True), strips, induction).solve(math.radians(2.5))
+    (beam,) = steady(solver, rigid("3d", 2.5))
+    assert beam.lift == pytest.approx(expected.lift, rel=1e-12)
+    assert beam.moment == pytest.approx(expected.moment, rel=1e-12)
+
+
+def test_released_beam_starts_as_fast_as_its_masses_let_it(solver: Adapter) -> None:
+    """From rest W_1 = s^2/2 int c_l g/(m int g^2), and as much of Theta_1 with c_m, f and I.
+
+    The air that moves along adds a fiftieth to the mass.
+    """
+    start = {"duration": 4.0, "time_step": 0.05, "output_interval": 0.05}
+    case = UNSTEADY_PLATE.model_copy(update={**start, "beam": beam_modes(1.0)})
+    assert case.beam is not None
+    (run,), (at_rest,) = unsteady(solver, case), steady(solver, rigid("3d", 2.5))
+    strips, span = cosine_strips(12), np.array(case.beam.span)
+    assert at_rest.section_lift is not None
+    assert at_rest.section_moment is not None
+    beam = case.beam
+    for amplitudes, shapes, load, mass in (
+        (run.bending_amplitudes, beam.bending_shape, at_rest.section_lift, beam.mass),
+        (run.torsion_amplitudes, beam.torsion_shape, at_rest.section_moment, beam.inertia),
+    ):
+        assert amplitudes is not None
+        first = np.array(shapes[0])
+        work = strips.weights @ (load * np.interp(strips.stations, span, first))
+        acceleration = work / (mass * np.trapezoid(first**2, span))
+        assert 2 * amplitudes[0, 2] / run.time[2] ** 2 == pytest.approx(acceleration, rel=0.05)
 
 
 def test_beam_with_a_gap_lifts_less_than_its_section(solver: Adapter) -> None:

@@ -23,7 +23,12 @@ from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.config.sections import Embedded
 from equisection.errors import ResultFileError
-from equisection.motion.judgement import ReleaseJudgement, ReleaseNumbers, judge_release
+from equisection.motion.judgement import (
+    ReleaseJudgement,
+    ReleaseNumbers,
+    judge_release,
+    release_numbers,
+)
 from equisection.motion.sections import (
     SectionParameters,
     release_sections,
@@ -232,6 +237,47 @@ def test_recorded_motion_is_what_the_recorded_moment_does(path):
     growth = unexplained_damping(history, 20.0) / (2 * history.inertia)
     print(path, "growth from unexplained damping", growth)
     assert abs(growth) < 8e-4
+
+
+@pytest.mark.parametrize("damping", [0.3, -0.2])
+def test_damping_that_the_moment_does_not_have_is_found(damping):
+    """I* theta'' + k* theta - c_m = d theta' solved in closed form, with a constant c_m."""
+    inertia, stiffness, moment = 6.7, 10.0, 0.05
+    growth = damping / (2 * inertia)
+    omega = math.sqrt(stiffness / inertia - growth**2)
+    time = np.arange(0.0, 60.0, 0.02)
+    twist = moment / stiffness + 0.01 * np.exp(growth * time) * np.cos(omega * time)
+    still = np.zeros(time.size)
+    history = ReferenceHistory(
+        time=time,
+        twist=twist,
+        deflection=still,
+        lift_coefficient=still,
+        moment_coefficient=np.full(time.size, moment),
+        incidence_rad=0.0,
+        k_star=stiffness,
+        torsional_stiffness=stiffness,
+        flexural_stiffness=1.0,
+        inertia=inertia,
+        mass=80.0,
+        name="made up",
+        source="made up",
+    )
+    assert unexplained_damping(history, 20.0) == pytest.approx(damping, rel=5e-3)
+
+
+def test_numbers_of_a_release_in_closed_form():
+    """theta = 0.7 + 0.5 exp(0.01 s) cos(1.1 s) deg, w/c = 0.3."""
+    time = np.arange(0.0, 100.0, 0.05)
+    twist = np.radians(0.7 + 0.5 * np.exp(0.01 * time) * np.cos(1.1 * time))
+    numbers = release_numbers(time, twist, np.full(time.size, 0.3))
+    assert numbers.growth_rate == pytest.approx(0.01, rel=0.01)
+    assert numbers.frequency == pytest.approx(1.1, rel=1e-3)
+    assert numbers.mean_twist_deg == pytest.approx(0.7, abs=0.02)
+    assert numbers.mean_deflection_chords == pytest.approx(0.3, rel=1e-12)
+    end, period = float(time[-1]), 2 * math.pi / 1.1
+    bounds = [0.5 * math.exp(0.01 * (end - back * period)) for back in (2.0, 0.0)]
+    assert bounds[0] < numbers.last_amplitude_deg < bounds[1]
 
 
 def test_unexplained_damping_of_the_embedded_solver_is_nil(some_release):

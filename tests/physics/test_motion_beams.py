@@ -174,7 +174,31 @@ def test_static_equilibrium_carries_the_load_of_the_lifting_line():
         weighted = strips.weights @ (steady.cm_section[:, None] * shapes)
         stiffness = parameters.structure.torsion_stiffness[lane]
         np.testing.assert_allclose(stiffness * amplitudes, weighted, rtol=1e-7, atol=1e-12)
+        lifted = strips.weights @ (steady.cl_section[:, None] * parameters.structure.bending_shapes)
+        stiffness = parameters.structure.bending_stiffness[lane]
+        np.testing.assert_allclose(
+            stiffness * states[lane, system.layout.deflection], lifted, rtol=1e-7, atol=1e-12
+        )
     assert np.isfinite(deficits).all()
+
+
+def test_tip_of_a_beam_held_at_both_ends_is_where_its_first_mode_is_largest():
+    """Of modes sin(n pi z/L): mid-span, where they are 1, 0, -1."""
+    modes = np.sin(np.outer([1, 2, 3], SPAN) * math.pi)
+    layout = cosine_strips(12)
+    parameters = BeamParameters.from_modes(
+        span=SPAN,
+        torsion_shapes=modes,
+        torsion_frequencies=np.array([[1.0, 2.0, 3.0]]),
+        inertia=np.array([INERTIA]),
+        bending_shapes=modes,
+        bending_frequencies=np.array([[0.2, 0.8, 1.8]]),
+        mass=np.array([MASS]),
+        stations=layout.stations,
+        weights=layout.weights,
+    )
+    np.testing.assert_allclose(parameters.torsion_at_tip, [1.0, 0.0, -1.0], atol=1e-12)
+    np.testing.assert_allclose(parameters.bending_at_tip, [1.0, 0.0, -1.0], atol=1e-12)
 
 
 def test_a_sweep_gives_what_single_runs_give():

@@ -7,23 +7,15 @@ from functools import cache
 
 import numpy as np
 import pytest
+from tests.sample_cases import PAPER, plate_with
 
 from equisection.reduction.integrals import Integrals, span_integrals
 from equisection.reduction.section import validity_warnings
 from equisection.structure.modes import compute_modes
-from equisection.structure.plate import BOUNDARIES, Plate
+from equisection.structure.plate import BOUNDARIES
 
-PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
 STATIONS = (1, 89, 1)
 HELD = BOUNDARIES[:-1]
-
-
-def plate_with(boundary: str) -> Plate:
-    if boundary == "spring-root":
-        return replace(
-            PAPER, boundary=boundary, root_torsional_stiffness=7.0, root_bending_stiffness=5.0
-        )
-    return replace(PAPER, boundary=boundary)
 
 
 @cache
@@ -40,6 +32,10 @@ def test_cantilever_integrals_in_closed_form():
     n = np.array([1, -3, 5, -7])  # the sign makes the tip positive
     assert integrals.f_mean == pytest.approx(2 / (n * np.pi), abs=1e-6)
     assert integrals.g_mean[0] == pytest.approx(0.734095514 / 1.87510407, rel=1e-6)  # Blevins
+    # of a uniform load's work the first modes take 8/pi^2, and 61 %
+    assert integrals.twist_participation == pytest.approx(8 / np.pi**2, rel=1e-6)
+    share = (0.734095514 / 1.87510407) ** 2 / 0.25
+    assert integrals.deflection_participation == pytest.approx(share, rel=1e-5)
     assert integrals.stiffness_theta[0, 0] == pytest.approx(np.pi**2 / 8)
     assert integrals.stiffness_w[0, 0] == pytest.approx(1.87510407**4 / 4, rel=1e-6)
 

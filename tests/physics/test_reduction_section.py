@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from scipy.integrate import simpson, solve_bvp
 from scipy.sparse.linalg import splu
+from tests.sample_cases import PAPER, plate_with
 
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import span_integrals
@@ -18,7 +19,6 @@ from equisection.structure.mode_set import ModeSet
 from equisection.structure.modes import compute_modes
 from equisection.structure.plate import BOUNDARIES, Plate
 
-PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
 DENSITY, SPEED, CHORD = 1.18, 20.0, 0.1
 Q = 0.5 * DENSITY * SPEED**2
 COARSE = (12, 44, 1)
@@ -36,14 +36,6 @@ def solid_modes() -> ModeSet:
 @cache
 def analytic_modes(boundary: str = "clamped-free") -> ModeSet:
     return compute_modes(plate_with(boundary), "analytic", (1, 89, 1), 16)
-
-
-def plate_with(boundary: str) -> Plate:
-    if boundary == "spring-root":
-        return replace(
-            PAPER, boundary=boundary, root_torsional_stiffness=7.0, root_bending_stiffness=5.0
-        )
-    return replace(PAPER, boundary=boundary)
 
 
 def test_published_ratios_and_nominal_stiffness():

@@ -6,23 +6,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.sample_cases import PAPER, plate_with
 
 from equisection.errors import ModesError
 from equisection.structure.analytic import bending_modes, bending_roots, torsion_modes
 from equisection.structure.modes import compute_modes, modes_of_kinds
-from equisection.structure.plate import BOUNDARIES, Plate
+from equisection.structure.plate import BOUNDARIES
 from equisection.structure.span import gram
 
-PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
 SPAN = np.linspace(0.0, 1.0, 401)
-
-
-def plate_with(boundary: str) -> Plate:
-    if boundary == "spring-root":
-        return replace(
-            PAPER, boundary=boundary, root_torsional_stiffness=7.0, root_bending_stiffness=5.0
-        )
-    return replace(PAPER, boundary=boundary)
 
 
 @pytest.mark.parametrize(

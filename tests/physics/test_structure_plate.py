@@ -5,11 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
+from tests.sample_cases import PAPER
 
 from equisection.errors import ConfigError
-from equisection.structure.plate import BOUNDARIES, Plate
-
-PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)  # Section 2 of the paper
+from equisection.structure.plate import BOUNDARIES
 
 
 def test_section_properties_of_the_papers_plate():

@@ -11,15 +11,14 @@ from scipy.linalg import eigh
 from skfem import Basis, BilinearForm, ElementHex2, ElementVector, MeshHex
 from skfem.helpers import dot
 from skfem.models.elasticity import lame_parameters, linear_elasticity
+from tests.sample_cases import PAPER
 
 from equisection.structure.classify import KINDS, classify
 from equisection.structure.mode_set import ModeSet, frequency_constants
 from equisection.structure.modes import compute_modes, mesh_study, modes_of_kinds
-from equisection.structure.plate import Plate
 from equisection.structure.solid import solid_modes
 from equisection.structure.span import gram
 
-PAPER = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
 COARSE = (12, 44, 1)
 
 

@@ -7,9 +7,12 @@ from typing import Any
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.interpolate import PchipInterpolator
+from scipy.optimize import brentq
 from tests.sample_cases import STEADY
 
 from equisection import plan
+from equisection.aerodynamics.polar import SectionPolar
 from equisection.assemble import nominal_k_star, steady_case, unsteady_case
 from equisection.cases import UnsteadyCase, case_hash
 from equisection.config import Config, load_config
@@ -129,6 +132,59 @@ def test_correction_multiplies_masses_and_stiffnesses(data: dict[str, xr.Dataset
     for name in ("torsional_stiffness", "flexural_stiffness", "inertia", "mass"):
         assert getattr(corrected, name) == pytest.approx(2 * getattr(plain, name), rel=1e-9)
     assert corrected.twist_recovery == plain.twist_recovery
+
+
+def test_lift_corrects_the_heave_and_moment_the_pitch(data: dict[str, xr.Dataset]) -> None:
+    """Eq. 20: l_f goes to k_w* and m*, m_f to k* and I*."""
+    section = factors_from_dataset(data["correction"]).section
+    beam = replace(section, lift=0.5 * section.lift, moment=0.8 * section.moment)
+    corrected_by = {**data, "correction": factors_to_dataset(CorrectionFactors(section, beam))}
+    plain = case("2d", 21.0, corrected_by).section
+    corrected = case("2d-corrected", 21.0, corrected_by).section
+    assert plain is not None
+    assert corrected is not None
+    for name, factor in {
+        "torsional_stiffness": 1.25,
+        "inertia": 1.25,
+        "flexural_stiffness": 2.0,
+        "mass": 2.0,
+    }.items():
+        assert getattr(corrected, name) == pytest.approx(factor * getattr(plain, name), rel=1e-9)
+
+
+def test_factors_are_those_of_the_incidence_at_equilibrium(data: dict[str, xr.Dataset]) -> None:
+    """A ratio of moments that changes with incidence tells at which incidence it was taken.
+
+    k* theta = c_m(theta_0 + theta)/m_f is the beam's own equilibrium: k* theta = C_M.
+    """
+    angles = np.radians(np.linspace(-10.0, 10.0, 41))
+    section = SectionPolar(angles, 0.1 + angles**2, 6.0 * angles, 1.5 * angles, "section")
+    beam = replace(section, moment=section.moment * (0.9 - 2.0 * np.abs(angles)))
+    factors = CorrectionFactors(section, beam)
+    given = {**data, "correction": factors_to_dataset(factors)}
+    k_star, start = 9.0, math.radians(2.5)
+    plain = case("2d", k_star, given).section
+    corrected = case("2d-corrected", k_star, given).section
+    assert plain is not None
+    assert corrected is not None
+
+    def moment(twist: float, of: SectionPolar) -> float:
+        return float(PchipInterpolator(of.incidence, of.moment)(start + twist))
+
+    stiffness = plain.torsional_stiffness
+    twist = brentq(lambda t: stiffness * t - moment(t, beam), 0.0, math.radians(1.5))
+    expected = moment(twist, section) / moment(twist, beam)
+    at_rest = moment(0.0, section) / moment(0.0, beam)
+    assert expected > 1.01 * at_rest
+    assert corrected.torsional_stiffness / stiffness == pytest.approx(expected, rel=1e-9)
+
+
+def test_beam_has_the_mass_and_the_inertia_of_a_flat_bar(data: dict[str, xr.Dataset]) -> None:
+    """m = rho_s c t over rho c^2/2 and I = rho_s t c^3/12 over rho c^4/2, t = 0.04 c."""
+    beam = case("3d", 9.0, data).beam
+    assert beam is not None
+    assert beam.mass == pytest.approx(2 * 1000 * 0.04)
+    assert beam.inertia == pytest.approx(2 * 1000 * 0.04 / 12)
 
 
 def test_corrected_section_that_diverges_is_refused_in_its_case(

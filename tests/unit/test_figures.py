@@ -12,6 +12,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.text import Text
+from tests.sample_cases import PAPER
 
 import equisection
 from equisection.comparison.bubble import bubble_table
@@ -38,6 +39,7 @@ from equisection.figures import (
     section_and_beam,
 )
 from equisection.figures.correction import SteadyData
+from equisection.figures.history import extent_from_dataset, history_from_dataset
 from equisection.figures.incidences import nearest_incidences
 from equisection.figures.models import LOOKS
 from equisection.figures.rule_graph import RuleGraph, RuleText
@@ -52,11 +54,9 @@ from equisection.results.steady import SteadyResult
 from equisection.results.surface import SectionSurface
 from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady import UnsteadyResult
-from equisection.structure.plate import Plate
 
 STYLE = Path(__file__).parents[2] / "envs" / "equisection.mplstyle"
 SOLVER = "made-up solver, 5 cells"
-PLATE = Plate(0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0)
 
 pytestmark = pytest.mark.filterwarnings("error")
 
@@ -205,7 +205,7 @@ def bubbles(known: dict[tuple[str, float], float], without=()) -> pd.DataFrame:
 
 
 def modes(count=4) -> xr.Dataset:
-    beam = fig03_modes.analytic_shapes(PLATE)
+    beam = fig03_modes.analytic_shapes(PAPER)
     return xr.Dataset(
         {
             "shape": (("mode", "span"), np.vstack([beam.bending[:count], beam.torsion[:count]])),
@@ -309,14 +309,14 @@ def test_says_solver_and_version(name):
 
 
 def test_modes_have_no_flow_solver():
-    figure = fig03_modes.draw(modes(), fig03_modes.analytic_shapes(PLATE))
+    figure = fig03_modes.draw(modes(), fig03_modes.analytic_shapes(PAPER))
     assert "no flow solver" in words(figure)
     lay_out(figure)
 
 
 @pytest.mark.parametrize("count", [0, 2])
 def test_modes_may_be_few(count):
-    figure = fig03_modes.draw(modes(count), fig03_modes.analytic_shapes(PLATE))
+    figure = fig03_modes.draw(modes(count), fig03_modes.analytic_shapes(PAPER))
     assert ("No bending mode was computed." in words(figure)) == (count == 0)
     lay_out(figure)
 
@@ -601,6 +601,29 @@ def test_response_draws(name, tmp_path):
     if name == "all failed":
         assert "every one failed or diverged" in found.replace("\n", " ")
     lay_out(figure)
+
+
+def test_histories_are_shown_in_degrees_and_chords():
+    """Of a twist in radians and a deflection in metres, at a chord of 0.1 m."""
+    wave = 0.01 + 0.004 * np.sin(np.linspace(0.0, 40.0, 401))
+    found = run(k_star=8.0)
+    history = history_from_dataset(found, 2.0)
+    np.testing.assert_allclose(history.twist_deg, wave * 180 / math.pi)
+    np.testing.assert_allclose(history.tip_twist_deg, wave * 180 / math.pi)
+    np.testing.assert_allclose(history.time, 2.0 * np.linspace(0.0, 40.0, 401))  # s sqrt(k*/I*)
+    extent, late = extent_from_dataset(found), wave[200:]
+    assert extent.twist_deg == pytest.approx(np.degrees([late.min(), late.max()]))
+    assert extent.deflection_chords == pytest.approx([late.min(), late.max()])
+
+
+def test_modal_contributions_are_shown_in_degrees_and_chords():
+    found = run(dimension="3d")
+    figure = fig15_modal_contributions.draw(modes(), found)
+    late = 0.01 + 0.004 * np.sin(np.linspace(0.0, 40.0, 401))[200:]
+    at_tip = (1.0 - 0.02 + 1e-3) * late.mean()
+    for axes, unit in zip(figure.axes[:2], (1.0, 180 / math.pi), strict=True):
+        (whole,) = (line for line in axes.get_lines() if line.get_label() == "all modes")
+        assert whole.get_ydata()[-1] == pytest.approx(unit * at_tip)
 
 
 @pytest.mark.parametrize("name", sorted(SWEEPS))

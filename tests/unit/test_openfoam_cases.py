@@ -66,6 +66,13 @@ def test_flow_has_the_viscosity_of_its_reynolds_number(tmp_path: Path) -> None:
     assert {path.name for path in (tmp_path / "0").iterdir()} == {"U", "p", "k", "omega", "nut"}
 
 
+def test_stream_has_one_per_cent_of_turbulence_and_ten_times_the_viscosity(tmp_path: Path) -> None:
+    """k = 3/2 (I V)^2, nu_t = 10 nu, omega = k/nu_t; V = c = 1."""
+    write_flow(tmp_path, 1e5)
+    for name, value in {"k": "0.00015", "nut": "0.0001", "omega": "1.5"}.items():
+        assert f"internalField uniform {value};" in (tmp_path / "0" / name).read_text()
+
+
 def test_wall_velocity_follows_the_mesh_from_the_steady_run_on(tmp_path: Path) -> None:
     write_flow(tmp_path, 1e5)
     velocity = (tmp_path / "0" / "U").read_text()

@@ -70,6 +70,8 @@ def test_tip_that_is_held_stays_where_it_is(count: int) -> None:
         exact = np.sin(np.outer([1, 2], np.pi * points.locations / 3.7))
         np.testing.assert_allclose(shapes, exact, atol=1e-6)
     assert np.abs(points.torsion_at_loads[:, -1]).max() < 1e-6
+    # what is told of the tip is told of mid-span, where the first mode is 1 and the second 0
+    assert points.tip(np.array([0.3, 5.0, 0.2, 7.0])) == pytest.approx((0.3, 0.2))
 
 
 def test_root_stays_where_it_is() -> None:

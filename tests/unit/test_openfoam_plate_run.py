@@ -4,15 +4,20 @@ import math
 from pathlib import Path
 from typing import NoReturn, cast
 
+import numpy as np
 import pytest
 from tests.sample_cases import UNSTEADY_PLATE
+from tests.watching import nothing
 
 from equisection.errors import SolverError
+from equisection.motion.modal_response import ModalStep, Staggered
 from equisection.solvers.openfoam import flow, plate_free, tip_flow
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh import Channel, Mesh
+from equisection.solvers.openfoam.pipes import Pipes
 from equisection.solvers.openfoam.plate_free import PlateRun
 from equisection.solvers.openfoam.plate_mesh import PlateMesh
+from equisection.solvers.openfoam.process import BlowUpError
 
 MESH = PlateMesh(Mesh(Channel(0.04, 4.0, 5.0, 15.0), math.radians(2.5), 0.55), 3.7, 0.3)
 
@@ -29,6 +34,27 @@ def test_check_of_the_last_mesh_is_no_condition_of_a_result(
     run = PlateRun(nowhere, UNSTEADY_PLATE, MESH, flow.Coupling(2), tmp_path, ranks=1)
     (run.folder / "2").mkdir(parents=True)
     assert run._mesh_before() == ""
+
+
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+@pytest.mark.parametrize(
+    ("twist_deg", "room_taken"),
+    [(0.0, 0.5 * math.sin(math.radians(2.5))), (27.5, 0.25), (-32.5, 0.25)],
+)
+def test_plate_is_to_stay_a_tenth_of_a_chord_from_floor_and_ceiling(
+    tmp_path: Path, side: float, twist_deg: float, room_taken: float
+) -> None:
+    """Half of 4 c, less the deflection and half of sin(theta_0 + theta), theta_0 = 2.5 deg."""
+    run = PlateRun(
+        cast(Installation, None), UNSTEADY_PLATE, MESH, flow.Coupling(2), tmp_path, ranks=1
+    )
+    structure = Staggered(ModalStep(run.points.frequency, 0.04), None)
+    exchange = plate_free._Exchange(run, structure, cast(Pipes, None), 0.0, nothing)
+    most = side * (2.0 - room_taken - 0.1)
+    twist = math.radians(twist_deg)
+    exchange._require_room(np.array([twist, 0.0, 0.99 * most, 0.0]), 7.0)
+    with pytest.raises(BlowUpError, match=r"come to within 0\.\d+ c of floor or ceiling at 7 c/V"):
+        exchange._require_room(np.array([twist, 0.0, 1.01 * most, 0.0]), 7.0)
 
 
 def test_picture_of_the_tip_is_no_condition_of_a_result(

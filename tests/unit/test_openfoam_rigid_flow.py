@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.watching import nothing
 
 from equisection.solvers.openfoam import rigid_flow
 from equisection.solvers.openfoam.loads import Loads
@@ -20,11 +21,6 @@ from equisection.solvers.openfoam.rigid_flow import (
 )
 
 RECORD = Record(10.0, 40.0, 100.0)
-
-
-def nothing(done: float, total: float) -> None:
-    """Nobody is told."""
-    del done, total
 
 
 def settling(time: np.ndarray, rate: float) -> Loads:

@@ -20,7 +20,7 @@ from equisection.cases import SteadyCase, case_hash, read_cases, write_cases
 from equisection.config import load_config, resolve_config
 from equisection.config.sections import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
-from equisection.results.index import write_index
+from equisection.results.index import read_index, write_index
 from equisection.results.kept import kept_results
 from equisection.results.netcdf import read_dataset
 from equisection.results.plate_grid import PlateGrid
@@ -79,7 +79,7 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
     )
     run = load_script("run_cases")
     for dimension in ("2d", "3d"):
-        cases = folder / f"cases_{dimension}.json"
+        cases = folder / f"steady_cases_{dimension}.json"
         load_script("steady_cases").main(raw, dimension, plan.steady_cases(config), cases)
         index = folder / "steady" / dimension / "polar.json"
         run.main(cases, index, folder / "store", folder / "progress.json")
@@ -116,7 +116,6 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         reduction="consistent",
         output=folder / "onset.csv",
     )
-    load_script("refine_onset").main(indices[:1], 0.05, 3, folder / "round1.json")
     return folder
 
 
@@ -142,18 +141,30 @@ def test_modes_feel_less_of_the_beams_lift_than_its_mean(chain: Path) -> None:
         assert (modal[factor] < 1.5 * mean[factor]).all()
 
 
-def test_results_of_the_chain_are_those_of_its_cases(chain: Path) -> None:
-    for name, case in read_cases(chain / "cases_3d.json").items():
-        if "_a" in name:
-            result = chain / "steady" / "3d" / f"{name}.nc"
-        else:
-            result = chain / "unsteady" / "3d" / f"{name}.nc"
+@pytest.mark.parametrize("kind", ["steady", "unsteady"])
+def test_results_of_the_chain_are_those_of_its_cases(chain: Path, kind: str) -> None:
+    cases = read_cases(chain / ("steady_cases_3d.json" if kind == "steady" else "cases_3d.json"))
+    assert len(cases) == (4 if kind == "steady" else 2)
+    for name, case in cases.items():
+        result = chain / kind / "3d" / f"{name}.nc"
         assert read_dataset(result, case_hash(case)).attrs["solver"] == "embedded"
 
 
-def test_refinement_chooses_k_star_or_none(chain: Path) -> None:
-    chosen = plan.read_refinement(chain / "round1.json")
-    assert all(9.0 < plan.k_star_of(name) < 21.0 for name in chosen)
+@pytest.mark.parametrize(
+    ("tolerance", "chosen"), [(0.05, ["k12", "k15", "k18"]), (1.5, [])], ids=["wide", "narrow"]
+)
+def test_refinement_divides_the_bracket_of_all_that_has_run(
+    chain: Path, load_script: LoadScript, tmp_path: Path, tolerance: float, chosen: list[str]
+) -> None:
+    """A plate that grew at 9 and settled at 21, in the sweep, and at 30 in an earlier round."""
+    attributes = read_index(chain / "unsteady" / "3d" / "sweep.json")
+    sweep, earlier = tmp_path / "3d" / "sweep.json", tmp_path / "3d" / "round1.json"
+    grown, settled = ({**attributes["k9"], "regime": told} for told in ("growing", "settled"))
+    write_index(sweep, {"k9": grown, "k21": {**settled, "k_star": 21.0}})
+    write_index(earlier, {"k30": {**settled, "k_star": 30.0}})
+    chooses = load_script("refine_onset").main
+    chooses([sweep, earlier], tolerance, 3, tmp_path / "round2.json")
+    assert plan.read_refinement(tmp_path / "round2.json") == chosen
 
 
 def test_resolved_configuration_is_yaml_of_every_key(chain: Path) -> None:

@@ -4,9 +4,9 @@ import math
 
 import numpy as np
 import pytest
-from tests.sample_cases import UNSTEADY
+from tests.sample_cases import UNSTEADY, UNSTEADY_PLATE
 
-from equisection.solvers.verdicts import Motion, judge
+from equisection.solvers.verdicts import Motion, judge, pitch_frequency
 
 TIME = np.arange(0.0, 60.0, 0.05)
 LEFT = "an incidence of 25.1 deg left the section polar"
@@ -32,6 +32,14 @@ def test_what_leaves_the_polar_by_ever_larger_swings_has_grown(
     verdict = judge(UNSTEADY, moved(turns_deg, 30.0), LEFT)
     assert verdict["regime"] == regime
     assert LEFT in verdict["reason"]
+
+
+def test_frequency_in_vacuum_is_that_of_the_section_or_of_the_first_torsion_mode() -> None:
+    """f c/V = sqrt(k*/I*)/(2 pi), of the plate's mode omega c/V over 2 pi."""
+    assert pitch_frequency(UNSTEADY) == pytest.approx(math.sqrt(6.44 / 6.7) / 6.2831853)
+    assert UNSTEADY_PLATE.beam is not None
+    omega = UNSTEADY_PLATE.beam.torsion_frequency[0]
+    assert pitch_frequency(UNSTEADY_PLATE) == pytest.approx(omega / 6.2831853)
 
 
 def test_frequency_is_that_of_an_oscillation_or_not_known() -> None:

@@ -125,8 +125,6 @@ class BeamHistories:
         w/c at the tip, d(w/c)/ds.
     lift_coefficient, moment_coefficient
         C_L, and C_M about the moving mid-chords (Eq. 22).
-    effective_incidence
-        alpha_E (rad) of the outermost strip.
     torsion_amplitudes, bending_amplitudes
         Theta_i (rad) and W_j (chords), shape (n_times, N, n_t) and (n_times, N, n_b).
     samples
@@ -142,7 +140,6 @@ class BeamHistories:
     tip_deflection_rate: Floats
     lift_coefficient: Floats
     moment_coefficient: Floats
-    effective_incidence: Floats
     torsion_amplitudes: Floats
     bending_amplitudes: Floats
     samples: Indices
@@ -191,7 +188,7 @@ def release_beams(
 
 
 def _outputs(parameters: BeamParameters, system: StripSystem) -> Floats:
-    """Rows: tip theta, theta', w, w', then C_L, C_M, alpha_E of the last strip, Theta, W."""
+    """Rows: tip theta, theta', w, w', then C_L, C_M, Theta, W."""
     layout, strips = system.layout, system.layout.strips
     lanes, _, columns = system.rates.shape
     unit = np.eye(layout.size, columns)
@@ -205,13 +202,13 @@ def _outputs(parameters: BeamParameters, system: StripSystem) -> Floats:
     )
     weights = system.structure.weights
     loads = system.strip_loads
-    total = np.stack([weights @ loads[:, :strips], weights @ loads[:, strips : 2 * strips]], axis=1)
+    total = np.stack([weights @ loads[:, :strips], weights @ loads[:, strips:]], axis=1)
     amplitudes = np.concatenate([unit[layout.twist], unit[layout.deflection]])
 
     def for_all(rows: Floats) -> Floats:
         return np.broadcast_to(rows, (lanes, *rows.shape))
 
-    return np.concatenate([for_all(tip), total, loads[:, -1:], for_all(amplitudes)], axis=1)
+    return np.concatenate([for_all(tip), total, for_all(amplitudes)], axis=1)
 
 
 def _on_recording(monitor: BeamMonitor | None, system: StripSystem) -> Monitor | None:
@@ -228,7 +225,7 @@ def _on_recording(monitor: BeamMonitor | None, system: StripSystem) -> Monitor |
 def _histories(recording: Recording, system: StripSystem) -> BeamHistories:
     values = recording.values[: recording.recorded]
     rows = np.moveaxis(values, 2, 0)
-    first_bending = 7 + system.layout.torsion_modes
+    first_bending = 6 + system.layout.torsion_modes
     return BeamHistories(
         time=recording.time[: recording.recorded],
         tip_twist=rows[0],
@@ -237,8 +234,7 @@ def _histories(recording: Recording, system: StripSystem) -> BeamHistories:
         tip_deflection_rate=rows[3],
         lift_coefficient=rows[4],
         moment_coefficient=rows[5],
-        effective_incidence=rows[6],
-        torsion_amplitudes=values[:, :, 7:first_bending],
+        torsion_amplitudes=values[:, :, 6:first_bending],
         bending_amplitudes=values[:, :, first_bending:],
         samples=recording.samples,
         failures=tuple(recording.failures),

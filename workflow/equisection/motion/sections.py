@@ -80,10 +80,6 @@ class SectionHistories:
         w/c, d(w/c)/ds.
     lift_coefficient, moment_coefficient
         c_l, and c_m about the moving mid-chord.
-    effective_incidence
-        alpha_E (rad), which sets the circulation.
-    bubble_incidence
-        x (rad), to which the bubble has adapted.
     samples
         Number of valid times of each section, shape (N,).
     failures
@@ -97,8 +93,6 @@ class SectionHistories:
     deflection_rate: Floats
     lift_coefficient: Floats
     moment_coefficient: Floats
-    effective_incidence: Floats
-    bubble_incidence: Floats
     samples: Indices
     failures: tuple[Failure, ...]
 
@@ -143,7 +137,7 @@ def release_sections(
     """
     system = section_system(parameters, loads, incidence_rad)
     states = np.eye(4, system.rates.shape[2])[None].repeat(system.structure.lanes, axis=0)
-    outputs = np.concatenate([states, system.strip_loads, system.probe], axis=1)
+    outputs = np.concatenate([states, system.strip_loads], axis=1)
     recording = march(
         system,
         rigid_state(system),
@@ -169,7 +163,7 @@ def _on_recording(monitor: SectionMonitor | None) -> Monitor | None:
 
 
 def _histories(recording: Recording) -> SectionHistories:
-    # rows: Theta, Theta', W, W' as in the layout of the states, then c_l, c_m, alpha_E, x
+    # rows: Theta, Theta', W, W' as in the layout of the states, then c_l, c_m
     rows = np.moveaxis(recording.values[: recording.recorded], 2, 0)
     return SectionHistories(
         time=recording.time[: recording.recorded],
@@ -179,8 +173,6 @@ def _histories(recording: Recording) -> SectionHistories:
         deflection_rate=rows[3],
         lift_coefficient=rows[4],
         moment_coefficient=rows[5],
-        effective_incidence=rows[6],
-        bubble_incidence=rows[7],
         samples=recording.samples,
         failures=tuple(recording.failures),
     )

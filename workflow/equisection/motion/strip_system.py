@@ -146,7 +146,7 @@ class StripSystem:
     probe
         [C | E | g], the incidences x of the bubbles, shape (N, S, n + 2 S + 1).
     strip_loads
-        c_l, c_m and alpha_E of the strips, shape (N, 3 S, n + 2 S + 1).
+        c_l and c_m of the strips, shape (N, 2 S, n + 2 S + 1).
     """
 
     layout: StateLayout
@@ -204,13 +204,10 @@ def assemble(
     for number, (lag, target) in enumerate(followed, start=2):
         rate = 1.0 / lag if lag > 0.0 else 1.0  # without lag the state is not read
         rates[:, layout.lag(number)] = rate * (target - unit[layout.lag(number)])
-    strip_loads = np.empty((lanes, 3 * strips, rows.columns))
+    strip_loads = np.empty((lanes, 2 * strips, rows.columns))
     shapes_g, shapes_f = structure.bending_shapes, structure.torsion_shapes
     strip_loads[:, :strips] = rows.lift - APPARENT_MASS * (shapes_g @ deflection_acceleration)
-    strip_loads[:, strips : 2 * strips] = rows.moment - APPARENT_INERTIA * (
-        shapes_f @ twist_acceleration
-    )
-    strip_loads[:, 2 * strips :] = rows.effective
+    strip_loads[:, strips:] = rows.moment - APPARENT_INERTIA * (shapes_f @ twist_acceleration)
     probe = np.broadcast_to(rows.bubble, (lanes, *rows.bubble.shape)).copy()
     constant = np.broadcast_to(np.asarray(incidence_rad, dtype=np.float64), (lanes,))
     for matrix in (rates, probe, strip_loads):
@@ -222,13 +219,12 @@ def assemble(
 class _StripRows:
     """Linear expressions in [Y | u | theta_0] at the strips, each of shape (S, columns).
 
-    ``rear`` is alpha_34, ``effective`` alpha_E, ``leading`` alpha_S, ``bubble`` x, ``target`` what
-    the circulatory lift c follows; ``lift`` and ``moment`` lack the terms with accelerations.
+    ``rear`` is alpha_34, ``leading`` alpha_S, ``bubble`` x, ``target`` what the circulatory
+    lift c follows; ``lift`` and ``moment`` lack the terms with accelerations.
     """
 
     columns: int
     rear: Floats
-    effective: Floats
     leading: Floats
     bubble: Floats
     target: Floats
@@ -268,7 +264,7 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
     circulatory = unit[layout.lag(3)] if lags.lift_lag > 0.0 else target
     lift = circulatory + APPARENT_MASS * twist_rate
     moment = loads.branches.moment_slope * leading - moment_deficit
-    return _StripRows(columns, rear, effective, leading, bubble, target, lift, moment)
+    return _StripRows(columns, rear, leading, bubble, target, lift, moment)
 
 
 def _accelerations(
