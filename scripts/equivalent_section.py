@@ -15,7 +15,7 @@ from equisection.structure.plate import Plate
 
 def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
     """Reduce the modes of the beam (Eqs. 6, 7, 12 and 17)."""
-    plate = Plate(**beam.model_dump())
+    plate = Plate.from_values(beam.model_dump())
     modes = modes_from_dataset(read_dataset(modes_file))
     count = min(modes.kind.count("bending"), modes.kind.count("torsion"))
     integrals = span_integrals(plate, modes, count)

@@ -21,7 +21,7 @@ if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
             Path(snakemake.input.modes),
-            Plate(**snakemake.params.beam),
+            Plate.from_values(snakemake.params.beam),
             Path(snakemake.input.style),
             [Path(path) for path in snakemake.output],
         )

@@ -29,7 +29,12 @@ def main(
     i_star = float(read_dataset(equivalent)["i_star"].sel(reduction=reduction))
     place = AT_THE_TIP if boundary in FREE_TIP else WHERE_LARGEST
     response = read_response(
-        pd.read_csv(summary), pd.read_csv(onset), result_files(indices), i_star, place
+        pd.read_csv(summary),
+        pd.read_csv(onset),
+        result_files(indices),
+        i_star,
+        place=place,
+        reduction=reduction,
     )
     with drawing_style(style):
         save_figure(draw(response), outputs)

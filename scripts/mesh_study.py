@@ -12,7 +12,7 @@ from equisection.structure.plate import Plate
 
 def main(beam: Beam, structure: Structure, output: Path) -> None:
     """Compute the first modes on each mesh of the study."""
-    plate = Plate(**beam.model_dump())
+    plate = Plate.from_values(beam.model_dump())
     levels = [(mesh.chord, mesh.span, mesh.thickness) for mesh in structure.mesh_study]
     method = "beam" if structure.method == "analytic" else structure.method
     study = mesh_study(plate, levels, method)

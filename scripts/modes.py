@@ -18,7 +18,7 @@ OTHER_MODES = 4
 
 def main(beam: Beam, structure: Structure, output: Path) -> None:
     """Compute the modes that the configuration asks for."""
-    plate = Plate(**beam.model_dump())
+    plate = Plate.from_values(beam.model_dump())
     elements = structure.elements
     bending, torsion = structure.bending_modes, structure.torsion_modes
     modes = modes_of_kinds(

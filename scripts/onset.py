@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 
 from equisection.comparison.linear_theory import linear_onset, moment_slope, with_linear_theory
-from equisection.comparison.onset import onset_table
+from equisection.comparison.onset import onset_table, with_speeds
 from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
 from equisection.script import logged
@@ -18,13 +18,16 @@ def main(
     *,
     resolution: str,
     incidence_deg: float,
+    speed: float,
     reduction: str,
     output: Path,
 ) -> None:
-    """Bracket the onset of each model, and put linear theory's divergence and flutter beside."""
+    """Bracket the onset of each model, in k* and speed, and put linear theory's beside."""
+    section = read_dataset(equivalent)
     slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg)
-    linear = linear_onset(read_dataset(equivalent), slope)
+    linear = linear_onset(section, slope)
     table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
+    table = with_speeds(table, float(section["k_star"].sel(reduction="paper")), speed)
     with written_whole(output) as aside:
         table.to_csv(aside, index=False, float_format="%.6g")
 
@@ -37,6 +40,7 @@ if __name__ == "__main__":
             Path(snakemake.input.polar_2d),
             resolution=snakemake.params.resolution,
             incidence_deg=snakemake.params.incidence_deg,
+            speed=snakemake.params.speed,
             reduction=snakemake.params.reduction,
             output=Path(snakemake.output[0]),
         )

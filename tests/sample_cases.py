@@ -78,7 +78,7 @@ def plate_with(boundary: str) -> Plate:
 
 def beam_modes(stiffness: float = 1.0, mass: float = 1.0, modes: int = 2) -> BeamModes:
     """Return the paper's plate in closed form (k* = 19.9 for stiffness 1) at 20 m/s."""
-    plate, span = Plate(**Beam().model_dump()), np.linspace(0.0, 1.0, 101)
+    plate, span = Plate.from_values(Beam().model_dump()), np.linspace(0.0, 1.0, 101)
     to_reduced = 2 * math.pi * 0.1 / 20.0 * math.sqrt(stiffness / mass)
     bending, bending_shape = bending_modes(plate, span, modes)
     torsion, torsion_shape = torsion_modes(plate, span, modes)

@@ -200,6 +200,17 @@ def test_divergence_is_an_error_with_k_star_and_range(k_star: float, theta_0: fl
         corrected_equilibrium(thin, theta_0, [21.0, k_star], RATIO)
 
 
+def test_polar_that_ends_where_the_section_stands_tells_no_divergence() -> None:
+    """With c_m < 0 at 0 deg and a polar from 0 deg on: what is below is not known."""
+    degrees = np.linspace(0, 8, 9)
+    down = SectionPolar(
+        np.radians(degrees), 0.1 + 0 * degrees, 0.1 * degrees, 0.02 * degrees - 0.05, "deck"
+    )
+    with pytest.raises(ReductionError, match=r"too short; .*steady\.incidence_deg") as refused:
+        corrected_equilibrium(CorrectionFactors(down, down), 0.0, [0.5], RATIO)
+    assert not isinstance(refused.value, DivergenceError)
+
+
 def half(polar: SectionPolar, residue: float = 0.0) -> SectionPolar:
     """The half from zero incidence on, with what a solver may leave of zero there."""
     kept = polar.incidence >= 0

@@ -2,19 +2,67 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+import math
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
 from tests.sample_cases import PAPER, plate_with
 
 from equisection.errors import ModesError
+from equisection.reduction.section import reduce_beam
 from equisection.structure.analytic import bending_modes, bending_roots, torsion_modes
 from equisection.structure.modes import compute_modes, modes_of_kinds
-from equisection.structure.plate import BOUNDARIES
+from equisection.structure.plate import BOUNDARIES, CrossSection, Plate
 from equisection.structure.span import gram
 
 SPAN = np.linspace(0.0, 1.0, 401)
+
+
+DECK = CrossSection(
+    bending_rigidity=6.41e14,
+    torsional_rigidity=2.014e12,
+    mass_per_length=22740.0,
+    inertia_per_length=2.47e6,
+)
+
+
+@pytest.mark.parametrize("method", ["beam", "analytic"])
+def test_section_as_given_has_the_frequencies_of_its_own_rigidities(method):
+    """Between forks: (pi/L)^2 sqrt(EI/m) n^2 and (pi/L) sqrt(GJ/I) n, in rad/s."""
+    deck = Plate(31.0, 1624.0, 4.0, 1.0, 0.0, 1.0, boundary="pinned-pinned", cross_section=DECK)
+    modes = compute_modes(deck, method, (1, 60, 1), count=8)
+    n = np.arange(1, 3)
+    wave = math.pi / 1624.0
+    bending = wave**2 * math.sqrt(6.41e14 / 22740.0) * n**2 / (2 * math.pi)
+    torsion = wave * math.sqrt(2.014e12 / 2.47e6) * n / (2 * math.pi)
+    assert modes.bending(2).frequency == pytest.approx(bending, rel=1e-4)
+    assert modes.torsion(2).frequency == pytest.approx(torsion, rel=1e-4)
+
+
+@pytest.mark.parametrize("boundary", BOUNDARIES)
+def test_section_of_a_plate_given_as_it_is_changes_nothing(boundary):
+    """Modes and equivalent section, with springs at the root too."""
+    plate = plate_with(boundary)
+    given = Plate.from_values(
+        {
+            **asdict(plate),
+            "youngs_modulus": 1.0,
+            "density": 1.0,
+            "cross_section": {
+                "bending_rigidity": plate.bending_rigidity,
+                "torsional_rigidity": plate.torsional_rigidity,
+                "mass_per_length": plate.mass_per_length,
+                "inertia_per_length": plate.inertia_per_length,
+            },
+        }
+    )
+    modes, same = (compute_modes(each, "beam", (1, 30, 1), count=8) for each in (plate, given))
+    np.testing.assert_allclose(same.frequency, modes.frequency, rtol=1e-9)
+    assert same.kind == modes.kind
+    first, second = reduce_beam(plate, modes), reduce_beam(given, same)
+    for name in ("torsional_stiffness", "flexural_stiffness", "inertia", "mass"):
+        assert getattr(second, name) == pytest.approx(getattr(first, name), rel=1e-6)
 
 
 @pytest.mark.parametrize(

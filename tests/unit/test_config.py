@@ -212,8 +212,17 @@ def test_results_that_are_only_taken_must_be_there(tmp_path):
     check_files(config, tmp_path)
 
 
-def test_results_to_reuse_may_be_none_where_cases_are_computed(tmp_path):
-    config = load_config({"solver": "openfoam", "unsteady": STEP, "reuse": "kept"})
+@pytest.mark.parametrize("reuse", ["", "results/reference"])
+def test_results_to_reuse_may_be_none_where_cases_are_computed(reuse, tmp_path):
+    check_files(load_config({"solver": "openfoam", "unsteady": STEP, "reuse": reuse}), tmp_path)
+
+
+def test_folder_to_reuse_that_is_not_there_is_refused(tmp_path):
+    """A slip of the pen would run for hours what is kept."""
+    config = load_config({"solver": "openfoam", "unsteady": STEP, "reuse": "results/refrence"})
+    with pytest.raises(ConfigError, match=r'reuse: .results/refrence.: no such folder.* or ""'):
+        check_files(config, tmp_path)
+    (tmp_path / "results/refrence").mkdir(parents=True)
     check_files(config, tmp_path)
 
 

@@ -21,6 +21,13 @@ JARGON = re.compile(
 
 INF, NAN = float("inf"), float("nan")
 
+#: A section that is no homogeneous rectangle.
+DECK = {
+    "bending_rigidity": 6.4e14,
+    "torsional_rigidity": 2e12,
+    "mass_per_length": 22740.0,
+    "inertia_per_length": 2.5e6,
+}
 #: The configuration, the key's path, the value as shown, and what is allowed.
 MALFORMED = [
     # numbers
@@ -63,6 +70,25 @@ MALFORMED = [
         "above 0 and below 0.5",
     ),
     # truths, choices and names
+    (
+        {"beam": {"cross_section": {**DECK, "inertia_per_length": 0}}},
+        "beam.cross_section.inertia_per_length",
+        "0",
+        "a number above 0",
+    ),
+    (
+        {"beam": {"cross_section": {"mass_per_length": 1}}, "structure": {"method": "beam"}},
+        "beam.cross_section.torsional_rigidity",
+        "null",
+        "missing; allowed is a number above 0",
+    ),
+    ({"beam": {"cross_section": DECK}}, "structure.method", "'solid'", "beam and analytic"),
+    (
+        {"embedded": {"symmetric": False}, "flow": {"incidence_deg": 0}},
+        "steady.incidence_deg",
+        "[0, 1, 2",
+        "on both sides of flow.incidence_deg, 0 deg",
+    ),
     ({"flow": {"root_on_wall": 1}}, "flow.root_on_wall", "1", "true or false"),
     ({"embedded": {"symmetric": "maybe"}}, "embedded.symmetric", "'maybe'", "true or false"),
     ({"solver": "fluent"}, "solver", "'fluent'", "embedded"),

@@ -593,6 +593,7 @@ def test_response_draws(name, tmp_path):
     assert f"equisection {equisection.__version__}" in found
     for place in "abcdefgh":
         assert f"({place})" in "".join(axes.get_title(loc="left") for axes in figure.axes)
+    assert ("2D: reduction 'consistent'" in found.replace("\n", " ")) == (name != "no section")
     if name == "no beam":
         assert "has no 3D" in found
     if name == "diverged":
@@ -647,7 +648,7 @@ def test_response_opens_no_file_that_it_does_not_draw(tmp_path):
 def test_means_of_a_beam_held_at_both_ends_are_not_those_of_a_tip(tmp_path):
     data = sweep(tmp_path, SWEEPS["one k*"])
     for place in (fig16_response.AT_THE_TIP, fig16_response.WHERE_LARGEST):
-        response = fig16_response.read_response(*data, 6.7, place)
+        response = fig16_response.read_response(*data, 6.7, place=place)
         found = words(fig16_response.draw(response))
         assert f"mean twist {place}" in found
         assert f"mean deflection {place}" in found

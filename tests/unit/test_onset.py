@@ -5,7 +5,14 @@ import pandas as pd
 import pytest
 
 from equisection.comparison.linear_theory import ONSET_COLUMNS, with_linear_theory
-from equisection.comparison.onset import COLUMNS, onset_bracket, onset_table, refinement_points
+from equisection.comparison.onset import (
+    COLUMNS,
+    onset_bracket,
+    onset_table,
+    refinement_points,
+    with_speeds,
+)
+from equisection.comparison.summary import COLUMNS as SUMMARY_COLUMNS
 from equisection.comparison.summary import summarise
 
 S, L, G, F = "settled", "limit-cycle", "growing", "failed"
@@ -39,6 +46,20 @@ def test_table_of_no_runs_has_its_columns_and_no_lines():
     table = with_linear_theory(onset_table(summary), {}, "consistent")
     assert tuple(table.columns) == (*COLUMNS, *ONSET_COLUMNS)
     assert table.empty
+
+
+def test_speeds_of_the_bracket_have_its_dynamic_pressures():
+    """k* = 8 at 20 m/s is 2 at 40 m/s: a quarter of the k*, four times the dynamic pressure."""
+    rows = [("2d", {"k_star": k, "regime": r}) for k, r in ((2.0, G), (4.5, S), (6.0, S))]
+    rows += [("3d", {"k_star": 2.0, "regime": S})]
+    known = dict.fromkeys(SUMMARY_COLUMNS, math.nan) | {"mean_known": 1}
+    table = onset_table(summarise((model, known | found) for model, found in rows))
+    section, beam = with_speeds(table, 8.0, 20.0).to_dict("records")
+    assert section["k_star_given"] == 8.0
+    assert section["speed_unstable"] == pytest.approx(40.0)
+    assert section["speed_stable"] == pytest.approx(20.0 * 4 / 3)
+    assert beam["speed_stable"] == pytest.approx(40.0)
+    assert math.isnan(beam["speed_unstable"])
 
 
 def test_islands_of_stability_do_not_count():

@@ -46,6 +46,7 @@ def test_whole_polar_is_taken_as_it_is(tmp_path: Path) -> None:
         ("# only this\n\n", r"line 1: the file is empty"),
         ("# c\nincidence_deg,cl,Cd\n", r"line 2: no column cm; found incidence_deg, cl, cd"),
         ("alpha,lift\n", r"line 1: no column incidence_deg, cl, cm, cd; found alpha, lift"),
+        ("incidence_deg;cl;cm;cd\n0;0,1;0;0\n", r"line 1: .*separated by commas, with a point"),
         (HEADER, r"0 points; 4 or more"),
         (HEADER + "0,0,0,0\n1,1,1,1\n2,1,1,1\n", r"line 4: .* 3 points; 4 or more"),
         (HEADER + "#\n" + POINTS + "3,.6,.1,.1\n", r"line 7: .* 3 is below the 4 of line 6"),

@@ -113,6 +113,7 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         folder / "polar_2d.nc",
         resolution="thin",
         incidence_deg=2.5,
+        speed=20.0,
         reduction="consistent",
         output=folder / "onset.csv",
     )

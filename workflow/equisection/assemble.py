@@ -170,7 +170,7 @@ def _factors(
 
 def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> BeamModes:
     """Return the beam's modes, with frequencies that grow as the square root of E."""
-    plate = Plate(**config.beam.model_dump())
+    plate = Plate.from_values(config.beam.model_dump())
     modes = modes_from_dataset(dataset)
     bending = modes.bending(config.structure.bending_modes)
     torsion = modes.torsion(config.structure.torsion_modes)

@@ -112,6 +112,7 @@ rule onset:
         code=code("comparison/onset.py", *LINEAR_THEORY),
         resolution=CONFIG.steady.resolution,
         incidence_deg=CONFIG.flow.incidence_deg,
+        speed=CONFIG.flow.speed,
         reduction=CONFIG.reduction,
     message:
         "onset of the instability"

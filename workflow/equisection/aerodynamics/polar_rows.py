@@ -16,6 +16,8 @@ from equisection.errors import PolarFileError
 
 COLUMNS = ("incidence_deg", "cl", "cm", "cd")
 FEWEST_POINTS = 4
+#: What other programs separate columns by.
+_OTHER_SEPARATORS = set(";\t ")
 #: Largest |c_l| or |c_m| at zero incidence that still counts as round-off of a solver.
 SYMMETRY_TOLERANCE = 1e-4
 
@@ -59,9 +61,12 @@ def _rows(path: Path) -> list[Row]:
     names = [_column(name) for name in _fields(header)]
     missing = [name for name in COLUMNS if name not in names]
     if missing:
+        advice = "others are ignored"
+        if len(names) == 1 and _OTHER_SEPARATORS & set(header):
+            advice = "separated by commas, with a point for decimals"
         raise PolarFileError(
             f"{path}, line {header_line}: no column {', '.join(missing)}; found "
-            f"{', '.join(names)}; wanted {', '.join(COLUMNS)} (others are ignored)"
+            f"{', '.join(names)}; wanted {', '.join(COLUMNS)} ({advice})"
         )
     return [_row(path, line, text, names) for line, text in points]
 
@@ -138,7 +143,7 @@ def _check_half(path: Path, rows: list[Row]) -> None:
             raise PolarFileError(
                 f"{path}, line {row.line}: incidence_deg {row.incidence_deg:g} in the polar of a "
                 "symmetric section, which is given from 0 upwards; delete the negative angles, "
-                "or declare the section not symmetric"
+                "or declare the section not symmetric (embedded.symmetric: false)"
             )
     first = rows[0]
     if first.incidence_deg != 0:
@@ -151,5 +156,5 @@ def _check_half(path: Path, rows: list[Row]) -> None:
             raise PolarFileError(
                 f"{path}, line {first.line}: {name} is {value:g} at 0 deg; that of a symmetric "
                 f"section vanishes there (up to {SYMMETRY_TOLERANCE:g}); correct it, or declare "
-                "the section not symmetric"
+                "the section not symmetric (embedded.symmetric: false)"
             )

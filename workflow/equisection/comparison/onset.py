@@ -21,10 +21,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
 import pandas as pd
 
 #: Columns of :func:`onset_table`, in order.
 COLUMNS = ("model", "k_star_stable", "k_star_unstable", "failed_inside", "stable_below")
+#: Columns that the speed of the beam as given adds.
+SPEED_COLUMNS = ("k_star_given", "speed_stable", "speed_unstable")
 _SIGNIFICANT_DIGITS = 4
 
 
@@ -185,3 +188,26 @@ def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
             }
         )
     return pd.DataFrame(rows, columns=list(COLUMNS))
+
+
+def with_speeds(onset: pd.DataFrame, k_star_given: float, speed: float) -> pd.DataFrame:
+    """Return the brackets with the speeds at which the beam as given has these k*.
+
+    k* is a stiffness over a dynamic pressure, so the beam has the k* of the onset at
+    V sqrt(k*_given/k*). The polar is taken to be the same at that speed, whose Reynolds number is
+    another.
+
+    Parameters
+    ----------
+    onset
+        :func:`onset_table`.
+    k_star_given
+        k* of the beam as given (-), at ``speed``.
+    speed
+        V (m/s).
+    """
+    return onset.assign(
+        k_star_given=k_star_given,
+        speed_stable=speed * np.sqrt(k_star_given / onset["k_star_stable"]),
+        speed_unstable=speed * np.sqrt(k_star_given / onset["k_star_unstable"]),
+    )

@@ -73,6 +73,8 @@ class Here:
 
 _NOT_AMONG = "not among the incidences of this run (steady.incidence_deg)"
 _BEYOND = "beyond the incidences of this run (steady.incidence_deg)"
+#: From this on the second mode has no part in it: what is left of its mean is rounding.
+_NO_PART = 1e6
 _MODAL = (
     "correction: modal, of the loads that the first modes feel, and not of the means that the "
     "paper's factors are of"
@@ -100,6 +102,7 @@ def values_here(run: Run) -> dict[str, list[Here]]:
 
 def _case(config: Config) -> dict[str, float]:
     beam, flow, channel = config.beam, config.flow, config.flow.channel
+    is_plate = beam.cross_section is None
     return {
         "chord c (m)": beam.chord,
         "span L/c": beam.length / beam.chord,
@@ -113,9 +116,9 @@ def _case(config: Config) -> dict[str, float]:
         "density rho (kg/m3)": flow.density,
         "viscosity mu (Pa s)": flow.dynamic_viscosity,
         "sound speed a (m/s)": flow.sound_speed,
-        "Young's modulus E (Pa)": beam.youngs_modulus,
-        "Poisson's ratio nu": beam.poisson_ratio,
-        "density of the plate rho_s (kg/m3)": beam.density,
+        "Young's modulus E (Pa)": beam.youngs_modulus if is_plate else math.nan,
+        "Poisson's ratio nu": beam.poisson_ratio if is_plate else math.nan,
+        "density of the plate rho_s (kg/m3)": beam.density if is_plate else math.nan,
         "Reynolds number": flow.density * flow.speed * beam.chord / flow.dynamic_viscosity,
         "Mach number": flow.speed / flow.sound_speed,
     }
@@ -238,12 +241,16 @@ def _modal_contributions(run: Run) -> dict[str, list[Here]]:
             mean = np.abs(late.mean("time").values)
             note = (
                 f"means over the end of the run at k* = {float(result.attrs['k_star']):g}; a load "
-                f"that is uniform along the span gives {uniform_load_ratio(run, kind):.0f}"
+                f"that is uniform along the span {_of_uniform_load(uniform_load_ratio(run, kind))}"
             )
             value = mean[0] / mean[1:].max() if mean.size > 1 and mean[1:].max() else math.nan
             here = Here(float(value), note)
         found[f"first {kind} mode over the others"] = [here]
     return found
+
+
+def _of_uniform_load(ratio: float) -> str:
+    return f"gives {ratio:.0f}" if not ratio > _NO_PART else "does not move the second"
 
 
 def uniform_load_ratio(run: Run, kind: str) -> float:

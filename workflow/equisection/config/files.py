@@ -10,12 +10,15 @@ from equisection.config.model import Config
 from equisection.config.sections import FLAT_PLATE
 from equisection.errors import ConfigError
 
+#: May be missing where cases are computed: a project need not keep any.
+_USUAL_REUSE = Config.model_fields["reuse"].default
+
 
 def check_files(config: Config, directory: Path | None = None) -> None:
     """Refuse what is named and not there, seen from ``directory`` (by default the working one).
 
-    These are polars, the folder that results come from where none is computed, and the indices of
-    other runs' results. An index of this run is no other's: its rules make it.
+    These are polars, the folder that results come from, and the indices of other runs' results. An
+    index of this run is no other's: its rules make it.
 
     Braces in a path are Snakemake's, which would take what is in them for a wildcard.
 
@@ -36,15 +39,17 @@ def check_files(config: Config, directory: Path | None = None) -> None:
         if not (path == FLAT_PLATE and key != "steady.beam_polar")
         and not _is_file(directory / path)
     ]
-    if not config.compute and not _is_folder(directory / config.reuse):
-        problems.append(
-            Problem(
-                "reuse",
-                config.reuse,
-                f"no such folder, seen from {directory}; allowed is a folder with results where "
-                "compute is false",
+    if config.reuse and not _is_folder(directory / config.reuse):
+        otherwise = 'or "" to compute every case' if config.compute else "where compute is false"
+        if not config.compute or config.reuse != _USUAL_REUSE:
+            problems.append(
+                Problem(
+                    "reuse",
+                    config.reuse,
+                    f"no such folder, seen from {directory}; allowed is a folder with results, "
+                    f"{otherwise}",
+                )
             )
-        )
     own = directory / "results" / config.run
     problems += [
         Problem(

@@ -208,6 +208,22 @@ def _set_in_motion(incidence_deg: float, symmetric: bool, solver: str) -> Iterat
         )
 
 
+@check("steady.incidence_deg", "flow.incidence_deg", "embedded.symmetric", "solver")
+def _polar_on_both_sides(
+    angles: tuple[float, ...], incidence_deg: float, symmetric: bool, solver: str
+) -> Iterator[Problem]:
+    """Refuse a polar without one side: a cambered section twists either way, unmirrored."""
+    if solver != "embedded" or symmetric or not min(angles) <= incidence_deg <= max(angles):
+        return
+    if incidence_deg in (min(angles), max(angles)):
+        yield Problem(
+            "steady.incidence_deg",
+            list(angles),
+            f"allowed are angles on both sides of flow.incidence_deg, {incidence_deg:g} deg, with "
+            "embedded.symmetric: false: such a section may twist either way",
+        )
+
+
 @check("flow.incidence_deg", "steady.incidence_deg")
 def _incidence_within_polar(incidence_deg: float, angles: tuple[float, ...]) -> Iterator[Problem]:
     low, high = min(angles), max(angles)

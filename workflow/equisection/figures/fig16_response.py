@@ -73,6 +73,8 @@ class Response:
         Between what values the section moves, at each k* at which its motion is bounded.
     place
         Where along the beam twist and deflection are, in words.
+    reduction
+        Of models that don't name theirs, ``consistent`` or ``paper``.
     """
 
     summary: pd.DataFrame
@@ -81,6 +83,7 @@ class Response:
     histories: Mapping[str, History] = field(default_factory=dict)
     extents: Sequence[Extent] = ()
     place: str = AT_THE_TIP
+    reduction: str = "consistent"
 
 
 #: Extents of the section that are read and drawn; more would not be told apart in the panel.
@@ -92,7 +95,9 @@ def read_response(
     onset: pd.DataFrame,
     results: Sequence[Path],
     i_star: float,
+    *,
     place: str = AT_THE_TIP,
+    reduction: str = "consistent",
 ) -> Response:
     """Choose the cases and read their histories alone, and the extents of the bounded section."""
     models = list(dict.fromkeys(summary["model"]))
@@ -115,7 +120,7 @@ def read_response(
             apart = -(-len(bounded) // MOST_EXTENTS) or 1
             k_stars = bounded["k_star"].sort_values().iloc[::apart]
             extents = [read_extent(result_at(files, k_star)) for k_star in k_stars]
-    return Response(summary, onset, cases, histories, extents, place)
+    return Response(summary, onset, cases, histories, extents, place, reduction)
 
 
 def draw(response: Response) -> Figure:
@@ -140,7 +145,9 @@ def draw(response: Response) -> Figure:
             else:
                 _history(axes, place, shown[name], response.histories.get(name), LOOKS[model])
     figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
-    add_provenance(figure, *_sources(response))
+    sections = {"2d", "2d-corrected"} & set(models)
+    of_reduction = f"2D: reduction '{response.reduction}'"
+    add_provenance(figure, *_sources(response), *([of_reduction] if sections else []))
     return figure
 
 

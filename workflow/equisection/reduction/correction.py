@@ -38,6 +38,9 @@ from equisection.errors import DivergenceError, ReductionError
 
 Floats = NDArray[np.float64]
 
+#: Incidence (rad) up to which theta_0 stands at the end of a polar.
+_NO_WAY = 1e-9
+
 
 @dataclass(frozen=True)
 class CorrectionFactors:
@@ -237,10 +240,14 @@ def _first_twist(beam: SectionPolar, incidence_rad: float, k_star: float) -> flo
 def _no_equilibrium(beam: SectionPolar, incidence_rad: float, k_star: float) -> ReductionError:
     cubic = beam.moment_cubic
     end = beam.incidence_range[0 if cubic(incidence_rad) < 0 else 1]
-    if float(cubic(end, 1)) >= k_star:  # the gap still widens where the polar ends
+    has_a_way = abs(end - incidence_rad) > _NO_WAY
+    if has_a_way and float(cubic(end, 1)) >= k_star:  # the gap still widens where the polar ends
         return DivergenceError(_diverges(beam, incidence_rad, k_star))
     nothing = _nothing_inside(beam, incidence_rad, k_star)
-    return ReductionError(f"{nothing}: the polar is too short; extend it or raise k*")
+    return ReductionError(
+        f"{nothing}: the polar is too short; give it more incidences (steady.incidence_deg, or the "
+        "file of steady.beam_polar) or raise k*"
+    )
 
 
 def _diverges(beam: SectionPolar, incidence_rad: float, k_star: float) -> str:

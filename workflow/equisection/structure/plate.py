@@ -1,4 +1,4 @@
-"""The flat plate: geometry, material and how its two ends are held.
+"""The beam: a flat plate or a cross-section as given, and how its two ends are held.
 
 Each boundary is a pair of end conditions for bending and one for torsion. A *fork* holds the
 deflection and the twist of a section and leaves its bending slope free, which is what a pinned
@@ -8,8 +8,9 @@ end has to be if the twist is to have any restraint at all.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import Literal, get_args
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from typing import Any, Literal, get_args
 
 from equisection.errors import ConfigError
 
@@ -45,8 +46,40 @@ _TORSION_ENDS: dict[str, tuple[TorsionEnd, TorsionEnd]] = {
 
 
 @dataclass(frozen=True)
+class CrossSection:
+    """What a beam of any constant section, its axes at mid-chord, is to bending and torsion.
+
+    Attributes
+    ----------
+    bending_rigidity : float
+        E I (N m^2), of the deflection across the chord.
+    torsional_rigidity : float
+        G J (N m^2).
+    mass_per_length : float
+        m (kg/m).
+    inertia_per_length : float
+        Polar moment of inertia about mid-chord (kg m^2/m).
+    """
+
+    bending_rigidity: float
+    torsional_rigidity: float
+    mass_per_length: float
+    inertia_per_length: float
+
+    def __post_init__(self) -> None:
+        for number in fields(self):
+            value = getattr(self, number.name)
+            if not (math.isfinite(value) and value > 0.0):
+                raise ConfigError(
+                    f"cross_section.{number.name} is {value}; give a positive number in SI units"
+                )
+
+
+@dataclass(frozen=True)
 class Plate:
-    """A homogeneous flat plate of constant section, in SI units.
+    """A flat plate or another beam of constant section, in SI units.
+
+    It is homogeneous, of a rectangular section, unless ``cross_section`` says what its section is.
 
     Attributes
     ----------
@@ -69,6 +102,9 @@ class Plate:
     root_torsional_stiffness, root_bending_stiffness : float or None
         Stiffness of the root's springs against twist and against bending slope (N m/rad), for
         ``spring-root`` only. None holds that motion rigidly.
+    cross_section : CrossSection or None
+        Rigidities, mass and inertia in the place of those of the rectangle of ``thickness``,
+        ``youngs_modulus``, ``poisson_ratio`` and ``density``.
     """
 
     chord: float
@@ -80,6 +116,13 @@ class Plate:
     boundary: str = "clamped-free"
     root_torsional_stiffness: float | None = None
     root_bending_stiffness: float | None = None
+    cross_section: CrossSection | None = None
+
+    @classmethod
+    def from_values(cls, values: Mapping[str, Any]) -> Plate:
+        """Return the beam of a configuration's section ``beam``, as plain values."""
+        given = values.get("cross_section")
+        return cls(**{**values, "cross_section": given and CrossSection(**given)})
 
     def __post_init__(self) -> None:
         for name in ("chord", "length", "thickness", "youngs_modulus", "density"):
@@ -150,21 +193,29 @@ class Plate:
     @property
     def bending_rigidity(self) -> float:
         """E I (N m^2)."""
+        if self.cross_section is not None:
+            return self.cross_section.bending_rigidity
         return self.youngs_modulus * self.second_moment
 
     @property
     def torsional_rigidity(self) -> float:
         """G J (N m^2)."""
+        if self.cross_section is not None:
+            return self.cross_section.torsional_rigidity
         return self.shear_modulus * self.torsion_constant
 
     @property
     def mass_per_length(self) -> float:
         """rho_s c h (kg/m), Eq. 5."""
+        if self.cross_section is not None:
+            return self.cross_section.mass_per_length
         return self.density * self.chord * self.thickness
 
     @property
     def inertia_per_length(self) -> float:
         """Polar inertia about mid-chord rho_s c^3 h/12 (kg m^2/m), Eq. 5 (h^2 against c^2 left)."""
+        if self.cross_section is not None:
+            return self.cross_section.inertia_per_length
         return self.density * self.chord**3 * self.thickness / 12.0
 
     @property

@@ -42,9 +42,11 @@ def kept_runs(folder: Path) -> pd.DataFrame:
     """Return a line for each unsteady result below a folder that has its case and has not failed.
 
     ``model`` is the name of the folder that a result is in, ``folder`` that of its run, and
-    ``settings`` the words of the solver's settings. ``growth_by_60`` and ``growth_by_100`` are the
-    growth rates (V/c) over the last periods of the first 60 and 100 c/V, or of the whole of a run
-    that ended before: growth changes with time, so runs of different length are compared by these.
+    ``settings`` the words of the solver's settings. ``regime`` and the numbers beside it are judged
+    by the rules of today, whatever those were that a run ended by. ``growth_by_60`` and
+    ``growth_by_100`` are the growth rates (V/c) over the last periods of the first 60 and 100 c/V,
+    or of the whole of a run that ended before: growth changes with time, so runs of different
+    length are compared by these.
     """
     rows = []
     for kept in kept_results(folder):
@@ -57,18 +59,21 @@ def kept_runs(folder: Path) -> pd.DataFrame:
                 "cells": cells_of(str(kept.attributes["solver_description"])),
                 "time_step": kept.case["time_step"],
                 "settings": json.dumps(solver["settings"], sort_keys=True),
-                **_growth(kept),
+                **_verdict(kept),
             }
             rows.append(row)
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     return table.sort_values(["model", "k_star", "cells", "folder"], ignore_index=True)
 
 
-def _growth(kept: Kept) -> dict[str, float]:
-    """Return the growth rates (V/c) that a run shows in its first 60 and 100 c/V."""
+def _verdict(kept: Kept) -> dict[str, Any]:
+    """Return the verdict on a run, and the growth (V/c) that its first 60 and 100 c/V show."""
     case, whole = UnsteadyCase.model_validate(kept.case), tip_motion(read_dataset(kept.path))
+    verdict = judge(case, whole)
+    growth = {end: judge(case, whole.until(end))["growth_rate"] for end in (60, 100)}
     return {
-        f"growth_by_{end}": float(judge(case, whole.until(end))["growth_rate"]) for end in (60, 100)
+        **{name: verdict[name] for name in ("regime", "growth_rate", "twist_amplitude_deg")},
+        **{f"growth_by_{end}": float(rate) for end, rate in growth.items()},
     }
 
 

@@ -4,7 +4,7 @@ Units stand in the description of each key; a name without a unit suffix is SI.
 """
 
 from equisection.config.sections.base import Section
-from equisection.config.sections.beam import FREE_TIP, Beam, Boundary
+from equisection.config.sections.beam import FREE_TIP, Beam, Boundary, CrossSection
 from equisection.config.sections.embedded import FLAT_PLATE, Embedded, Separation
 from equisection.config.sections.flow import Channel, Flow
 from equisection.config.sections.openfoam import OpenFoam
@@ -19,6 +19,7 @@ __all__ = [
     "Beam",
     "Boundary",
     "Channel",
+    "CrossSection",
     "Elements",
     "Embedded",
     "Flow",

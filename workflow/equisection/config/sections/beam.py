@@ -25,8 +25,19 @@ FREE_TIP: frozenset[str] = frozenset({"clamped-free", "spring-root"})
 NOT_OF_SOLID: frozenset[str] = frozenset({"one-fork", "spring-root"})
 
 
+class CrossSection(Section):
+    """What the beam's section is to bending and torsion, about axes at mid-chord."""
+
+    bending_rigidity: Positive = Field(description="E I (N m2) of the deflection across the chord.")
+    torsional_rigidity: Positive = Field(description="G J (N m2).")
+    mass_per_length: Positive = Field(description="Mass m (kg/m).")
+    inertia_per_length: Positive = Field(
+        description="Polar moment of inertia about mid-chord (kg m2/m)."
+    )
+
+
 class Beam(Section):
-    """The flexible beam: a plate of rectangular section, and how it is held."""
+    """The flexible beam, of constant section, and how it is held."""
 
     chord: Positive = Field(0.1, description="Chord c (m).")
     length: Positive = Field(0.37, description="Span L (m), longer than the chord.")
@@ -57,6 +68,13 @@ class Beam(Section):
         description="Stiffness of the root's rotational spring in bending (N m/rad); needed "
         "with `spring-root`, and only there.",
     )
+    cross_section: Annotated[CrossSection | None, NULLABLE] = Field(
+        None,
+        description="Rigidities and masses of a section that is no homogeneous rectangle, such as "
+        "a bridge deck's; all four, in the place of what `thickness`, `youngs_modulus`, "
+        "`poisson_ratio` and `density` make. `thickness` stays the body's in the flow. Needs "
+        "`structure.method` `beam` or `analytic`.",
+    )
 
 
 @check("beam.thickness", "beam.chord")
@@ -86,6 +104,17 @@ def _held_by_the_method(boundary: str, method: str) -> Iterator[Problem]:
             boundary,
             f"allowed with structure.method 'solid' are {allowed}; or give structure.method: beam "
             "or analytic",
+        )
+
+
+@check("beam.cross_section", "structure.method")
+def _section_by_the_method(given: CrossSection | None, method: str) -> Iterator[Problem]:
+    if method == "solid" and given is not None:
+        yield Problem(
+            "structure.method",
+            method,
+            "allowed with beam.cross_section are beam and analytic; 'solid' meshes a homogeneous "
+            "plate",
         )
 
 

@@ -56,7 +56,9 @@ class Embedded(Section):
     )
     symmetric: Truth = Field(
         True,
-        description="Whether the files hold incidences from 0 deg on, of a symmetric section.",
+        description="Whether the section is symmetric: its files hold incidences from 0 deg on "
+        "and are mirrored. With `false` they are taken as they are, and `steady.incidence_deg` "
+        "needs angles on both sides of `flow.incidence_deg`.",
     )
     separation: Separation = Field(Separation(), description="Lags of the separation bubble.")
     identification: Identification = Field(
