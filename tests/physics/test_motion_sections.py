@@ -30,7 +30,7 @@ from equisection.motion.steady_states import (
     least_stable_eigenvalue,
     rigid_state,
 )
-from equisection.signals import assess
+from equisection.signals import Criteria, assess, heave_grows
 from equisection.signals.cycles import find_cycles
 
 POLARS = Path(__file__).parents[2] / "config/polars"
@@ -315,6 +315,67 @@ def test_section_whose_lift_falls_gallops():
         assert (growth > 0) == (regime == "growing")
         assert verdict.regime == regime
         assert math.degrees(verdict.twist_amplitude) < 0.5
+
+
+@pytest.mark.parametrize(
+    ("slope", "inertia", "stiffness_ratio", "k_star"),
+    [
+        (-1.0, 6.67, 0.0085, 40.0),  # so slow that it has not swung when the twist is at rest
+        (-1.0, 6.67, 0.183, 40.0),  # grows by less than a tenth in a period
+        (-1.0, 2.0, 0.183, 40.0),  # still small when the twist is at rest
+        (-3.0, 4.0, 42.0, 6.0),  # faster than the twist
+        (-3.0, 20.0, 0.034, 5.0),  # two swings in all
+    ],
+)
+def test_heave_that_grows_is_told_stable_neither_early_nor_at_the_end(
+    slope, inertia, stiffness_ratio, k_star
+):
+    """Of a section with a linear c_l that falls the eigenvalue at equilibrium knows the truth."""
+    angles = np.radians(np.linspace(-30.0, 30.0, 121))
+    bluff = SectionPolar(angles, np.full(121, 0.1), slope * angles, 0.3 * angles, "bluff")
+    loads = UnsteadyLoads.from_polar(bluff, SeparationLags.none())
+    section = SectionParameters.from_ratios(k_star, inertia, 12.0, stiffness_ratio)
+    unstable = least_stable_eigenvalue(section_system(section, loads, INCIDENCE))[0]
+    assert unstable.real > 0.001
+    history = release_sections(section, loads, INCIDENCE, 400.0)
+    valid = slice(0, int(history.samples[0]))
+    motion = [history.time[valid], history.twist[valid, 0], history.deflection[valid, 0]]
+    natural = math.sqrt(k_star / inertia) / (2 * math.pi)
+    for end in range(50, motion[0].size, 50):
+        so_far = assess(*(values[:end] for values in motion), Criteria(periods=10))
+        assert so_far.regime in {"undecided", "growing"}
+    verdict = assess(*motion, Criteria(periods=10), final=True, natural_frequency=natural)
+    assert verdict.regime == "growing"
+    assert heave_grows(*motion, natural)
+
+
+def test_heave_whose_growth_cannot_be_seen_yet_leaves_the_mean_unknown():
+    """One swing of the heave in all of the run."""
+    angles = np.radians(np.linspace(-30.0, 30.0, 121))
+    bluff = SectionPolar(angles, np.full(121, 0.1), -angles, 0.3 * angles, "bluff")
+    loads = UnsteadyLoads.from_polar(bluff, SeparationLags.none())
+    section = SectionParameters.from_ratios(10.0, 20.0, 12.0, 0.0085)
+    history = release_sections(section, loads, INCIDENCE, 400.0)
+    motion = history.time, history.twist[:, 0], history.deflection[:, 0]
+    verdict = assess(*motion, final=True, natural_frequency=math.sqrt(0.5) / (2 * math.pi))
+    assert verdict.regime == "settled"
+    assert not verdict.mean_known
+    assert "which a longer run would tell" in verdict.reason
+
+
+def test_section_that_came_to_rest_long_ago_has_no_amplitude():
+    """The paper's plate in water: the twist is dead after one swing of the heave."""
+    section = SectionParameters.from_ratios(3.0, 0.2, MASS_RATIO, STIFFNESS_RATIO)
+    system = section_system(section, measured(), INCIDENCE)
+    history = release_sections(section, measured(), INCIDENCE, 400.0)
+    natural = math.sqrt(3.0 / 0.2) / (2 * math.pi)
+    motion = history.time, history.twist[:, 0], history.deflection[:, 0]
+    verdict = assess(*motion, final=True, natural_frequency=natural)
+    states, _ = equilibrium(system)
+    assert verdict.regime == "settled"
+    assert math.degrees(verdict.twist_amplitude) < 1e-3
+    assert verdict.mean_twist == pytest.approx(states[0, 0], rel=1e-3)
+    assert verdict.mean_deflection == pytest.approx(states[0, 2], rel=1e-3)
 
 
 def test_limit_cycles_just_below_the_onset():

@@ -96,7 +96,7 @@ class Criteria(Block):
     history would get another verdict, or get it at another time.
     """
 
-    rules: int = 5
+    rules: int = 6
     settled_amplitude_deg: float
     growing_amplitude_deg: float
     steadiness: float

@@ -110,13 +110,31 @@ def assess(
     if regime == "growing":
         return _with_means(_verdict(seen, regime, reason), window_means(seen))
     average = means(seen)
+    heave = unseen_decay(seen) if final else ""
+    if heave:
+        reason += f"; {heave}, which a longer run would tell"
     if not average.known:
         if not final:
             reason = f"looks {regime} ({reason}), but its mean still drifts"
             regime = "undecided"
         else:
             reason += "; the mean still drifted, so it is no better than the window's average"
-    return _with_means(_verdict(seen, regime, reason), average)
+    known = average.known and not heave
+    return _with_means(_verdict(seen, regime, reason), replace(average, known=known))
+
+
+def heave_grows(
+    time: ArrayLike, twist: ArrayLike, deflection: ArrayLike, natural_frequency: float
+) -> bool:
+    """Tell whether the heave (chords) of a history grows, whatever its twist (rad) does.
+
+    Raises
+    ------
+    ResultFileError
+        A value is not finite or time does not increase.
+    """
+    s, theta, w = checked(time, twist, deflection)
+    return bool(growing_heave(observe(s, theta, w, Criteria(), natural_frequency)))
 
 
 def swings_grow(time: ArrayLike, twist: ArrayLike, bound: float) -> bool:

@@ -119,12 +119,15 @@ class Observation:
 
     @cached_property
     def period(self) -> float:
-        """Period of the twist (c/V): observed, else the hint's, else a guess from the record."""
+        """Period of the twist (c/V): observed, else the hint's, else a guess from the record.
+
+        What a twist did before it came to rest is no period of it.
+        """
         observed = self.cycles.period(max(self.used, 2))
+        if self.natural_frequency > 0.0 and not (self.ringing and math.isfinite(observed)):
+            return 1.0 / self.natural_frequency
         if math.isfinite(observed):
             return observed
-        if self.natural_frequency > 0.0:
-            return 1.0 / self.natural_frequency
         return float(self.time[-1] - self.time[0]) / (2 * self.criteria.periods)
 
     @cached_property

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from equisection.cases import UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady import Regime, UnsteadyResult
-from equisection.signals import Criteria, Verdict, assess, swings_grow
+from equisection.signals import Criteria, Verdict, assess, heave_grows, swings_grow
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -184,7 +184,12 @@ def decided_at(case: UnsteadyCase, tip: Motion) -> float:
 
 
 def _had_grown(case: UnsteadyCase, tip: Motion, verdict: Verdict) -> bool:
-    """Tell whether a motion was beyond the bound, and not by a first swing that may be its last."""
+    """Tell whether a motion was beyond the bound, and not by a first swing that may be its last.
+
+    A heave that grows has no bound.
+    """
+    if heave_grows(tip.time, tip.twist, tip.deflection, pitch_frequency(case)):
+        return verdict.regime == "growing"
     bound = math.radians(case.criteria.growing_amplitude_deg)
     return (
         verdict.regime == "growing"
