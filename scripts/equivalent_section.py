@@ -19,7 +19,7 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
     modes = modes_from_dataset(read_dataset(modes_file))
     count = min(modes.kind.count("bending"), modes.kind.count("torsion"))
     integrals = span_integrals(plate, modes, count)
-    warnings = validity_warnings(integrals)
+    warnings = (*plate.warnings, *validity_warnings(integrals))
     for warning in warnings:
         logging.warning(warning)
     dataset = equivalent_to_dataset(

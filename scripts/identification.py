@@ -43,6 +43,12 @@ def main(
         "lift_lag": round(lags.lift_lag, 3),
     }
     logging.info("lags %s after %d evaluations", values, found.evaluations)
+    if found.untold:
+        logging.warning(
+            "these histories do not tell %s; give others, of larger amplitude or another k*, or no "
+            "lags at all for a section that stays attached",
+            " and ".join(found.untold),
+        )
     write_text(lags_file, yaml.safe_dump({"embedded": {"separation": values}}))
     loads = UnsteadyLoads.from_polar(polar, lags)
     releases = [(FITTED_TO, history) for history in fitted_to]

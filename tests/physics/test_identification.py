@@ -17,6 +17,7 @@ import yaml
 from scipy.optimize import brentq
 
 from equisection.aerodynamics.identification import LoadMisfit, identify_lags, load_misfit
+from equisection.aerodynamics.polar import SectionPolar
 from equisection.aerodynamics.polar_file import read_polar
 from equisection.aerodynamics.reference_history import ReferenceHistory, unexplained_damping
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
@@ -237,6 +238,16 @@ def test_recorded_motion_is_what_the_recorded_moment_does(path):
     growth = unexplained_damping(history, 20.0) / (2 * history.inertia)
     print(path, "growth from unexplained damping", growth)
     assert abs(growth) < 8e-4
+
+
+def test_lags_that_a_history_does_not_tell_are_named(some_release):
+    """A section that stays attached has no bubble whose lag could be found."""
+    attached = SectionPolar.flat_plate(5.0)
+    loads = UnsteadyLoads.from_polar(attached, SeparationLags.none())
+    history = of_the_model(loads, 21.0, some_release)
+    assert identify_lags(attached, [history]).untold == ("relaxation", "delay", "lift_lag")
+    own = of_the_model(LOADS, 8.0, some_release)
+    assert not identify_lags(POLAR, [own]).untold
 
 
 @pytest.mark.parametrize("damping", [0.3, -0.2])

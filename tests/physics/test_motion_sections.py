@@ -378,6 +378,20 @@ def test_section_that_came_to_rest_long_ago_has_no_amplitude():
     assert verdict.mean_deflection == pytest.approx(states[0, 2], rel=1e-3)
 
 
+@pytest.mark.parametrize("shift_deg", [-4.0, -1.0, 3.0])
+def test_stability_does_not_hang_on_where_incidence_is_counted_from(shift_deg):
+    """The same section in the same flow, its incidence read from another chord line."""
+    shift = math.radians(shift_deg)
+    moved = SectionPolar(POLAR.incidence + shift, POLAR.drag, POLAR.lift, POLAR.moment, "moved")
+    sections = plate_sections(np.array([5.0, 8.0, 14.0]))
+    first, second = (
+        least_stable_eigenvalue(section_system(sections, UnsteadyLoads.from_polar(polar), at))
+        for polar, at in ((POLAR, INCIDENCE), (moved, INCIDENCE + shift))
+    )
+    # tables of the polar have their nodes elsewhere
+    np.testing.assert_allclose(second, first, rtol=0, atol=2e-4)
+
+
 def test_limit_cycles_just_below_the_onset():
     """The polar's stall bounds the growth: at k* = 7 a limit cycle of 6.9 deg, steady to 2 %."""
     history = release_sections(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -17,6 +18,16 @@ def test_section_properties_of_the_papers_plate():
     assert PAPER.mass_per_length == pytest.approx(0.472)
     ratio = PAPER.chord**2 * PAPER.mass_per_length / PAPER.inertia_per_length
     assert ratio == pytest.approx(12.0)
+
+
+def test_thick_rectangle_is_warned_of_with_what_a_thin_strip_has_too_much() -> None:
+    """Saint-Venant's J of a 5 : 1 rectangle is 0.291 b^3 a (Timoshenko, Goodier, art. 109)."""
+    thick = replace(PAPER, thickness=0.02)
+    (warning,) = thick.warnings
+    too_large, too_small = (float(number) for number in re.findall(r"([\d.]+) % too", warning))
+    assert too_large == pytest.approx(100 * ((1 / 3) / 0.291 - 1), abs=0.2)
+    assert too_small == pytest.approx(100 * (1 - 1 / 1.04), abs=0.05)
+    assert not PAPER.warnings
 
 
 @pytest.mark.parametrize(

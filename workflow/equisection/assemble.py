@@ -21,7 +21,7 @@ from equisection.cases import (
     UnsteadyCase,
 )
 from equisection.config import Config
-from equisection.errors import DivergenceError, EquisectionError
+from equisection.errors import ConfigError, DivergenceError, EquisectionError
 from equisection.plan import Model
 from equisection.reduction.correction import corrected_equilibrium
 from equisection.reduction.section import EquivalentSection, Reduction
@@ -29,7 +29,11 @@ from equisection.results.correction import factors_from_dataset
 from equisection.results.equivalent import section_from_dataset
 from equisection.results.modes import modes_from_dataset
 from equisection.solvers.protocol import Solver
+from equisection.solvers.verdicts import pitch_frequency
 from equisection.structure.plate import Plate
+
+#: Of the twist, below which its extrema are not where they seem to be.
+FEWEST_SAMPLES_A_PERIOD = 6
 
 
 def steady_case(
@@ -68,6 +72,11 @@ def unsteady_case(
     -----
     A corrected section without a static equilibrium inside the polars is refused: its case says
     why, and the other k* go on. Its result is ``growing`` if it diverges, else ``failed``.
+
+    Raises
+    ------
+    ConfigError
+        The history would be written too seldom to tell an oscillation.
     """
     stiffness_scale = k_star / nominal_k_star(config, data["equivalent"])
     section, beam, refusal, diverges = None, None, "", False
@@ -80,7 +89,7 @@ def unsteady_case(
             refusal = str(error)
             diverges = isinstance(error, DivergenceError)
     unsteady = config.unsteady
-    return UnsteadyCase(
+    case = UnsteadyCase(
         dimension=model.dimension,
         k_star=k_star,
         incidence_deg=config.flow.incidence_deg,
@@ -97,6 +106,19 @@ def unsteady_case(
         refusal=refusal,
         diverges=diverges,
     )
+    _require_samples(case)
+    return case
+
+
+def _require_samples(case: UnsteadyCase) -> None:
+    """Refuse a history without enough samples in a period of the pitch, which looks at rest."""
+    most = 1.0 / (FEWEST_SAMPLES_A_PERIOD * pitch_frequency(case))
+    if case.output_interval > most:
+        raise ConfigError(
+            f"config: unsteady.output_interval: {case.output_interval:g}: allowed is up to "
+            f"{most:.2g} c/V at k* = {case.k_star:g}, {FEWEST_SAMPLES_A_PERIOD} samples a period "
+            "of the pitch; or leave out the stiffest k*"
+        )
 
 
 def _geometry(config: Config) -> Geometry:

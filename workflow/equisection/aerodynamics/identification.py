@@ -35,6 +35,10 @@ FIRST_GUESS = (2.0, 1.0, 0.5)
 BOUNDS = ((0.05, 0.0, 0.02), (40.0, 20.0, 5.0))
 """Least and greatest tau_1, tau_2, tau_3."""
 
+#: Relative distance from a bound that is none, and the least root mean square, over the standard
+#: deviation of the loads, that a lag changes them by.
+_AT_BOUND, _LEAST_EFFECT = 1e-3, 0.01
+
 
 @dataclass(frozen=True)
 class LoadMisfit:
@@ -59,12 +63,15 @@ class IdentifiedLags:
     """Outcome of an identification.
 
     ``lags`` are the values, ``misfits`` how the model does with them, one a history, and
-    ``evaluations`` the number of evaluations that the search took.
+    ``evaluations`` the number of evaluations that the search took. ``untold`` are the names of
+    lags that the histories don't tell: they ended at a bound of the search, or change the loads by
+    next to nothing.
     """
 
     lags: SeparationLags
     misfits: tuple[LoadMisfit, ...]
     evaluations: int
+    untold: tuple[str, ...] = ()
 
 
 def identify_lags(
@@ -94,7 +101,17 @@ def identify_lags(
     lags = SeparationLags(relaxation, delay, lift_lag, provenance=sources)
     loads = UnsteadyLoads(branches, lags)
     misfits = tuple(load_misfit(history, loads, start) for history in histories)
-    return IdentifiedLags(lags, misfits, int(found.nfev))
+    return IdentifiedLags(lags, misfits, int(found.nfev), _untold(found.x, found.jac))
+
+
+def _untold(values: Floats, jacobian: Floats) -> tuple[str, ...]:
+    """Return the names of the lags at a bound, or by whose own size the loads hardly change."""
+    least, greatest = np.array(BOUNDS)
+    at_bound = (values < (1 + _AT_BOUND) * least) | (values > (1 - _AT_BOUND) * greatest)
+    effect = np.abs(values) * np.linalg.norm(jacobian, axis=0)
+    names = ("relaxation", "delay", "lift_lag")
+    unknown = at_bound | (effect < _LEAST_EFFECT)
+    return tuple(name for name, is_unknown in zip(names, unknown, strict=True) if is_unknown)
 
 
 def load_misfit(

@@ -2,7 +2,7 @@
 
 Branches
     The *attached* branch is linear, c_l = a_l alpha and c_m = a_m alpha, with the slopes that
-    the polar has at zero incidence. What the polar lacks of it is the *deficit* of the bubble,
+    the polar has at zero lift. What the polar lacks of it is the *deficit* of the bubble,
 
         Delta_l(alpha) = a_l alpha - c_l(alpha),    Delta_m(alpha) = a_m alpha - c_m(alpha),
 
@@ -33,7 +33,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import SectionPolar, is_nil
 
 Floats = NDArray[np.float64]
 
@@ -92,8 +92,12 @@ class Branches:
 
     @classmethod
     def from_polar(cls, polar: SectionPolar) -> Branches:
-        """Attached branch with the slopes that the polar has at zero incidence."""
-        return cls(polar, polar.lift_slope(0.0), polar.moment_slope(0.0))
+        """Attached branch with the slopes that the polar has at zero lift.
+
+        They do not depend on where incidence is counted from.
+        """
+        alpha = _zero_lift(polar)
+        return cls(polar, polar.lift_slope(alpha), polar.moment_slope(alpha))
 
     def lift_deficit(self, alpha: Floats) -> Floats:
         """Delta_l at ``alpha`` (rad, any shape); NaN where the polar has no value."""
@@ -102,6 +106,22 @@ class Branches:
     def moment_deficit(self, alpha: Floats) -> Floats:
         """Delta_m at ``alpha`` (rad, any shape); NaN where the polar has no value."""
         return self.moment_slope * alpha - self.polar.moment_coefficient(alpha)
+
+
+def _zero_lift(polar: SectionPolar) -> float:
+    """Return the incidence (rad) of zero lift, of several that nearest to 0 at which it rises.
+
+    That of the least lift, up or down, where the polar does not come to zero.
+    """
+    if polar.covers(0.0) and is_nil(float(polar.lift_cubic(0.0)), polar.lift):
+        return 0.0
+    zeros = np.asarray(polar.lift_cubic.roots(extrapolate=False), dtype=np.float64)
+    zeros = zeros[np.isfinite(zeros)]
+    if not zeros.size:
+        return float(polar.incidence[np.abs(polar.lift).argmin()])
+    rising = zeros[polar.lift_cubic(zeros, 1) > 0.0]
+    candidates = rising if rising.size else zeros
+    return float(candidates[np.abs(candidates).argmin()])
 
 
 IDENTIFIED_LAGS = SeparationLags(

@@ -67,7 +67,7 @@ class UnsteadyLoads:
     def from_polar(
         cls, polar: SectionPolar, lags: SeparationLags = IDENTIFIED_LAGS
     ) -> UnsteadyLoads:
-        """Take the polar's own slopes at zero incidence as the attached branch."""
+        """Take the polar's own slopes at zero lift as the attached branch."""
         return cls(Branches.from_polar(polar), lags)
 
 

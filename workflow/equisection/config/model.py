@@ -28,6 +28,9 @@ from equisection.config.values import EMPTY, Name
 
 #: The polar of the paper's rigid plate, of this L/c, h/c, Reynolds number and channel alone.
 PAPER_BEAM_POLAR = Path("config/polars/paper_plate_3d.csv")
+#: Polar of the paper's section, and how many times its h/c another may have that it serves for.
+PAPER_POLAR = Path("config/polars/plate_2d_11136.csv")
+_LIKE_THICKNESS = 1.25
 #: Relative difference in these up to which it is the same plate.
 _SAME_POLAR = 0.01
 
@@ -194,6 +197,24 @@ def _resolutions_exist(
             yield Problem(
                 key, name, f"allowed is a name in {key_of_names}: {', '.join(sorted(there))}"
             )
+
+
+@check("embedded.polars", "steady.resolution", "beam.thickness", "beam.chord", "solver")
+def _polar_of_this_section(
+    polars: dict[str, str], resolution: str, thickness: float, chord: float, solver: str
+) -> Iterator[Problem]:
+    """Refuse the polar of the paper's plate for a section that is much thicker."""
+    polar = polars.get(resolution, "")
+    if solver != "embedded" or Path(os.path.normpath(polar)).parts[-3:] != PAPER_POLAR.parts:
+        return
+    ratio, paper = thickness / chord, Beam().thickness / Beam().chord
+    if ratio > _LIKE_THICKNESS * paper:
+        yield Problem(
+            f"embedded.polars.{resolution}",
+            polar,
+            f"allowed is the polar of this section, of h/c {_short(ratio)}, or flat-plate, of a "
+            f"thin one; this file is of a sharp-edged plate of h/c {_short(paper)}",
+        )
 
 
 @check("flow.incidence_deg", "embedded.symmetric", "solver")

@@ -41,7 +41,7 @@ class Adapter:
     """The embedded solver on one section polar; fulfils the solver protocol."""
 
     name = "embedded"
-    version = "3"
+    version = "4"
     provides = frozenset({Capability.BATCH})
 
     def __init__(self, polar: SectionPolar, strips: int, lags: SeparationLags) -> None:

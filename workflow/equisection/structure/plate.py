@@ -22,6 +22,9 @@ Boundary = Literal[
     "one-fork",
     "spring-root",
 ]
+#: h/c up to which a rectangle is a thin strip: its G J is then 6 % too large.
+_THIN = 0.1
+
 BOUNDARIES: tuple[Boundary, ...] = get_args(Boundary)
 
 BendingEnd = Literal["clamped", "pinned", "free", "spring"]
@@ -189,6 +192,19 @@ class Plate:
         ratio = self.thickness / self.chord
         total = sum(math.tanh(n * math.pi / (2.0 * ratio)) / n**5 for n in range(1, 40, 2))
         return 1.0 - 192.0 / math.pi**5 * ratio * total
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Say what a thick rectangle is not; empty for a thin one or a section as given."""
+        ratio = self.thickness / self.chord
+        if self.cross_section is not None or ratio <= _THIN:
+            return ()
+        return (
+            f"h/c = {ratio:.3g} is above {_THIN:g}: of a thin strip, as which the plate is taken, "
+            f"G J is {100 * (1 / self.torsion_series_factor - 1):.1f} % too large and the moment "
+            f"of inertia {100 * (1 - 1 / (1 + ratio**2)):.1f} % too small; give the section as it "
+            "is (beam.cross_section)",
+        )
 
     @property
     def bending_rigidity(self) -> float:
