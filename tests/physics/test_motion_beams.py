@@ -160,6 +160,21 @@ def test_the_rigid_beam_carries_the_load_of_the_lifting_line():
     )
 
 
+def test_rigid_beam_beyond_a_drop_of_the_lift_carries_the_load_of_the_lifting_line():
+    """At 7 deg, where whole steps of Newton's method jump to and fro over the drop at 5 deg."""
+    degrees = np.array([0.0, 3.0, 5.0, 6.0, 8.0, 10.0, 16.0])
+    angles, lift = np.radians(degrees), np.array([0.0, 0.45, 0.75, 0.55, 0.575, 0.6, 0.6])
+    drop = SectionPolar(angles, 0.05 + 0 * angles, lift, 0.2 * angles, "drop").mirrored()
+    strips = cosine_strips(20)
+    line = LiftingLine(drop, strips, induction_matrix(strips, 0.1, 0.37, 0.4, 0.4))
+    incidence = math.radians(7.0)
+    system = beam_system(plates(21.0, strips=20), UnsteadyLoads.from_polar(drop), incidence)
+    states, _ = rigid_state(system)
+    assert strips.weights @ states[0, system.layout.lag(3)] == pytest.approx(
+        line.solve(incidence).lift, rel=1e-9
+    )
+
+
 def test_static_equilibrium_carries_the_load_of_the_lifting_line():
     parameters = plates(np.array([6.44, 21.0]))
     loads = UnsteadyLoads.from_polar(POLAR)

@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 NEWTON_STEPS = 50
 NEWTON_TOLERANCE = 1e-12
 """Largest change of x (rad) in the last step of Newton's method."""
+SHORTEST_STEP = 1e-3
+"""Part of a step of Newton's method, where whole steps find nothing."""
 
 
 def rigid_state(system: StripSystem) -> tuple[Floats, Floats]:
@@ -50,24 +52,51 @@ def _steady(system: StripSystem, free: NDArray[np.intp]) -> tuple[Floats, Floats
     response = -np.linalg.solve(matrix_a, others)
     probe = system.probe[:, :, n:] + system.probe[:, :, free] @ response
     gain, offset = probe[:, :, :-1], probe[:, :, -1]
-    x = offset.copy() if not np.any(gain) else np.zeros_like(offset)
-    for _ in range(NEWTON_STEPS):
-        u = system.deficits(x)
-        residual = x - np.einsum("nij,nj->ni", gain, u) - offset
-        jacobian = np.eye(x.shape[1]) - gain @ system.deficit_slopes(x)
-        sane = np.isfinite(residual).all(axis=1) & np.isfinite(jacobian).all(axis=(1, 2))
-        change = np.full_like(x, np.nan)
-        change[sane] = np.linalg.solve(jacobian[sane], residual[sane][:, :, None])[:, :, 0]
-        x = x - change
-        if not np.any(np.abs(change) > NEWTON_TOLERANCE):
-            break
-    else:
-        x[np.any(np.abs(change) > NEWTON_TOLERANCE, axis=1)] = np.nan
+    start = offset.copy() if not np.any(gain) else np.zeros_like(offset)
+    x = _newton(system, gain, offset, start)
+    lost = np.asarray(np.isnan(x).any(axis=1))
+    if lost.any():
+        some = gain[lost], offset[lost], start[lost]
+        x[lost] = _newton(system.of(lost), *some, shortest=SHORTEST_STEP)
     u = system.deficits(x)
     states = np.zeros((x.shape[0], n))
     states[:, free] = np.einsum("nij,nj->ni", response[:, :, :-1], u) + response[:, :, -1]
     states[np.isnan(u).any(axis=1)] = np.nan
     return states, u
+
+
+def _newton(
+    system: StripSystem, gain: Floats, offset: Floats, start: Floats, *, shortest: float = 1.0
+) -> Floats:
+    """Bubble incidences x (N, S) with x = gain u(x) + offset; NaN where none is found.
+
+    Steps are shortened as long as they don't bring x nearer, down to ``shortest`` of their length.
+    """
+
+    def residual_of(x: Floats) -> Floats:
+        u = system.deficits(x)
+        return np.asarray(x - np.einsum("nij,nj->ni", gain, u) - offset, dtype=np.float64)
+
+    x, residual = start, residual_of(start)
+    for _ in range(NEWTON_STEPS):
+        jacobian = np.eye(x.shape[1]) - gain @ system.deficit_slopes(x)
+        sane = np.isfinite(residual).all(axis=1) & np.isfinite(jacobian).all(axis=(1, 2))
+        change = np.full_like(x, np.nan)
+        change[sane] = np.linalg.solve(jacobian[sane], residual[sane][:, :, None])[:, :, 0]
+        fraction = np.ones((x.shape[0], 1))
+        trial = residual_of(x - change)
+        while fraction.min() > shortest:
+            nearer = np.linalg.norm(trial, axis=1) < np.linalg.norm(residual, axis=1)
+            far = sane & ~nearer & (fraction[:, 0] > shortest)
+            if not far.any():
+                break
+            fraction[far] *= 0.5
+            trial = residual_of(x - fraction * change)
+        x, residual = x - fraction * change, trial
+        if not np.any(np.abs(change) > NEWTON_TOLERANCE):
+            return x
+    x[np.any(np.abs(change) > NEWTON_TOLERANCE, axis=1)] = np.nan
+    return x
 
 
 def jacobian(system: StripSystem, states: Floats, deficits: Floats) -> Floats:

@@ -151,6 +151,12 @@ def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> Uns
 def _failure(failures: Iterable[Failure], lane: int) -> str:
     """Return why a lane ended early, or nothing."""
     for failure in failures:
+        if failure.lane == lane and failure.time == 0:
+            return (
+                "no steady flow to be released from was found: the incidence leaves the section "
+                "polar, or alternates from strip to strip where the lift falls too steeply; extend "
+                "the polar or take fewer embedded.strips"
+            )
         if failure.lane == lane:
             return (
                 f"at {failure.time:.4g} c/V an incidence of "
