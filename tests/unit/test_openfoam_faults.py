@@ -3,6 +3,7 @@
 OpenFOAM is a stand-in here, whose faults come on demand.
 """
 
+import contextlib
 import os
 import random
 import re
@@ -246,8 +247,9 @@ def _program_of(job: subprocess.Popen[str]) -> int:
     end = time.monotonic() + 120
     while time.monotonic() < end:
         for child in psutil.Process(job.pid).children():
-            if child.status() != psutil.STATUS_ZOMBIE and "pimpleFoam" in child.cmdline():
-                return child.pid
+            with contextlib.suppress(psutil.Error):  # one that ends just now has no command line
+                if "pimpleFoam" in child.cmdline():
+                    return child.pid
         time.sleep(0.01)
     raise AssertionError("no pimpleFoam was started")
 
