@@ -8,13 +8,19 @@ from pathlib import Path
 import psutil
 
 
-def process_in(folder: Path) -> psutil.Process:
-    """Return the process that runs in a folder, for instance the solver of a case."""
-    for process in psutil.process_iter():
-        with contextlib.suppress(psutil.Error):
-            if Path(process.cwd()) == folder:
-                return process
-    raise AssertionError(f"nothing runs in {folder}")
+def process_in(folder: Path, seconds: float = 30.0) -> psutil.Process:
+    """Return the process that runs in a folder, for instance the solver of a case, once it does.
+
+    Its log may be there before it is.
+    """
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        for process in psutil.process_iter():
+            with contextlib.suppress(psutil.Error):
+                if Path(process.cwd()) == folder:
+                    return process
+        time.sleep(0.02)
+    raise AssertionError(f"nothing runs in {folder} within {seconds:g} s")
 
 
 def wait_until(condition: Callable[[], object], seconds: float) -> None:
