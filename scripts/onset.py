@@ -4,7 +4,12 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.comparison.linear_theory import linear_onset, moment_slope, with_linear_theory
+from equisection.comparison.linear_theory import (
+    linear_onset,
+    moment_slope,
+    section_of,
+    with_linear_theory,
+)
 from equisection.comparison.onset import onset_table, with_speeds
 from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
@@ -23,11 +28,11 @@ def main(
     output: Path,
 ) -> None:
     """Bracket the onset of each model, in k* and speed, and put linear theory's beside."""
-    section = read_dataset(equivalent)
+    sections = read_dataset(equivalent)
     slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg)
-    linear = linear_onset(section, slope)
+    linear = linear_onset(sections, slope)
     table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
-    table = with_speeds(table, float(section["k_star"].sel(reduction="paper")), speed)
+    table = with_speeds(table, section_of(sections, reduction).k_star, speed)
     with written_whole(output) as aside:
         table.to_csv(aside, index=False, float_format="%.6g")
 

@@ -389,7 +389,7 @@ def test_stability_does_not_hang_on_where_incidence_is_counted_from(shift_deg):
         for polar, at in ((POLAR, INCIDENCE), (moved, INCIDENCE + shift))
     )
     # tables of the polar have their nodes elsewhere
-    np.testing.assert_allclose(second, first, rtol=0, atol=2e-4)
+    np.testing.assert_allclose(second, first, rtol=0, atol=2e-6)
 
 
 def test_limit_cycles_just_below_the_onset():

@@ -26,8 +26,6 @@ import pandas as pd
 
 #: Columns of :func:`onset_table`, in order.
 COLUMNS = ("model", "k_star_stable", "k_star_unstable", "failed_inside", "stable_below")
-#: Columns that the speed of the beam as given adds.
-SPEED_COLUMNS = ("k_star_given", "speed_stable", "speed_unstable")
 _SIGNIFICANT_DIGITS = 4
 
 

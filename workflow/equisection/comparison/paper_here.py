@@ -250,7 +250,7 @@ def _modal_contributions(run: Run) -> dict[str, list[Here]]:
 
 
 def _of_uniform_load(ratio: float) -> str:
-    return f"gives {ratio:.0f}" if not ratio > _NO_PART else "does not move the second"
+    return "does not move the second" if ratio > _NO_PART else f"gives {ratio:.0f}"
 
 
 def uniform_load_ratio(run: Run, kind: str) -> float:

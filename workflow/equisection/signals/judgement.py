@@ -70,7 +70,7 @@ def assess(
     Parameters
     ----------
     time : array_like, shape (n,)
-        Convective time s = t V/c, increasing; 12 or more samples a period of the twist.
+        Convective time s = t V/c, increasing; six or more samples a period of the twist.
     twist : array_like, shape (n,)
         Twist (rad).
     deflection : array_like, shape (n,)
