@@ -44,7 +44,7 @@ paper: $(ENV)/run
 		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml config/paper/reductions-modal.yaml \
 		--config $(PAPER_FROM_$(FROM)) -- $(PAPER_REDUCTIONS)-modal/figures/section-and-beam.png
-	$(BIN)/python -m equisection.comparison.side_by_side
+	$(BIN)/python -m equisection.paper.claims_page
 	cp results/paper-figures/figures/fig16-response.png docs/
 	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Figs. 9 to 12 in $(PAPER_PLATE)/figures/" \
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection import plan
-from equisection.comparison.bubble import bubble_table
+from equisection.analysis.bubble import bubble_table
 from equisection.files import written_whole
-from equisection.results.index import read_index, result_file
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
 
 
 def main(index: Path, cases: Sequence[str], output: Path) -> None:

@@ -5,7 +5,7 @@ from typing import Any
 
 from equisection.files import write_text
 from equisection.provenance import config_hash, config_text
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(config: dict[str, Any], output: Path) -> None:

@@ -3,11 +3,11 @@
 from pathlib import Path
 
 from equisection.reduction.correction import CorrectionFactors
-from equisection.results.correction import factors_to_dataset
-from equisection.results.modes import modes_from_dataset
+from equisection.results.correction_dataset import factors_to_dataset
+from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.polar import polar_at
-from equisection.script import logged
+from equisection.results.polar_dataset import polar_at
+from equisection.run.script import logged
 
 
 def main(

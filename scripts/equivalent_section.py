@@ -3,13 +3,13 @@
 import logging
 from pathlib import Path
 
-from equisection.config.sections import Beam, Flow
+from equisection.config.groups import Beam, Flow
 from equisection.reduction.integrals import span_integrals
-from equisection.reduction.section import REDUCTIONS, reduce_beam, validity_warnings
-from equisection.results.equivalent import equivalent_to_dataset
-from equisection.results.modes import modes_from_dataset
+from equisection.reduction.reduce import REDUCTIONS, reduce_beam, validity_warnings
+from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.script import logged
+from equisection.results.section_dataset import equivalent_to_dataset
+from equisection.run.script import logged
 from equisection.structure.plate import Plate
 
 

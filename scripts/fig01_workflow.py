@@ -10,7 +10,7 @@ from equisection.figures.rule_graph import parse_dot, read_rule_texts
 from equisection.figures.save import save_figure
 from equisection.figures.snakemake_query import ask_rule_graph
 from equisection.figures.style import drawing_style
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(

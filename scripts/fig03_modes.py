@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.figures.fig03_modes import analytic_shapes, draw
+from equisection.figures.mode_shapes import analytic_shapes, draw
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 from equisection.structure.plate import Plate
 
 

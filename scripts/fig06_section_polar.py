@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.figures.fig06_section_polar import draw
 from equisection.figures.save import save_figure
+from equisection.figures.section_polar import draw
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(polar_2d: Path, grid_study: Sequence[Path], style: Path, outputs: Sequence[Path]) -> None:

@@ -5,15 +5,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection import plan
-from equisection.comparison.paper_values import BUBBLE_2D
-from equisection.figures.fig07_surface import draw, incidences_shown
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
-from equisection.results.index import result_file
+from equisection.figures.surface_loads import draw, incidences_shown
+from equisection.paper.printed_values import BUBBLE_2D
 from equisection.results.netcdf import read_dataset
 from equisection.results.surface import surface_from_dataset
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import result_file
+from equisection.study import plan
 
 
 def main(

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.figures.fig08_courant_number import draw
+from equisection.figures.courant_number import draw
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(section_mesh: Path, style: Path, outputs: Sequence[Path]) -> None:

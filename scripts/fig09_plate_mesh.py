@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.config.sections import Structure
-from equisection.figures.fig09_plate_mesh import draw
+from equisection.config.groups import Structure
+from equisection.figures.mesh_of_beam import draw
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(plate_mesh: Path, structure: Structure, style: Path, outputs: Sequence[Path]) -> None:

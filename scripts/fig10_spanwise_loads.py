@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.figures.fig10_spanwise_loads import draw
 from equisection.figures.save import save_figure
+from equisection.figures.spanwise_loads import draw
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(polar_3d: Path, resolution: str, style: Path, outputs: Sequence[Path]) -> None:

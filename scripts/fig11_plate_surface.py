@@ -3,16 +3,16 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection import plan
-from equisection.figures.fig11_plate_surface import WANTED_DEG, ShownSurface, draw
 from equisection.figures.incidences import nearest_incidences
-from equisection.figures.provenance import solver_of
+from equisection.figures.origin import solver_of
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
-from equisection.results.index import read_index, result_file
+from equisection.figures.surface_of_beam import WANTED_DEG, ShownSurface, draw
 from equisection.results.netcdf import read_dataset
 from equisection.results.plate_surface import plate_surface_from_dataset
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
 
 
 def main(index: Path, resolution: str, style: Path, outputs: Sequence[Path]) -> None:

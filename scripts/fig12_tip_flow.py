@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection import plan
-from equisection.figures.fig12_tip_flow import K_STAR, Column, column_of, draw
+from equisection.figures.flow_at_tip import K_STAR, Column, column_of, draw
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.failures import failure_of
-from equisection.results.index import read_index, result_file
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
 
 
 def main(

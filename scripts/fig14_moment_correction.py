@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.figures.correction import SteadyData
-from equisection.figures.fig14_moment_correction import draw
+from equisection.figures.load_correction import SteadyData
+from equisection.figures.moment_correction import draw
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(

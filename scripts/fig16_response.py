@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.config.sections.beam import FREE_TIP
-from equisection.figures.fig16_response import AT_THE_TIP, WHERE_LARGEST, draw, read_response
+from equisection.config.groups.beam import FREE_TIP
+from equisection.figures.response import AT_THE_TIP, WHERE_LARGEST, draw, read_response
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
-from equisection.results.index import result_files
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import result_files
 
 
 def main(

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.figures.fig17_hysteresis import draw, read_loops
+from equisection.figures.hysteresis import draw, read_loops
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
-from equisection.results.index import result_files
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import result_files
 
 
 def main(

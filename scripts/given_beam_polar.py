@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from equisection.aerodynamics.polar_file import read_polar
+from equisection.io.polar_file import read_polar
 from equisection.results.netcdf import write_dataset
-from equisection.results.polar import given_polar
-from equisection.script import logged
+from equisection.results.polar_dataset import given_polar
+from equisection.run.script import logged
 
 
 def main(polar: Path, resolution: str, output: Path) -> None:

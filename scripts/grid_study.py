@@ -3,14 +3,14 @@
 from pathlib import Path
 from typing import Any, cast
 
-from equisection import plan
-from equisection.comparison.grid_study import grid_study
+from equisection.analysis.grid_study import grid_study
 from equisection.config import load_config
 from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 from equisection.solvers.protocol import MeshingSolver
 from equisection.solvers.registry import solver_from_config
+from equisection.study import plan
 
 
 def main(raw_config: dict[str, Any], polar_2d: Path, output: Path) -> None:

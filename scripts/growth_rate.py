@@ -8,7 +8,7 @@ import pandas as pd
 from equisection.figures.growth_rate import draw
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(

@@ -9,15 +9,15 @@ import yaml
 
 from equisection.aerodynamics.identification import identify_lags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
-from equisection.config.sections import Embedded
-from equisection.figures.identification import draw
+from equisection.config.groups import Embedded
+from equisection.figures.identified_lags import draw
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
 from equisection.files import write_text, written_whole
-from equisection.motion.judgement import judge_release, judgement_table
-from equisection.results.reference_history import read_reference_history
-from equisection.script import logged
-from equisection.solvers.embedded import read_section_polar
+from equisection.motion.release_judgement import judge_release, judgement_table
+from equisection.results.recorded_history import read_reference_history
+from equisection.run.script import logged
+from equisection.solvers.embedded.adapter import read_section_polar
 
 FITTED_TO, JUDGED_ON = "fitted to", "judged on"
 

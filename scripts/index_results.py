@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from equisection.cases import case_hash, read_cases
-from equisection.results.index import write_index
 from equisection.results.netcdf import read_attributes
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import write_index
 
 
 def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:

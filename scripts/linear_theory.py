@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.comparison.linear_theory import linear_theory
+from equisection.analysis.linear_theory import linear_theory
 from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(equivalent: Path, k_star: Sequence[float], output: Path) -> None:

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from equisection.config.sections import Beam, Structure
-from equisection.results.modes import mesh_study_to_dataset
+from equisection.config.groups import Beam, Structure
+from equisection.results.modes_dataset import mesh_study_to_dataset
 from equisection.results.netcdf import write_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 from equisection.structure.modes import compute_modes, mesh_study
 from equisection.structure.plate import Plate
 

@@ -4,9 +4,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.comparison.missing import missing_table
+from equisection.analysis.missing import missing_table
 from equisection.files import written_whole
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(indices: Sequence[Path], output: Path) -> None:

@@ -3,10 +3,10 @@
 import logging
 from pathlib import Path
 
-from equisection.config.sections import Beam, Structure
-from equisection.results.modes import modes_to_dataset
+from equisection.config.groups import Beam, Structure
+from equisection.results.modes_dataset import modes_to_dataset
 from equisection.results.netcdf import write_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import modes_of_kinds
 from equisection.structure.plate import Plate

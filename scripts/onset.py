@@ -4,16 +4,16 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.comparison.linear_theory import (
+from equisection.analysis.linear_theory import (
     linear_onset,
     moment_slope,
     section_of,
     with_linear_theory,
 )
-from equisection.comparison.onset import onset_table, with_speeds
+from equisection.analysis.onset import onset_table, with_speeds
 from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(

@@ -5,15 +5,15 @@ from typing import Any
 
 import pandas as pd
 
-from equisection import plan
-from equisection.comparison.paper import paper_table
-from equisection.comparison.paper_here import Run
-from equisection.comparison.tables import table_2
 from equisection.config import load_config
 from equisection.files import written_whole
-from equisection.results.index import read_index, result_file
+from equisection.paper.comparison import paper_table
+from equisection.paper.quantities import Run
+from equisection.paper.tables import table_2
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
 
 
 def main(

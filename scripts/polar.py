@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection import plan
-from equisection.results.index import read_index, result_file
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.polar import gather_polar
-from equisection.script import logged
+from equisection.results.polar_dataset import gather_polar
+from equisection.run.script import logged
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
 
 
 def main(index: Path, cases: Sequence[str], output: Path) -> None:

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection import plan
-from equisection.comparison.onset import bracket_of, refinement_points
-from equisection.comparison.summary import summarise
-from equisection.results.index import read_index
-from equisection.script import logged
+from equisection.analysis.onset import bracket_of, refinement_points
+from equisection.analysis.summary import summarise
+from equisection.run.script import logged
+from equisection.store.index import read_index
+from equisection.study import plan
 
 
 def main(indices: Sequence[Path], tolerance: float, points: int, output: Path) -> None:

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-from equisection.comparison.tables import table_1
 from equisection.files import written_whole
+from equisection.paper.tables import table_1
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(polar_3d: Path, is_paper_case: bool, output: Path) -> None:

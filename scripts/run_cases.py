@@ -6,11 +6,11 @@ from pathlib import Path
 
 from equisection.cases import read_cases
 from equisection.results.failures import warning_of
-from equisection.results.index import write_index
-from equisection.script import logged
-from equisection.solvers.job import run_cases
-from equisection.solvers.kept_alone import answer_from_kept
+from equisection.run.script import logged
 from equisection.solvers.protocol import MPIRUN, ONE_THREAD, Allocation
+from equisection.store.index import write_index
+from equisection.store.job import run_cases
+from equisection.store.kept_alone import answer_from_kept
 
 
 def main(

@@ -5,12 +5,12 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.comparison.section_and_beam import deviations
+from equisection.analysis.section_and_beam import deviations
 from equisection.figures.save import save_figure
-from equisection.figures.section_and_beam import draw
+from equisection.figures.section_against_beam import draw
 from equisection.figures.style import drawing_style
 from equisection.files import written_whole
-from equisection.script import logged
+from equisection.run.script import logged
 
 
 def main(summary: Path, *, style: Path, output: Path, figures: Sequence[Path]) -> None:

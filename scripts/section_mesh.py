@@ -6,13 +6,13 @@ from typing import cast
 
 from equisection.cases import SteadyCase, canonical, case_hash, read_cases
 from equisection.files import written_whole
-from equisection.results.kept import SECTION_MESH, kept_mesh
 from equisection.results.netcdf import write_dataset
 from equisection.results.section_mesh import no_mesh
-from equisection.script import logged
-from equisection.solvers.ownership import claimed
+from equisection.run.script import logged
 from equisection.solvers.protocol import MeshingSolver
 from equisection.solvers.registry import solver_from_case
+from equisection.store.kept import SECTION_MESH, kept_mesh
+from equisection.store.lock import claimed
 
 
 def main(cases: Path, time_step: float, store: Path, output: Path) -> None:

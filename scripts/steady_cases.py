@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from equisection import plan
-from equisection.assemble import steady_case
 from equisection.cases import write_cases
 from equisection.config import load_config
-from equisection.script import logged
+from equisection.run.script import logged
 from equisection.solvers.registry import solver_from_config
+from equisection.study import plan
+from equisection.study.assemble import steady_case
 
 
 def main(raw_config: dict[str, Any], dimension: str, names: Sequence[str], output: Path) -> None:

@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.comparison.summary import summarise
+from equisection.analysis.summary import summarise
 from equisection.files import written_whole
-from equisection.results.index import read_index
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import read_index
 
 
 def main(indices: Sequence[Path], output: Path) -> None:

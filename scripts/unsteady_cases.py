@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from equisection import plan
-from equisection.assemble import unsteady_case
 from equisection.cases import write_cases
 from equisection.config import load_config
 from equisection.results.netcdf import read_dataset
-from equisection.script import logged
+from equisection.run.script import logged
 from equisection.solvers.registry import solver_from_config
+from equisection.study import plan
+from equisection.study.assemble import unsteady_case
 
 
 def main(

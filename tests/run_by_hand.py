@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 
 from equisection.cases import (
-    Criteria,
+    EndCriteria,
     Geometry,
     Medium,
     SectionProperties,
@@ -19,9 +19,9 @@ from equisection.cases import (
     case_hash,
     write_cases,
 )
-from equisection.progress import Process, Snapshot
 from equisection.results.netcdf import write_dataset
-from equisection.status import Entry, run_status
+from equisection.run.status import CaseStatus, run_status
+from equisection.store.progress import Process, Snapshot
 
 PARTS = {
     "resolution": "coarse",
@@ -56,7 +56,7 @@ def unsteady(k_star: float) -> UnsteadyCase:
         duration=400.0,
         time_step=0.05,
         output_interval=0.1,
-        criteria=Criteria(
+        criteria=EndCriteria(
             settled_amplitude_deg=0.05, growing_amplitude_deg=6.0, steadiness=0.02, periods=5
         ),
         **PARTS,  # type: ignore[arg-type]
@@ -97,7 +97,7 @@ class Run:
         path = self.folder / "logs" / f"{name}.log"
         path.write_text(f"2026-01-01 10:00:00,000 INFO starts\n{text}", encoding="utf-8")
 
-    def entry(self, case: str) -> Entry:
+    def entry(self, case: str) -> CaseStatus:
         return next(e for e in run_status(self.folder).entries if e.case == case)
 
 

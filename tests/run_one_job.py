@@ -7,8 +7,8 @@ import sys
 from pathlib import Path
 
 from equisection.cases import read_cases
-from equisection.script import logged
-from equisection.solvers.job import run_cases
+from equisection.run.script import logged
+from equisection.store.job import run_cases
 
 if __name__ == "__main__":
     place = Path(sys.argv[1])

@@ -7,7 +7,7 @@ import numpy as np
 
 from equisection.cases import (
     BeamModes,
-    Criteria,
+    EndCriteria,
     Geometry,
     Medium,
     SectionProperties,
@@ -15,7 +15,7 @@ from equisection.cases import (
     SteadyCase,
     UnsteadyCase,
 )
-from equisection.config.sections import Beam
+from equisection.config.groups import Beam
 from equisection.structure.analytic import bending_modes, torsion_modes
 from equisection.structure.plate import Plate
 from equisection.structure.span import normalise
@@ -60,7 +60,7 @@ UNSTEADY = UnsteadyCase(
     duration=400.0,
     time_step=0.05,
     output_interval=0.1,
-    criteria=Criteria(
+    criteria=EndCriteria(
         settled_amplitude_deg=0.05, growing_amplitude_deg=6.0, steadiness=0.02, periods=5
     ),
     solver=SOLVER,

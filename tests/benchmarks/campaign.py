@@ -41,7 +41,7 @@ def _batches(project: Project) -> Iterator[Row]:
     _undraw(project)
     yield from _costs(f"{what}: summary and figures", _run(project), 30)
     for command in (["status"], ["status", "--html", "status.html"], ["verify"]):
-        words = [sys.executable, "-m", "equisection.command_line", *command]
+        words = [sys.executable, "-m", "equisection.run.command_line", *command]
         cost = measured(words, project.folder, project.environment())
         yield from _costs(f"{what}: {' '.join(command)}", cost)
 

@@ -17,15 +17,16 @@ from pathlib import Path
 import numpy as np
 
 from equisection.cases import UnsteadyCase
-from equisection.solvers.embedded import Adapter
-from equisection.solvers.openfoam import plate_rigid, section_rigid
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.solvers.embedded.adapter import Adapter
+from equisection.solvers.openfoam.beam import rigid_beam as plate_rigid
+from equisection.solvers.openfoam.beam.free_beam import PlateRun
+from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.plate_free import PlateRun
-from equisection.solvers.openfoam.plate_rigid import plate_mesh_of
-from equisection.solvers.openfoam.presets import PRESETS
-from equisection.solvers.openfoam.section_free import SectionRun
-from equisection.solvers.openfoam.section_rigid import mesh_of
+from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.solvers.openfoam.section import rigid_section as section_rigid
+from equisection.solvers.openfoam.section.free_section import SectionRun
+from equisection.solvers.openfoam.section.rigid_section import mesh_of
 from tests.benchmarks.many_cases import cases_of_section
 from tests.sample_cases import STEADY_PLATE, UNSTEADY, UNSTEADY_PLATE
 from tests.watching import nothing

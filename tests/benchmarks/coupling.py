@@ -15,16 +15,16 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from equisection.solvers.openfoam import flow
+from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.case_folder import copy_flow
 from equisection.solvers.openfoam.dictionaries import control, write_system
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.loads import read_loads, require_reasonable
-from equisection.solvers.openfoam.presets import PRESETS
+from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.process import BlowUpError, run_program
+from equisection.solvers.openfoam.reading.loads import read_loads, require_reasonable
 from equisection.solvers.openfoam.rigid_flow import STEP, write_at_rest
-from equisection.solvers.openfoam.section_rigid import mesh_of, run_steady
+from equisection.solvers.openfoam.section.rigid_section import mesh_of, run_steady
 from tests.benchmarks.rigid import section
 
 #: c/V, and the part of it that is averaged.

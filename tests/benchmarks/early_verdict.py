@@ -11,11 +11,11 @@ from typing import Any
 import xarray as xr
 import yaml
 
-from equisection.cases import Criteria, UnsteadyCase
+from equisection.cases import EndCriteria, UnsteadyCase
 from equisection.config import load_config
 from equisection.results.netcdf import read_dataset
-from equisection.solvers.judged_again import judged_again, tip_motion
 from equisection.solvers.verdicts import judge
+from equisection.store.judged_again import judged_again, tip_motion
 from tests.benchmarks.measure import Row
 from tests.workflow.project import ROOT
 
@@ -27,7 +27,7 @@ def rows() -> Iterator[Row]:
     raw = yaml.safe_load((ROOT / "config" / "openfoam.yaml").read_text(encoding="utf-8"))
     unsteady = load_config(raw).unsteady
     wanted: dict[str, Any] = {
-        "criteria": Criteria(**unsteady.verdict.model_dump()),
+        "criteria": EndCriteria(**unsteady.verdict.model_dump()),
         "duration": unsteady.duration,
     }
     ends, others = [], []

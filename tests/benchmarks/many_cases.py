@@ -9,8 +9,8 @@ import numpy as np
 
 from equisection.cases import Case, SolverBlock, UnsteadyCase
 from equisection.config import load_config
-from equisection.solvers.job import run_cases
 from equisection.solvers.registry import solver_from_config
+from equisection.store.job import run_cases
 from tests.benchmarks.measure import Row, limit
 from tests.sample_cases import UNSTEADY
 from tests.workflow.project import ROOT

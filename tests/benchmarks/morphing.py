@@ -15,15 +15,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.solvers.openfoam import flow
+from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.dictionaries import (
     control,
     write_mesh_dictionary,
     write_system,
 )
 from equisection.solvers.openfoam.installation import Installation, find
-from equisection.solvers.openfoam.mesh_quality import MorphingMesh
-from equisection.solvers.openfoam.section_rigid import make_mesh, mesh_of
+from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
+from equisection.solvers.openfoam.section.rigid_section import make_mesh, mesh_of
 from tests.sample_cases import STEADY
 
 TWIST_DEG = (-20.0, -8.0, 0.0, 8.0, 20.0, 30.0)

@@ -5,13 +5,13 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from equisection.solvers.openfoam import plate_free
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.solvers.openfoam.beam import free_beam as plate_free
+from equisection.solvers.openfoam.beam.free_beam import PlateRun
+from equisection.solvers.openfoam.beam.pipes import FOLDER, LOADS, PLACES, Alive, Pipes
+from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.pipes import FOLDER, LOADS, PLACES, Alive, Pipes
-from equisection.solvers.openfoam.plate_free import PlateRun
-from equisection.solvers.openfoam.plate_rigid import plate_mesh_of
-from equisection.solvers.openfoam.presets import PRESETS
+from equisection.solvers.openfoam.mesh.presets import PRESETS
 from tests.benchmarks.measure import Row, limit
 from tests.sample_cases import UNSTEADY_PLATE, beam_modes
 

@@ -15,11 +15,11 @@ import pandas as pd
 
 from equisection.cases import UnsteadyCase
 from equisection.results.netcdf import read_dataset
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.presets import PRESETS
-from equisection.solvers.openfoam.section_free import SectionRun
-from equisection.solvers.openfoam.section_rigid import mesh_of
+from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.solvers.openfoam.section.free_section import SectionRun
+from equisection.solvers.openfoam.section.rigid_section import mesh_of
 from tests.benchmarks.early_verdict import KEPT, case_of
 from tests.benchmarks.independence import oscillation
 

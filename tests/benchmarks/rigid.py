@@ -15,14 +15,13 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from equisection.assemble import steady_case
 from equisection.cases import SteadyCase
 from equisection.config import load_config
 from equisection.results.surface import suction_side
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.presets import PRESETS
-from equisection.solvers.openfoam.section_rigid import (
+from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.solvers.openfoam.section.rigid_section import (
     RigidLoads,
     mesh_of,
     run_steady,
@@ -30,6 +29,7 @@ from equisection.solvers.openfoam.section_rigid import (
     unsteady_mean,
 )
 from equisection.solvers.registry import solver_from_config
+from equisection.study.assemble import steady_case
 from tests.watching import nothing
 
 CONFIG = Path("config/openfoam.yaml")

@@ -14,12 +14,12 @@ from tests.sample_cases import STEADY, UNSTEADY
 from tests.watching import interrupt_after, nothing
 
 from equisection.cases import UnsteadyCase
-from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.overset import OversetRun
-from equisection.solvers.openfoam.section_free import SectionRun
-from equisection.solvers.openfoam.section_rigid import WINDOW, mesh_of
+from equisection.solvers.openfoam.section.free_section import SectionRun
+from equisection.solvers.openfoam.section.overset_section import OversetRun
+from equisection.solvers.openfoam.section.rigid_section import WINDOW, mesh_of
 
 #: Coarser than any preset, about 5,000 cells: for what does not depend on the mesh.
 VERY_COARSE = 0.6

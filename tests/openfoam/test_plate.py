@@ -23,19 +23,20 @@ from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
 from equisection.results.plane_mesh import cell_areas
 from equisection.results.plate_surface import PlateSurface
-from equisection.results.steady import SteadyResult
+from equisection.results.steady_result import SteadyResult
 from equisection.results.tip_flow import TipFlow
-from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.openfoam import plate_free, plate_rigid
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.openfoam.beam import free_beam as plate_free
+from equisection.solvers.openfoam.beam import rigid_beam as plate_rigid
+from equisection.solvers.openfoam.beam.free_beam import PlateRun
+from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_mesh_of
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.loads import read_loads
-from equisection.solvers.openfoam.plate_free import PlateRun
-from equisection.solvers.openfoam.plate_grid import plate_grid
-from equisection.solvers.openfoam.plate_mesh import PlateMesh
-from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of
-from equisection.solvers.openfoam.rigid_flow import Record
-from equisection.solvers.openfoam.tip_flow import sample_tip_flow
+from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
+from equisection.solvers.openfoam.reading.beam_grid import plate_grid
+from equisection.solvers.openfoam.reading.loads import read_loads
+from equisection.solvers.openfoam.reading.sampled_tip_flow import sample_tip_flow
+from equisection.solvers.openfoam.rigid_flow import RigidFlowRecord
 
 #: Coarser than any preset, 15,128 cells.
 VERY_COARSE = 0.3
@@ -162,7 +163,7 @@ def test_mean_of_an_unsteady_flow_has_loads_along_the_span(
 ) -> None:
     """Steady iterations that are too few, and a record that is short."""
     monkeypatch.setattr(plate_rigid, "MOST", 60)
-    monkeypatch.setattr(plate_rigid, "RECORD", Record(0.1, 0.4, 0.4))
+    monkeypatch.setattr(plate_rigid, "RECORD", RigidFlowRecord(0.1, 0.4, 0.4))
     flow = rigid(installation, tmp_path)
     result = flow.result(nothing)
     assert result.method.startswith("mean of unsteady")

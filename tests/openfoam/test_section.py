@@ -14,19 +14,19 @@ from tests.sample_cases import STEADY, UNSTEADY
 from tests.watching import interrupt_after, nothing
 
 from equisection.cases import SectionProperties, UnsteadyCase
-from equisection.solvers.openfoam.flow import Coupling
-from equisection.solvers.openfoam.histories import read_history
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.rigid_flow import Record
-from equisection.solvers.openfoam.section_free import SectionRun
-from equisection.solvers.openfoam.section_history import read_section
-from equisection.solvers.openfoam.section_rigid import (
+from equisection.solvers.openfoam.reading.histories import read_history
+from equisection.solvers.openfoam.rigid_flow import RigidFlowRecord
+from equisection.solvers.openfoam.section.free_section import SectionRun
+from equisection.solvers.openfoam.section.rigid_section import (
     RigidLoads,
     mesh_of,
     rigid_loads,
     run_steady,
     unsteady_mean,
 )
+from equisection.solvers.openfoam.section.section_history import read_section
 
 #: Coarser than any preset, about 4,000 cells: for what does not depend on the mesh.
 VERY_COARSE = 0.6
@@ -99,11 +99,11 @@ def test_mean_pressure_and_friction_add_up_to_the_mean_loads(
     installation: Installation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The start of an unsteady run, which drifts: means over the same time are needed."""
-    record = Record(0.5, 5.0, 5.0)
-    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.RECORD", record)
+    record = RigidFlowRecord(0.5, 5.0, 5.0)
+    monkeypatch.setattr("equisection.solvers.openfoam.section.rigid_section.RECORD", record)
     case = STEADY.model_copy(update={"incidence_deg": 10.0})
     mesh = mesh_of(case, VERY_COARSE)
-    monkeypatch.setattr("equisection.solvers.openfoam.section_rigid.MOST", 200)
+    monkeypatch.setattr("equisection.solvers.openfoam.section.rigid_section.MOST", 200)
     source, _, converged = run_steady(installation, case, mesh, tmp_path, nothing)
     assert not converged
     loads = unsteady_mean(installation, source, mesh, tmp_path, nothing, coupling=Coupling())

@@ -7,18 +7,24 @@ import pytest
 from tests.sample_cases import GEOMETRY, STEADY
 
 from equisection.results.plane_mesh import cell_areas, edges
-from equisection.solvers.openfoam import flow
+from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.dictionaries import (
     control,
     write_mesh_dictionary,
     write_system,
 )
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.mesh import Mesh
-from equisection.solvers.openfoam.paper_spacing import DOMAIN, NEAR_FIELD, OFF_WALL, WAKE, WALL
-from equisection.solvers.openfoam.presets import PRESETS
-from equisection.solvers.openfoam.section_mesh import quality, read_cells, section_mesh
-from equisection.solvers.openfoam.section_rigid import make_mesh, mesh_of
+from equisection.solvers.openfoam.mesh.block_mesh import Mesh
+from equisection.solvers.openfoam.mesh.near_wall_spacing import (
+    DOMAIN,
+    NEAR_FIELD,
+    OFF_WALL,
+    WAKE,
+    WALL,
+)
+from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.solvers.openfoam.reading.meshed_section import quality, read_cells, section_mesh
+from equisection.solvers.openfoam.section.rigid_section import make_mesh, mesh_of
 
 
 def made(installation: Installation, mesh: Mesh, folder: Path) -> Path:

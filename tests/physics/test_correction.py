@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from equisection.aerodynamics.polar import SectionPolar
-from equisection.aerodynamics.polar_file import read_polar
 from equisection.errors import DivergenceError, IncidenceOutOfRangeError, ReductionError
+from equisection.io.polar_file import read_polar
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
-from equisection.results.correction import factor_at, factors_to_dataset
+from equisection.results.correction_dataset import factor_at, factors_to_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"

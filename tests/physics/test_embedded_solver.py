@@ -11,12 +11,12 @@ from tests.watching import nothing
 
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
-from equisection.aerodynamics.polar_file import read_polar
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import load_config
-from equisection.results.steady import SteadyResult
-from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.embedded import Adapter
+from equisection.io.polar_file import read_polar
+from equisection.results.steady_result import SteadyResult
+from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.embedded.adapter import Adapter
 from equisection.solvers.registry import SOLVERS, solver_from_config
 
 POLAR = ROOT / "config" / "polars" / "plate_2d_11136.csv"

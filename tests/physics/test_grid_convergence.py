@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from equisection.comparison.grid_convergence import Convergence, cell_size, grid_convergence
+from equisection.analysis.grid_convergence import Convergence, cell_size, grid_convergence
 
 
 @pytest.mark.parametrize("order", [0.5, 1.0, 2.0, 3.7])

@@ -18,13 +18,13 @@ from scipy.optimize import brentq
 
 from equisection.aerodynamics.identification import LoadMisfit, identify_lags, load_misfit
 from equisection.aerodynamics.polar import SectionPolar
-from equisection.aerodynamics.polar_file import read_polar
 from equisection.aerodynamics.reference_history import ReferenceHistory, unexplained_damping
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
-from equisection.config.sections import Embedded
+from equisection.config.groups import Embedded
 from equisection.errors import ResultFileError
-from equisection.motion.judgement import (
+from equisection.io.polar_file import read_polar
+from equisection.motion.release_judgement import (
     ReleaseJudgement,
     ReleaseNumbers,
     judge_release,
@@ -37,7 +37,7 @@ from equisection.motion.sections import (
 )
 from equisection.motion.steady_states import least_stable_eigenvalue
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.reference_history import read_reference_history
+from equisection.results.recorded_history import read_reference_history
 
 ROOT = Path(__file__).parents[2]
 CONFIGURED = Embedded()

@@ -15,7 +15,7 @@ import pytest
 
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
-from equisection.aerodynamics.polar_file import read_polar
+from equisection.io.polar_file import read_polar
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"

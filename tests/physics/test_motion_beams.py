@@ -13,9 +13,9 @@ from scipy.optimize import brentq
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import SectionPolar
-from equisection.aerodynamics.polar_file import read_polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.io.polar_file import read_polar
 from equisection.motion.beams import BeamParameters, beam_system, release_beams
 from equisection.motion.march import march
 from equisection.motion.sections import SectionParameters, release_sections

@@ -11,13 +11,13 @@ from scipy.optimize import brentq
 
 from equisection.aerodynamics.indicial import wagner
 from equisection.aerodynamics.polar import SectionPolar
-from equisection.aerodynamics.polar_file import read_polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import (
     APPARENT_INERTIA,
     APPARENT_MASS,
     UnsteadyLoads,
 )
+from equisection.io.polar_file import read_polar
 from equisection.motion.march import march
 from equisection.motion.sections import (
     SectionParameters,
@@ -30,8 +30,8 @@ from equisection.motion.steady_states import (
     least_stable_eigenvalue,
     rigid_state,
 )
-from equisection.signals import Criteria, assess, heave_grows
-from equisection.signals.cycles import find_cycles
+from equisection.verdict import Criteria, assess, heave_grows
+from equisection.verdict.cycles import find_cycles
 
 POLARS = Path(__file__).parents[2] / "config/polars"
 POLAR = read_polar(POLARS / "plate_2d_11136.csv")

@@ -10,7 +10,7 @@ import pytest
 from tests.sample_cases import PAPER, plate_with
 
 from equisection.reduction.integrals import Integrals, span_integrals
-from equisection.reduction.section import validity_warnings
+from equisection.reduction.reduce import validity_warnings
 from equisection.structure.modes import compute_modes
 from equisection.structure.plate import BOUNDARIES
 

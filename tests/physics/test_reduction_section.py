@@ -13,7 +13,7 @@ from tests.sample_cases import PAPER, plate_with
 
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import span_integrals
-from equisection.reduction.section import EquivalentSection, reduce_beam
+from equisection.reduction.reduce import EquivalentSection, reduce_beam
 from equisection.structure import solid
 from equisection.structure.mode_set import ModeSet
 from equisection.structure.modes import compute_modes

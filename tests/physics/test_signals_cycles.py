@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from equisection.signals.cycles import find_cycles, noise_level
-from equisection.signals.superposition import bin_averages, mean_of, superposition
-from equisection.signals.trend import exponential_trend
+from equisection.verdict.cycles import find_cycles, noise_level
+from equisection.verdict.superposition import bin_averages, mean_of, superposition
+from equisection.verdict.trend import exponential_trend
 
 PERIOD = 6.0
 OMEGA = 2.0 * np.pi / PERIOD

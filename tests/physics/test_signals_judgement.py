@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from equisection.errors import ResultFileError
-from equisection.signals import Criteria, assess, swings_grow
+from equisection.verdict import Criteria, assess, swings_grow
 
 PERIOD = 6.0
 OMEGA = 2.0 * np.pi / PERIOD

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from equisection.signals import assess
+from equisection.verdict import assess
 
 S = np.arange(0.0, 300.0, 0.1)
 REST = np.zeros_like(S)

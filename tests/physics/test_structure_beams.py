@@ -10,7 +10,7 @@ import pytest
 from tests.sample_cases import PAPER, plate_with
 
 from equisection.errors import ModesError
-from equisection.reduction.section import reduce_beam
+from equisection.reduction.reduce import reduce_beam
 from equisection.structure.analytic import bending_modes, bending_roots, torsion_modes
 from equisection.structure.modes import compute_modes, modes_of_kinds
 from equisection.structure.plate import BOUNDARIES, CrossSection, Plate

@@ -10,7 +10,6 @@ import pytest
 
 from equisection.aerodynamics.indicial import theodorsen, theodorsen_of_jones, wagner
 from equisection.aerodynamics.polar import SectionPolar
-from equisection.aerodynamics.polar_file import read_polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, Branches, SeparationLags
 from equisection.aerodynamics.unsteady_loads import (
     ForcedMotion,
@@ -18,6 +17,7 @@ from equisection.aerodynamics.unsteady_loads import (
     adapted_incidence,
     forced_loads,
 )
+from equisection.io.polar_file import read_polar
 
 POLAR_FILE = Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv"
 REDUCED_FREQUENCIES = (0.02, 0.1, 0.25, 0.5, 1.0)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from equisection.config.sections.openfoam import PREFIX_VARIABLE
+from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from tests.conftest import ROOT
 from tests.slurm import node as slurm
 from tests.slurm.cluster_project import PLUGIN, ClusterProject

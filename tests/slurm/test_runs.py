@@ -7,9 +7,9 @@ import pandas as pd
 import pytest
 
 from equisection.config import load_config
-from equisection.jobs import solver_jobs
 from equisection.results.netcdf import read_dataset
-from equisection.solvers.cost import COST_MODEL, read_cost_model
+from equisection.run.cost import COST_MODEL, read_cost_model
+from equisection.run.jobs import solver_jobs
 from equisection.solvers.openfoam.installation import Installation
 from tests.conftest import ROOT
 from tests.slurm.cluster_project import ClusterProject

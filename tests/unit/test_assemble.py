@@ -11,22 +11,22 @@ from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 from tests.sample_cases import STEADY
 
-from equisection import plan
 from equisection.aerodynamics.polar import SectionPolar
-from equisection.assemble import nominal_k_star, steady_case, unsteady_case
 from equisection.cases import UnsteadyCase, case_hash
 from equisection.config import Config, load_config
 from equisection.errors import ConfigError
 from equisection.reduction.correction import CorrectionFactors
 from equisection.reduction.integrals import span_integrals
-from equisection.reduction.section import REDUCTIONS, reduce_beam
-from equisection.results.correction import factors_from_dataset, factors_to_dataset
-from equisection.results.equivalent import equivalent_to_dataset
-from equisection.results.modes import modes_to_dataset
+from equisection.reduction.reduce import REDUCTIONS, reduce_beam
+from equisection.results.correction_dataset import factors_from_dataset, factors_to_dataset
+from equisection.results.modes_dataset import modes_to_dataset
+from equisection.results.section_dataset import equivalent_to_dataset
 from equisection.solvers.registry import solver_from_config
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import compute_modes
 from equisection.structure.plate import Plate
+from equisection.study import plan
+from equisection.study.assemble import nominal_k_star, steady_case, unsteady_case
 
 RAW: dict[str, Any] = {
     "structure": {"bending_modes": 2, "torsion_modes": 2},

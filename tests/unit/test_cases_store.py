@@ -20,7 +20,7 @@ from equisection.cases import (
     read_cases,
     write_cases,
 )
-from equisection.cases.store import canonical
+from equisection.cases.case_file import canonical
 from equisection.errors import CaseFileError
 
 #: Numbers whose rounding to 8 digits neither overflows nor loses itself in subnormals.

@@ -6,15 +6,15 @@ from pathlib import Path
 import pytest
 import yaml
 
-from equisection import plan
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS
 from equisection.config import Config, check_files, load_config, resolve_config
 from equisection.config.__main__ import COMMAND, MARK, README, SCHEMA, main
-from equisection.config.sections import Range
-from equisection.config.values import NULL_WORDS
+from equisection.config.groups import Range
 from equisection.errors import ConfigError
+from equisection.keys.values import NULL_WORDS
 from equisection.structure.plate import BOUNDARIES
 from equisection.structure.solid import SOLID_BOUNDARIES
+from equisection.study import plan
 
 ROOT = Path(__file__).parents[2]
 #: A time step that OpenFOAM takes.

@@ -9,14 +9,14 @@ from tests.conftest import ROOT
 from tests.sample_cases import UNSTEADY
 
 from equisection.cases import SolverBlock, canonical, case_hash
-from equisection.command_line import main
 from equisection.config import load_config
 from equisection.errors import ConfigError
-from equisection.jobs import solver_jobs, steady_batch_work, unsteady_batch_work
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.solvers import cost
-from equisection.solvers.cost import CellCost, megabytes, minutes, read_cost_model, seconds
-from equisection.solvers.cost_fit import fits, fitted
+from equisection.run import cost
+from equisection.run.command_line import main
+from equisection.run.cost import CellCost, megabytes, minutes, read_cost_model, seconds
+from equisection.run.cost_fit import fits, fitted
+from equisection.run.jobs import solver_jobs, steady_batch_work, unsteady_batch_work
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.work_done import work_done
 from equisection.solvers.work import Work

@@ -15,32 +15,32 @@ from matplotlib.text import Text
 from tests.sample_cases import PAPER
 
 import equisection
-from equisection.comparison.bubble import bubble_table
-from equisection.comparison.grid_study import grid_study
-from equisection.comparison.section_and_beam import deviations
-from equisection.comparison.summary import summarise
+from equisection.analysis.bubble import bubble_table
+from equisection.analysis.grid_study import grid_study
+from equisection.analysis.section_and_beam import deviations
+from equisection.analysis.summary import summarise
 from equisection.figures import (
+    courant_number,
     fig01_workflow,
-    fig03_modes,
-    fig05_section_mesh,
-    fig06_section_polar,
-    fig07_surface,
-    fig08_courant_number,
-    fig09_plate_mesh,
-    fig10_spanwise_loads,
-    fig11_plate_surface,
-    fig12_tip_flow,
-    fig13_lift_correction,
-    fig14_moment_correction,
-    fig15_modal_contributions,
-    fig16_response,
-    fig17_hysteresis,
+    flow_at_tip,
     growth_rate,
-    section_and_beam,
+    hysteresis,
+    lift_correction,
+    mesh_of_beam,
+    mesh_of_section,
+    modal_contributions,
+    mode_shapes,
+    moment_correction,
+    response,
+    section_against_beam,
+    section_polar,
+    spanwise_loads,
+    surface_loads,
+    surface_of_beam,
 )
-from equisection.figures.correction import SteadyData
-from equisection.figures.history import extent_from_dataset, history_from_dataset
+from equisection.figures.drawn_history import extent_from_dataset, history_from_dataset
 from equisection.figures.incidences import nearest_incidences
+from equisection.figures.load_correction import SteadyData
 from equisection.figures.models import LOOKS
 from equisection.figures.rule_graph import RuleGraph, RuleText
 from equisection.figures.save import FigureFormatError, save_figure
@@ -48,12 +48,12 @@ from equisection.figures.style import drawing_style
 from equisection.results.netcdf import write_dataset
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.plate_surface import PlateSurface
-from equisection.results.polar import gather_polar
+from equisection.results.polar_dataset import gather_polar
 from equisection.results.section_mesh import SectionMesh, no_mesh
-from equisection.results.steady import SteadyResult
+from equisection.results.steady_result import SteadyResult
 from equisection.results.surface import SectionSurface
 from equisection.results.tip_flow import TipFlow
-from equisection.results.unsteady import UnsteadyResult
+from equisection.results.unsteady_result import UnsteadyResult
 
 STYLE = Path(__file__).parents[2] / "envs" / "equisection.mplstyle"
 SOLVER = "made-up solver, 5 cells"
@@ -76,7 +76,7 @@ def lay_out(figure: Figure) -> None:
     figure.draw_without_rendering()
 
 
-def section_polar(resolutions=("coarse",), missing=()) -> xr.Dataset:
+def polar_data(resolutions=("coarse",), missing=()) -> xr.Dataset:
     incidence = np.linspace(0.0, 10.0, 6)
     lift = np.tile(np.sin(np.radians(5 * incidence)), (len(resolutions), 1))
     lift[:, list(missing)] = np.nan
@@ -94,7 +94,7 @@ def section_polar(resolutions=("coarse",), missing=()) -> xr.Dataset:
 
 
 def beam_polar(missing=()) -> xr.Dataset:
-    polar = section_polar(missing=missing)
+    polar = polar_data(missing=missing)
     span = np.linspace(0.05, 0.95, 8)
     for name in ("cl", "cm"):
         polar[f"{name}_section"] = polar[name] * xr.DataArray(1 - span**4, {"span": span})
@@ -154,9 +154,9 @@ def plate_surface(reattachment=0.5) -> PlateSurface:
     return PlateSurface(x, y, z, one / 30, side, -0.1 * z, friction, 1e-4 * z, one)
 
 
-def on_plate(**reattachments) -> dict[float, fig11_plate_surface.ShownSurface]:
+def on_plate(**reattachments) -> dict[float, surface_of_beam.ShownSurface]:
     return {
-        float(name.removeprefix("at")): fig11_plate_surface.ShownSurface(plate_surface(end), "mean")
+        float(name.removeprefix("at")): surface_of_beam.ShownSurface(plate_surface(end), "mean")
         for name, end in reattachments.items()
     }
 
@@ -205,7 +205,7 @@ def bubbles(known: dict[tuple[str, float], float], without=()) -> pd.DataFrame:
 
 
 def modes(count=4) -> xr.Dataset:
-    beam = fig03_modes.analytic_shapes(PAPER)
+    beam = mode_shapes.analytic_shapes(PAPER)
     return xr.Dataset(
         {
             "shape": (("mode", "span"), np.vstack([beam.bending[:count], beam.torsion[:count]])),
@@ -270,32 +270,32 @@ SWEEPS = {
 
 
 def figures_of_data():
-    whole = SteadyData(section_polar(), beam_polar(), correction(), "coarse")
-    graph = RuleGraph(("all", "modes", "fig03_modes"), frozenset({("modes", "fig03_modes")}))
-    texts = {"modes": RuleText("Modes", "structure"), "fig03_modes": RuleText("", "figures")}
+    whole = SteadyData(polar_data(), beam_polar(), correction(), "coarse")
+    graph = RuleGraph(("all", "modes", "mode_shapes"), frozenset({("modes", "mode_shapes")}))
+    texts = {"modes": RuleText("Modes", "structure"), "mode_shapes": RuleText("", "figures")}
     return {
         "fig01": lambda: fig01_workflow.draw(graph, texts, SOLVER),
-        "fig06": lambda: fig06_section_polar.draw(section_polar(("coarse", "fine", "finest"))),
-        "fig05": lambda: fig05_section_mesh.draw(section_mesh()),
-        "fig07": lambda: fig07_surface.draw(
+        "fig06": lambda: section_polar.draw(polar_data(("coarse", "fine", "finest"))),
+        "fig05": lambda: mesh_of_section.draw(section_mesh()),
+        "fig07": lambda: surface_loads.draw(
             {1.0: surface(0.4), 10.0: surface(2.0)},
             bubbles({("coarse", 1.0): 0.4, ("coarse", 10.0): 2.0, ("fine", 1.0): 0.5}),
             "coarse",
             {1.0: 0.5},
         ),
-        "fig08": lambda: fig08_courant_number.draw(section_mesh()),
-        "fig09": lambda: fig09_plate_mesh.draw(plate_mesh(), "solid", (4, 8, 1)),
-        "fig11": lambda: fig11_plate_surface.draw(on_plate(at2=0.3, at10=2.0), [], SOLVER),
-        "fig12": lambda: fig12_tip_flow.draw(
+        "fig08": lambda: courant_number.draw(section_mesh()),
+        "fig09": lambda: mesh_of_beam.draw(plate_mesh(), "solid", (4, 8, 1)),
+        "fig11": lambda: surface_of_beam.draw(on_plate(at2=0.3, at10=2.0), [], SOLVER),
+        "fig12": lambda: flow_at_tip.draw(
             [
-                fig12_tip_flow.column_of("rigid", tip_result()),
-                fig12_tip_flow.column_of("flexible", tip_result("settled")),
+                flow_at_tip.column_of("rigid", tip_result()),
+                flow_at_tip.column_of("flexible", tip_result("settled")),
             ]
         ),
-        "fig10": lambda: fig10_spanwise_loads.draw(beam_polar(), "coarse"),
-        "fig13": lambda: fig13_lift_correction.draw(whole),
-        "fig14": lambda: fig14_moment_correction.draw(whole),
-        "fig15": lambda: fig15_modal_contributions.draw(modes(), run(dimension="3d")),
+        "fig10": lambda: spanwise_loads.draw(beam_polar(), "coarse"),
+        "fig13": lambda: lift_correction.draw(whole),
+        "fig14": lambda: moment_correction.draw(whole),
+        "fig15": lambda: modal_contributions.draw(modes(), run(dimension="3d")),
     }
 
 
@@ -309,14 +309,14 @@ def test_says_solver_and_version(name):
 
 
 def test_modes_have_no_flow_solver():
-    figure = fig03_modes.draw(modes(), fig03_modes.analytic_shapes(PAPER))
+    figure = mode_shapes.draw(modes(), mode_shapes.analytic_shapes(PAPER))
     assert "no flow solver" in words(figure)
     lay_out(figure)
 
 
 @pytest.mark.parametrize("count", [0, 2])
 def test_modes_may_be_few(count):
-    figure = fig03_modes.draw(modes(count), fig03_modes.analytic_shapes(PAPER))
+    figure = mode_shapes.draw(modes(count), mode_shapes.analytic_shapes(PAPER))
     assert ("No bending mode was computed." in words(figure)) == (count == 0)
     lay_out(figure)
 
@@ -324,28 +324,28 @@ def test_modes_may_be_few(count):
 def test_a_long_description_is_wrapped_within_the_page():
     polar = beam_polar()
     polar.attrs["solver_coarse"] = "OpenFOAM v2406 overPimpleDyMFoam kOmegaSST " * 8
-    figure = fig10_spanwise_loads.draw(polar, "coarse")
+    figure = spanwise_loads.draw(polar, "coarse")
     lines = figure.get_supxlabel().split("\n")
     assert 1 < len(lines) < 8
     assert max(map(len, lines)) < 150
 
 
 def test_polars_may_miss_points():
-    figure = fig06_section_polar.draw(section_polar(missing=(2,)))
+    figure = section_polar.draw(polar_data(missing=(2,)))
     assert "1 of 6 cases have no result" in words(figure).replace("\n", " ")
     lay_out(figure)
 
 
 def test_polars_join_the_incidences_that_a_resolution_is_run_at():
-    polar = section_polar(("coarse", "fine"))
+    polar = polar_data(("coarse", "fine"))
     for name in ("cl", "cm", "is_run"):
         polar[name] = polar[name].where(
             (polar["resolution"] == "coarse") | polar["incidence_deg"].isin([0.0, 10.0]), 0
         )
-    coarse, fine = fig06_section_polar.draw(polar).axes[0].get_lines()[:2]
+    coarse, fine = section_polar.draw(polar).axes[0].get_lines()[:2]
     assert len(coarse.get_xdata()) == 6
     assert list(fine.get_xdata()) == [0.0, 10.0]
-    assert "no result" not in words(fig06_section_polar.draw(polar))
+    assert "no result" not in words(section_polar.draw(polar))
 
 
 @pytest.mark.parametrize(
@@ -353,20 +353,20 @@ def test_polars_join_the_incidences_that_a_resolution_is_run_at():
     [((1.16, 1.04, 1.01), "monotonic"), ((1.1, 1.0, 1.02), "oscillatory")],
 )
 def test_polars_of_a_grid_study_show_its_index(values, said):
-    polar = section_polar(("coarse", "medium", "fine"))
+    polar = polar_data(("coarse", "medium", "fine"))
     for name in ("cl", "cm"):
         polar[name] = polar[name] * xr.DataArray(list(values), dims="resolution")
     study = grid_study(polar, {"coarse": 100, "medium": 400, "fine": 1600})
-    figure = fig06_section_polar.draw(polar, study)
+    figure = section_polar.draw(polar, study)
     assert said in words(figure)
     assert "2.0" in words(figure) or said == "oscillatory"
     lay_out(figure)
 
 
 def test_polars_of_a_grid_study_without_an_order_say_so():
-    polar = section_polar(("coarse", "medium", "fine"))
+    polar = polar_data(("coarse", "medium", "fine"))
     study = grid_study(polar, {"coarse": 100, "medium": 400, "fine": 1600})
-    figure = fig06_section_polar.draw(polar, study)
+    figure = section_polar.draw(polar, study)
     assert "has an observed order" in words(figure).replace("\n", " ")
     lay_out(figure)
 
@@ -385,7 +385,7 @@ def test_surface_shows_the_bubble_of_every_resolution_beside_the_papers():
 def test_surface_says_which_results_have_no_data(without):
     table = bubbles({("coarse", 1.0): 0.4, ("coarse", 5.0): 1.0}, without)
     shown = {angle: surface() for angle in (5.0,) if angle not in without}
-    figure = fig07_surface.draw(shown, table, "coarse", {})
+    figure = surface_loads.draw(shown, table, "coarse", {})
     found = words(figure).replace("\n", " ")
     assert f"{len(without)} of 2 cases have no surface data" in found
     assert ("No result has surface data." in found) == (len(without) == 2)
@@ -397,17 +397,17 @@ def test_surface_says_which_results_have_no_data(without):
     [([0.0, 1.0, 2.5, 5.0, 10.0], [1.0, 2.5, 5.0, 10.0]), ([0.0, 2.0], []), ([0.0, 2.5], [2.5])],
 )
 def test_incidences_of_the_surface_shown(available, shown):
-    assert fig07_surface.incidences_shown(available, 2.5) == shown
+    assert surface_loads.incidences_shown(available, 2.5) == shown
 
 
 def test_courant_number_says_how_much_of_the_area_is_below_the_limit():
-    figure = fig08_courant_number.draw(section_mesh())
+    figure = courant_number.draw(section_mesh())
     assert "25.0 % of the area below 1.5" in words(figure)
     assert "mean 2.5" in words(figure)
 
 
 def test_mesh_of_the_plate_has_a_line_for_each_element_and_layer():
-    figure = fig09_plate_mesh.draw(plate_mesh(), "solid", (4, 8, 1))
+    figure = mesh_of_beam.draw(plate_mesh(), "solid", (4, 8, 1))
     counts = [len(axes.collections[0].get_segments()) for axes in figure.axes[:2]]
     # elements and one, along and across; layers and one, points on the plate's upper side
     assert counts == [8 + 1 + 4 + 1, 5 + 3]
@@ -418,13 +418,13 @@ def test_mesh_of_the_plate_has_a_line_for_each_element_and_layer():
     ("method", "said"), [("beam", "8 beam elements"), ("analytic", "the solid has no mesh")]
 )
 def test_mesh_of_a_plate_whose_solid_has_none(method, said):
-    figure = fig09_plate_mesh.draw(plate_mesh(), method, (4, 8, 1))
+    figure = mesh_of_beam.draw(plate_mesh(), method, (4, 8, 1))
     assert said in words(figure).replace("\n", " ")
     lay_out(figure)
 
 
 def test_plates_surface_on_a_grid_is_linear_where_it_is_linear_over_the_faces():
-    side = fig11_plate_surface.on_grid(plate_surface(0.3).on("upper"))
+    side = surface_of_beam.on_grid(plate_surface(0.3).on("upper"))
     z, x = np.meshgrid(side.z, side.x)
     assert (side.z[0], side.z[-1]) == pytest.approx((0.01, 1.99))
     inside = (np.abs(x - 0.5) < 0.44) & (np.abs(z - 1.0) < 1.0 - 1 / 6)
@@ -435,14 +435,14 @@ def test_plates_surface_on_a_grid_is_linear_where_it_is_linear_over_the_faces():
 
 
 def test_plates_surface_says_how_long_the_bubble_is_and_what_is_missing():
-    figure = fig11_plate_surface.draw(on_plate(at2=0.3, at10=2.0), ["none at 5 deg"], SOLVER)
+    figure = surface_of_beam.draw(on_plate(at2=0.3, at10=2.0), ["none at 5 deg"], SOLVER)
     titles = [axes.get_title(loc="left") for axes in figure.axes[:4]]
     assert [title.split("bubble ")[-1] for title in titles[1::2]] == ["0.30 c", "1.00 c"]
     assert "none at 5 deg" in words(figure)
 
 
 def test_plate_without_surface_data_says_so():
-    figure = fig11_plate_surface.draw({}, ["no surface data at 2.5 deg"], SOLVER)
+    figure = surface_of_beam.draw({}, ["no surface data at 2.5 deg"], SOLVER)
     found = words(figure).replace("\n", " ")
     assert "No incidence has surface data of the plate." in found
     assert "no surface data at 2.5 deg" in found
@@ -463,9 +463,9 @@ def test_flow_near_the_tip_has_a_plane_for_each_place_and_the_plate_where_it_is(
     ("kind", "said"), [("settled", "docs/files.md"), ("failed", "it failed (it tangled)")]
 )
 def test_flow_near_the_tip_that_is_missing_is_told(kind, said):
-    missing = fig12_tip_flow.column_of("flexible", tip_result(kind, flow=False))
-    for columns in ([fig12_tip_flow.column_of("rigid", tip_result()), missing], [missing, missing]):
-        figure = fig12_tip_flow.draw(columns)
+    missing = flow_at_tip.column_of("flexible", tip_result(kind, flow=False))
+    for columns in ([flow_at_tip.column_of("rigid", tip_result()), missing], [missing, missing]):
+        figure = flow_at_tip.draw(columns)
         assert said in words(figure).replace("\n", " ")
         lay_out(figure)
 
@@ -475,14 +475,12 @@ def test_loads_along_the_span_are_lines_through_the_stations_of_one_mesh():
     fine = fine.assign_coords(span=fine["span"] - 0.01, resolution=["fine"])
     both = xr.concat([coarse, fine], "resolution", join="outer", data_vars="all")
     both = both.assign_attrs(solver_coarse=SOLVER, solver_fine=SOLVER)
-    figure = fig10_spanwise_loads.draw(both, "coarse")
+    figure = spanwise_loads.draw(both, "coarse")
     drawn = [line.get_ydata() for axes in figure.axes for line in axes.lines if line.get_marker()]
     curves = [np.asarray(values) for values in drawn if len(values) == coarse.sizes["span"]]
     assert len(curves) >= 4
     assert all(np.isfinite(values).all() for values in curves)
-    correction_figure = fig13_lift_correction.draw(
-        SteadyData(section_polar(), both, correction(), "coarse")
-    )
+    correction_figure = lift_correction.draw(SteadyData(polar_data(), both, correction(), "coarse"))
     root = next(line for line in correction_figure.axes[0].lines if "root" in line.get_label())
     assert np.isfinite(np.asarray(root.get_ydata())).all()
 
@@ -492,9 +490,7 @@ def test_loads_that_the_modes_feel_are_shown_where_they_correct():
     felt = felt.assign_coords(beam_incidence_deg=np.linspace(0.0, 10.0, 6))
     for kind, are_shown in (("modal", True), ("mean", False)):
         chosen = felt.assign_attrs(correction=kind)
-        figure = fig13_lift_correction.draw(
-            SteadyData(section_polar(), beam_polar(), chosen, "coarse")
-        )
+        figure = lift_correction.draw(SteadyData(polar_data(), beam_polar(), chosen, "coarse"))
         assert ("as the first mode feels it" in words(figure)) == are_shown
         lay_out(figure)
 
@@ -502,9 +498,7 @@ def test_loads_that_the_modes_feel_are_shown_where_they_correct():
 def test_correction_factor_has_a_gap_where_there_is_none():
     crossing = correction()
     crossing["moment_factor"] = ("incidence_deg", [0.8, np.nan, np.nan, 2.0, 1.5, 1.4])
-    figure = fig14_moment_correction.draw(
-        SteadyData(section_polar(), beam_polar(), crossing, "coarse")
-    )
+    figure = moment_correction.draw(SteadyData(polar_data(), beam_polar(), crossing, "coarse"))
     drawn = next(line for line in figure.axes[1].lines if len(line.get_xdata()) == 6)
     np.testing.assert_array_equal(drawn.get_ydata(), crossing["moment_factor"])
     lay_out(figure)
@@ -520,18 +514,18 @@ def test_tables_and_polar_of_no_case_are_drawn(tmp_path):
 
     polar, summary = gather_polar({}), as_read(summarise([]))
     for figure, says in (
-        (fig06_section_polar.draw(polar), "No incidence has a result."),
+        (section_polar.draw(polar), "No incidence has a result."),
         (
-            fig06_section_polar.draw(polar, as_read(grid_study(polar, {}))),
+            section_polar.draw(polar, as_read(grid_study(polar, {}))),
             "No incidence has an observed order",
         ),
         (
             growth_rate.draw(summary, linear_theory().iloc[:0], is_paper_case=False),
             "No run has a growth rate.",
         ),
-        (section_and_beam.draw(as_read(deviations(summary)), summary), "No section and beam"),
+        (section_against_beam.draw(as_read(deviations(summary)), summary), "No section and beam"),
         (
-            fig07_surface.draw({}, as_read(bubble_table({})), "coarse", {}),
+            surface_loads.draw({}, as_read(bubble_table({})), "coarse", {}),
             "No result has surface data.",
         ),
     ):
@@ -542,11 +536,11 @@ def test_tables_and_polar_of_no_case_are_drawn(tmp_path):
 def test_polars_may_be_empty():
     nothing = range(6)
     for figure in (
-        fig06_section_polar.draw(section_polar(missing=nothing)),
-        fig10_spanwise_loads.draw(beam_polar(missing=nothing), "coarse"),
-        fig13_lift_correction.draw(
+        section_polar.draw(polar_data(missing=nothing)),
+        spanwise_loads.draw(beam_polar(missing=nothing), "coarse"),
+        lift_correction.draw(
             SteadyData(
-                section_polar(missing=nothing),
+                polar_data(missing=nothing),
                 beam_polar(missing=nothing),
                 correction(math.nan),
                 "coarse",
@@ -567,11 +561,11 @@ def test_polars_may_be_empty():
     ],
 )
 def test_incidences_shown(available, shown):
-    assert nearest_incidences(available, fig10_spanwise_loads.WANTED_DEG) == shown
+    assert nearest_incidences(available, spanwise_loads.WANTED_DEG) == shown
 
 
 def test_modal_parts_add_up_and_compare():
-    parts = fig15_modal_contributions.modal_parts(modes(), run(dimension="3d"), "torsion")
+    parts = modal_contributions.modal_parts(modes(), run(dimension="3d"), "torsion")
     assert parts.ratios[:3] == pytest.approx([1.0, 50.0, 1000.0])
     assert math.isinf(parts.ratios[3])
     tip = parts.amplitudes.sum()
@@ -579,15 +573,15 @@ def test_modal_parts_add_up_and_compare():
 
 
 def test_modal_parts_of_a_failed_run():
-    figure = fig15_modal_contributions.draw(modes(), run(regime="failed", dimension="3d"))
+    figure = modal_contributions.draw(modes(), run(regime="failed", dimension="3d"))
     assert "it diverges" in words(figure)
     lay_out(figure)
 
 
 @pytest.mark.parametrize("name", sorted(SWEEPS))
 def test_response_draws(name, tmp_path):
-    response = fig16_response.read_response(*sweep(tmp_path, SWEEPS[name]), 6.7)
-    figure = fig16_response.draw(response)
+    read = response.read_response(*sweep(tmp_path, SWEEPS[name]), 6.7)
+    figure = response.draw(read)
     found = words(figure)
     assert "made-up" in found
     assert f"equisection {equisection.__version__}" in found
@@ -619,7 +613,7 @@ def test_histories_are_shown_in_degrees_and_chords():
 
 def test_modal_contributions_are_shown_in_degrees_and_chords():
     found = run(dimension="3d")
-    figure = fig15_modal_contributions.draw(modes(), found)
+    figure = modal_contributions.draw(modes(), found)
     late = 0.01 + 0.004 * np.sin(np.linspace(0.0, 40.0, 401))[200:]
     at_tip = (1.0 - 0.02 + 1e-3) * late.mean()
     for axes, unit in zip(figure.axes[:2], (1.0, 180 / math.pi), strict=True):
@@ -629,8 +623,8 @@ def test_modal_contributions_are_shown_in_degrees_and_chords():
 
 @pytest.mark.parametrize("name", sorted(SWEEPS))
 def test_hysteresis_draws(name, tmp_path):
-    loops = fig17_hysteresis.read_loops(*sweep(tmp_path, SWEEPS[name]), 6.7)
-    figure = fig17_hysteresis.draw(loops)
+    loops = hysteresis.read_loops(*sweep(tmp_path, SWEEPS[name]), 6.7)
+    figure = hysteresis.draw(loops)
     assert "made-up" in words(figure)
     lay_out(figure)
 
@@ -641,15 +635,15 @@ def test_response_opens_no_file_that_it_does_not_draw(tmp_path):
     for path in paths:
         if f"{path.parent.name}/{path.stem}" not in drawn:
             path.write_text("not to be opened")
-    response = fig16_response.read_response(summary, onset, paths, 6.7)
-    assert set(response.histories) == set("ABCDEF")
+    read = response.read_response(summary, onset, paths, 6.7)
+    assert set(read.histories) == set("ABCDEF")
 
 
 def test_means_of_a_beam_held_at_both_ends_are_not_those_of_a_tip(tmp_path):
     data = sweep(tmp_path, SWEEPS["one k*"])
-    for place in (fig16_response.AT_THE_TIP, fig16_response.WHERE_LARGEST):
-        response = fig16_response.read_response(*data, 6.7, place=place)
-        found = words(fig16_response.draw(response))
+    for place in (response.AT_THE_TIP, response.WHERE_LARGEST):
+        read = response.read_response(*data, 6.7, place=place)
+        found = words(response.draw(read))
         assert f"mean twist {place}" in found
         assert f"mean deflection {place}" in found
 
@@ -657,7 +651,7 @@ def test_means_of_a_beam_held_at_both_ends_are_not_those_of_a_tip(tmp_path):
 def test_mean_that_still_drifted_has_an_open_marker(tmp_path):
     summary, onset, paths = sweep(tmp_path, SWEEPS["all stable"])
     summary.loc[0, "mean_known"] = 0
-    figure = fig16_response.draw(fig16_response.read_response(summary, onset, paths, 6.7))
+    figure = response.draw(response.read_response(summary, onset, paths, 6.7))
     lines = figure.axes[0].get_lines()
     (drifting,) = (line for line in lines if line.get_markerfacecolor() == "white")
     assert drifting.get_xdata().tolist() == [4.0]
@@ -666,19 +660,17 @@ def test_mean_that_still_drifted_has_an_open_marker(tmp_path):
 
 
 def test_failed_runs_are_crosses_on_the_axis(tmp_path):
-    figure = fig16_response.draw(
-        fig16_response.read_response(*sweep(tmp_path, SWEEPS["all models"]), 6.7)
-    )
+    figure = response.draw(response.read_response(*sweep(tmp_path, SWEEPS["all models"]), 6.7))
     crosses = [line for line in figure.axes[0].get_lines() if line.get_marker() == "x"]
     assert [list(line.get_xdata()) for line in crosses] == [[6.0]] * 3
 
 
 def test_reduced_time_is_that_of_the_paper(tmp_path):
-    response = fig16_response.read_response(*sweep(tmp_path, SWEEPS["one k*"]), 21.0 / 4.0)
-    assert response.histories["C"].time[-1] == pytest.approx(2.0 * 40.0)
+    read = response.read_response(*sweep(tmp_path, SWEEPS["one k*"]), 21.0 / 4.0)
+    assert read.histories["C"].time[-1] == pytest.approx(2.0 * 40.0)
 
 
-@pytest.mark.parametrize("module", [fig05_section_mesh, fig08_courant_number])
+@pytest.mark.parametrize("module", [mesh_of_section, courant_number])
 def test_mesh_that_is_not_kept_is_said_to_be_missing(module):
     figure = module.draw(no_mesh(2.5, 0.02).to_dataset())
     assert "is not kept" in words(figure).replace("\n", " ")
@@ -686,7 +678,7 @@ def test_mesh_that_is_not_kept_is_said_to_be_missing(module):
 
 
 def test_rigid_beam_that_was_not_run_is_said_to_be_missing():
-    figure = fig10_spanwise_loads.draw(gather_polar({}), "coarse")
+    figure = spanwise_loads.draw(gather_polar({}), "coarse")
     assert "No rigid beam was run" in words(figure)
     lay_out(figure)
 
@@ -745,8 +737,8 @@ def test_failed_runs_have_no_growth():
 def test_saving_twice_gives_the_same_bytes(suffix, tmp_path):
     data = sweep(tmp_path, {"2d-corrected": {4.0: "growing"}})
     for place in ("first", "second"):
-        loops = fig17_hysteresis.read_loops(*data, 6.7)  # lines, pixels, text and mathematics
-        save_figure(fig17_hysteresis.draw(loops), [tmp_path / place / f"figure.{suffix}"])
+        loops = hysteresis.read_loops(*data, 6.7)  # lines, pixels, text and mathematics
+        save_figure(hysteresis.draw(loops), [tmp_path / place / f"figure.{suffix}"])
     first, second = (tmp_path / place / f"figure.{suffix}" for place in ("first", "second"))
     assert first.read_bytes() == second.read_bytes()
     assert first.stat().st_size > 10_000
@@ -768,6 +760,6 @@ def test_nothing_is_left_of_a_drawing_that_fails(tmp_path):
 def test_cases_that_are_close_share_a_mark(tmp_path):
     close = {4.0: "growing", 10.0: "growing", 10.02: "settled", 20.0: "settled"}
     data = sweep(tmp_path, {"2d": close})
-    found = words(fig16_response.draw(fig16_response.read_response(*data, 6.7)))
+    found = words(response.draw(response.read_response(*data, 6.7)))
     assert "\nA, B\n" in found
     assert "\nC\n" in found

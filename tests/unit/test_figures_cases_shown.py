@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from equisection.comparison.onset import onset_table
+from equisection.analysis.onset import onset_table
 from equisection.errors import ResultFileError
 from equisection.figures.cases_shown import cases_shown, result_at, results_of
 from equisection.figures.models_shown import beam_model, section_model

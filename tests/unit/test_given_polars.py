@@ -11,7 +11,7 @@ import pytest
 
 from equisection.config import load_config
 from equisection.errors import ConfigError
-from equisection.solvers.given_polars import check_polars
+from equisection.study.given_polars import check_polars
 
 ROOT = Path(__file__).parents[2]
 #: A time step that OpenFOAM takes.
@@ -60,7 +60,7 @@ def test_polars_of_another_solver_are_left_alone(tmp_path: Path) -> None:
 
 
 def test_looking_at_polars_loads_no_numerics() -> None:
-    code = "import sys, equisection.solvers.given_polars; print('scipy' in sys.modules)"
+    code = "import sys, equisection.study.given_polars; print('scipy' in sys.modules)"
     said = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stdout

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from equisection.comparison.grid_study import COLUMNS, grid_study
+from equisection.analysis.grid_study import COLUMNS, grid_study
 
 CELLS = {"fine": 1600, "other": None, "coarse": 100, "medium": 400}
 

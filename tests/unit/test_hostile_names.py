@@ -12,19 +12,19 @@ from typing import Any
 import pytest
 from tests.sample_cases import STEADY, UNSTEADY
 
-from equisection import plan
 from equisection.cases import case_hash, read_cases, write_cases
-from equisection.command_line import main
 from equisection.config import check_files, load_config
-from equisection.config.sections.openfoam import PREFIX_VARIABLE
+from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from equisection.errors import CaseFileError, ConfigError, ResultFileError
 from equisection.files import write_text
-from equisection.results.index import read_index, write_index
-from equisection.results.mend import mend
-from equisection.solvers.cost import read_cost_model
+from equisection.run.command_line import main
+from equisection.run.cost import read_cost_model
+from equisection.run.status import run_status
+from equisection.run.status_page import write_page
 from equisection.solvers.openfoam import installation
-from equisection.status import run_status
-from equisection.status_page import write_page
+from equisection.store.index import read_index, write_index
+from equisection.store.mend import mend
+from equisection.study import plan
 
 LEADS_OUT = ["..", "../x", "/etc/x", "a/../../x", "a/b", "~root", ".hidden", "a\0b", ""]
 TO_A_SHELL = ["a;b", "a b", "$(b)", "`b`", "a|b", "a&b", "a>b", "a'b", 'a"b', "a\nb", "-rf", "a*"]

@@ -15,11 +15,11 @@ from tests.sample_cases import STEADY, UNSTEADY
 from equisection.cases import Case, SolverBlock, SteadyCase, UnsteadyCase, case_hash
 from equisection.errors import CaseFileError, SolverError
 from equisection.results.netcdf import read_dataset
-from equisection.results.steady import SteadyResult
-from equisection.results.unsteady import VERDICT_ATTRIBUTES, UnsteadyResult
-from equisection.solvers.job import run_cases
+from equisection.results.steady_result import SteadyResult
+from equisection.results.unsteady_result import VERDICT_ATTRIBUTES, UnsteadyResult
 from equisection.solvers.protocol import Allocation, Capability, Progress, Solver
-from equisection.solvers.registry import SOLVERS, Entry, solver_from_case
+from equisection.solvers.registry import SOLVERS, SolverEntry, solver_from_case
+from equisection.store.job import run_cases
 
 NOTHING = np.empty(0)
 
@@ -88,7 +88,7 @@ def unsteady(k_star: float, refusal: str = "") -> UnsteadyCase:
 def solver(monkeypatch: pytest.MonkeyPatch) -> type[Adapter]:
     """Register the stand-in, as a third solver would be."""
     monkeypatch.setitem(sys.modules, "stand_in", SimpleNamespace(Adapter=Adapter))  # type: ignore[arg-type]
-    monkeypatch.setitem(SOLVERS, "stand-in", Entry("stand_in", Adapter.provides))
+    monkeypatch.setitem(SOLVERS, "stand-in", SolverEntry("stand_in", Adapter.provides))
     monkeypatch.setattr(Adapter, "calls", [], raising=False)
     return Adapter
 

@@ -11,13 +11,13 @@ import pytest
 from tests.sample_cases import UNSTEADY
 
 from equisection.cases import SolverBlock, UnsteadyCase, case_hash, history_hash
-from equisection.results.kept import keep_results
 from equisection.results.netcdf import read_dataset
-from equisection.results.unsteady import UnsteadyResult
-from equisection.solvers.job import run_cases
+from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import Allocation, Capability, Progress
-from equisection.solvers.registry import SOLVERS, Entry
-from equisection.solvers.verdicts import LOOKS_EVERY, Motion, is_decided, judge
+from equisection.solvers.registry import SOLVERS, SolverEntry
+from equisection.solvers.verdicts import LOOKS_EVERY, TipMotion, is_decided, judge
+from equisection.store.job import run_cases
+from equisection.store.kept import keep_results
 
 PERIOD, DECAY, STEP = 6.0, -0.02, 0.1
 
@@ -64,10 +64,10 @@ class Adapter:
         ]
 
 
-def motion(end: float) -> Motion:
+def motion(end: float) -> TipMotion:
     time = np.arange(round(end / STEP) + 1) * STEP
     twist = 0.01 * np.exp(DECAY * time) * np.cos(2 * np.pi * time / PERIOD)
-    return Motion(time, twist, 0.3 + 2.0 * twist)
+    return TipMotion(time, twist, 0.3 + 2.0 * twist)
 
 
 def case(duration: float = 300.0, **criteria: float) -> UnsteadyCase:
@@ -85,7 +85,7 @@ def case(duration: float = 300.0, **criteria: float) -> UnsteadyCase:
 @pytest.fixture(autouse=True)
 def solver(monkeypatch: pytest.MonkeyPatch) -> type[Adapter]:
     monkeypatch.setitem(sys.modules, "stand_in", SimpleNamespace(Adapter=Adapter))  # type: ignore[arg-type]
-    monkeypatch.setitem(SOLVERS, "stand-in", Entry("stand_in", Adapter.provides))
+    monkeypatch.setitem(SOLVERS, "stand-in", SolverEntry("stand_in", Adapter.provides))
     monkeypatch.setattr(Adapter, "ran", [], raising=False)
     return Adapter
 

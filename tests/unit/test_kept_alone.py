@@ -8,9 +8,9 @@ import xarray as xr
 from tests.sample_cases import STEADY, UNSTEADY
 
 from equisection.cases import Case, UnsteadyCase, canonical, case_hash
-from equisection.results.index import read_index, read_missing, write_index
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.solvers.kept_alone import Answers, answer_from_kept
+from equisection.store.index import read_index, read_missing, write_index
+from equisection.store.kept_alone import Answers, answer_from_kept
 
 OPENFOAM = UNSTEADY.solver.model_copy(
     update={"name": "openfoam", "version": "3", "settings": {"outer_correctors": 3}}

@@ -9,7 +9,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from equisection.comparison.linear_theory import (
+from equisection.analysis.linear_theory import (
     COLUMNS,
     ONSET_COLUMNS,
     linear_onset,
@@ -77,7 +77,7 @@ def test_k_star_at_which_the_iteration_finds_nothing_is_missing_alone(
             raise FlutterIterationError("did not settle")
         return growth_and_frequency(section, scales)
 
-    monkeypatch.setattr("equisection.comparison.linear_theory.growth_and_frequency", settles_above)
+    monkeypatch.setattr("equisection.analysis.linear_theory.growth_and_frequency", settles_above)
     found = linear_theory(EQUIVALENT, [4.0, 8.0, 21.0]).set_index(index)
     is_lost = found.index.get_level_values("k_star") == 4.0
     assert found[is_lost].isna().all(axis=None)

@@ -4,16 +4,16 @@ import math
 import pandas as pd
 import pytest
 
-from equisection.comparison.linear_theory import ONSET_COLUMNS, with_linear_theory
-from equisection.comparison.onset import (
+from equisection.analysis.linear_theory import ONSET_COLUMNS, with_linear_theory
+from equisection.analysis.onset import (
     COLUMNS,
     onset_bracket,
     onset_table,
     refinement_points,
     with_speeds,
 )
-from equisection.comparison.summary import COLUMNS as SUMMARY_COLUMNS
-from equisection.comparison.summary import summarise
+from equisection.analysis.summary import COLUMNS as SUMMARY_COLUMNS
+from equisection.analysis.summary import summarise
 
 S, L, G, F = "settled", "limit-cycle", "growing", "failed"
 

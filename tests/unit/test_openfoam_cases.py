@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY
 
-from equisection import plan
 from equisection.config import load_config
 from equisection.errors import ConfigError, SolverError
 from equisection.solvers.openfoam.adapter import Adapter
@@ -20,16 +19,17 @@ from equisection.solvers.openfoam.case_folder import (
     drop_histories_after,
 )
 from equisection.solvers.openfoam.dictionaries import control, dictionary
-from equisection.solvers.openfoam.flow import (
+from equisection.solvers.openfoam.flow_setup import (
     Coupling,
     reynolds_number,
     unsteady_solution,
     write_flow,
 )
-from equisection.solvers.openfoam.section_history import read_section
-from equisection.solvers.openfoam.section_motion import write_motion
-from equisection.solvers.openfoam.section_rigid import mesh_of, require_sound_mesh
+from equisection.solvers.openfoam.section.rigid_section import mesh_of, require_sound_mesh
+from equisection.solvers.openfoam.section.section_history import read_section
+from equisection.solvers.openfoam.section.section_motion import write_motion
 from equisection.solvers.registry import SOLVERS, check_provided, solver_from_config
+from equisection.study import plan
 
 END = "// ************ //\n"
 

@@ -23,12 +23,12 @@ from tests.conftest import ROOT
 from tests.sample_cases import STEADY, UNSTEADY
 
 from equisection.cases import SolverBlock, history_hash, write_cases
-from equisection.config.sections.openfoam import PREFIX_VARIABLE
+from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from equisection.errors import SolverError
 from equisection.results.netcdf import read_dataset
-from equisection.solvers.job import run_cases
 from equisection.solvers.openfoam.adapter import Adapter
-from equisection.solvers.openfoam.section_history import read_section
+from equisection.solvers.openfoam.section.section_history import read_section
+from equisection.store.job import run_cases
 
 STAND_IN = f"{sys.executable} {ROOT / 'tests' / 'openfoam_stand_in.py'}"
 SOLVER = SolverBlock(

@@ -7,9 +7,9 @@ import pytest
 
 from equisection.errors import SolverError
 from equisection.motion.modal_response import ModalState
-from equisection.solvers.openfoam.histories import read_history, read_table
-from equisection.solvers.openfoam.loads import Loads, reasonable
-from equisection.solvers.openfoam.plate_history import add_row, keep_until, require_state
+from equisection.solvers.openfoam.beam.beam_history import add_row, keep_until, require_state
+from equisection.solvers.openfoam.reading.histories import read_history, read_table
+from equisection.solvers.openfoam.reading.loads import Loads, reasonable
 
 HEADER = "# Force coefficients\n# CofR : (0 0 0)\n# Time\tCd\tCl\tCmPitch\n"
 

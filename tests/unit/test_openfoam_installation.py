@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from equisection.config.sections.openfoam import PREFIX_VARIABLE
+from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from equisection.errors import SolverError
 from equisection.solvers.openfoam.installation import PROGRAMS, Installation, find, version_in
 

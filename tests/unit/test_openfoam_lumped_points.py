@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from tests.sample_cases import beam_modes
 
-from equisection.solvers.openfoam.lumped_points import Handed, LumpedPoints
+from equisection.solvers.openfoam.beam.lumped_points import Handed, LumpedPoints
 
 EDGES = np.linspace(0.0, 3.7, 75)
 POINTS = LumpedPoints.of(beam_modes(), EDGES)

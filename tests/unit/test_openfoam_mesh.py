@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from equisection.errors import SolverError
-from equisection.solvers.openfoam.mesh import Channel, Mesh, expansion
-from equisection.solvers.openfoam.presets import PRESETS
+from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh, expansion
+from equisection.solvers.openfoam.mesh.presets import PRESETS
 
-CHANNEL = Channel(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
+CHANNEL = ChannelBox(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
 
 
 def mesh(incidence_deg: float = 2.5, refinement: float = 1.0) -> Mesh:

@@ -12,15 +12,15 @@ from tests.sample_cases import UNSTEADY
 from equisection.config import load_config
 from equisection.errors import ConfigError, SolverError
 from equisection.solvers.openfoam.adapter import Adapter
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.mesh import Channel
-from equisection.solvers.openfoam.overset import OversetRun, read_motion
-from equisection.solvers.openfoam.overset_mesh import OversetMesh
-from equisection.solvers.openfoam.section_rigid import mesh_of
+from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
+from equisection.solvers.openfoam.mesh.overset_mesh import OversetMesh
+from equisection.solvers.openfoam.section.overset_section import OversetRun, read_motion
+from equisection.solvers.openfoam.section.rigid_section import mesh_of
 from equisection.solvers.registry import solver_from_config
 
-CHANNEL = Channel(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
+CHANNEL = ChannelBox(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
 
 
 def meshes(incidence_deg: float = 2.5, refinement: float = 1.0) -> OversetMesh:
@@ -73,7 +73,7 @@ def test_reach_is_that_of_the_corner_of_the_component() -> None:
 
 
 def test_short_channel_is_refused() -> None:
-    short = OversetMesh(Channel(0.04, 4.0, 1.0, 15.0), 0.0, 1.0)
+    short = OversetMesh(ChannelBox(0.04, 4.0, 1.0, 15.0), 0.0, 1.0)
     with pytest.raises(SolverError, match=r"flow\.channel: .* from -1\.2 c to 2\.4 c"):
         short.block_mesh_dict()
 

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from equisection.errors import SolverError
-from equisection.solvers.openfoam.pipes import FOLDER, LOADS, PLACES, Pipes
+from equisection.solvers.openfoam.beam.pipes import FOLDER, LOADS, PLACES, Pipes
 
 #: Writes loads, removes the first lock that is there, wants another, and reads places.
 OTHER_SIDE = """

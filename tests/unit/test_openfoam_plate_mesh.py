@@ -9,13 +9,13 @@ from tests.sample_cases import GEOMETRY, STEADY_PLATE
 
 from equisection.config import load_config
 from equisection.errors import ConfigError, SolverError
-from equisection.solvers.openfoam.mesh import Channel, Mesh
-from equisection.solvers.openfoam.plate_mesh import PlateMesh
-from equisection.solvers.openfoam.plate_rigid import plate_mesh_of
-from equisection.solvers.openfoam.presets import PRESETS
+from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of
+from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
+from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh
+from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.ranks import divisions
 
-CHANNEL = Channel(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
+CHANNEL = ChannelBox(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
 
 
 def plate_mesh(refinement: float = 0.55, gap: float = 0.3) -> PlateMesh:

@@ -11,15 +11,17 @@ from tests.watching import nothing
 
 from equisection.errors import SolverError
 from equisection.motion.modal_response import ModalStep, Staggered
-from equisection.solvers.openfoam import flow, plate_free, tip_flow
+from equisection.solvers.openfoam import flow_setup as flow
+from equisection.solvers.openfoam.beam import free_beam as plate_free
+from equisection.solvers.openfoam.beam.free_beam import PlateRun
+from equisection.solvers.openfoam.beam.pipes import Pipes
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.mesh import Channel, Mesh
-from equisection.solvers.openfoam.pipes import Pipes
-from equisection.solvers.openfoam.plate_free import PlateRun
-from equisection.solvers.openfoam.plate_mesh import PlateMesh
+from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
+from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh
 from equisection.solvers.openfoam.process import BlowUpError
+from equisection.solvers.openfoam.reading import sampled_tip_flow as tip_flow
 
-MESH = PlateMesh(Mesh(Channel(0.04, 4.0, 5.0, 15.0), math.radians(2.5), 0.55), 3.7, 0.3)
+MESH = PlateMesh(Mesh(ChannelBox(0.04, 4.0, 5.0, 15.0), math.radians(2.5), 0.55), 3.7, 0.3)
 
 
 def fails(*arguments: object, **keywords: object) -> NoReturn:

@@ -8,19 +8,19 @@ import pytest
 from tests.watching import nothing
 
 from equisection.solvers.openfoam import rigid_flow
-from equisection.solvers.openfoam.loads import Loads
 from equisection.solvers.openfoam.process import Watch
+from equisection.solvers.openfoam.reading.loads import Loads
 from equisection.solvers.openfoam.rigid_flow import (
     ITERATIONS_TO_LOOK,
     MOST,
-    Record,
+    RigidFlowRecord,
     follow_iterations,
     follow_unsteady,
     has_converged,
     method_of_mean,
 )
 
-RECORD = Record(10.0, 40.0, 100.0)
+RECORD = RigidFlowRecord(10.0, 40.0, 100.0)
 
 
 def settling(time: np.ndarray, rate: float) -> Loads:

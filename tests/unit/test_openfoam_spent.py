@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from equisection.results.spent import Spent
-from equisection.solvers.openfoam.spent import spent
+from equisection.solvers.openfoam.time_spent import spent
 
 START = """Build  : OPENFOAM=1912
 Exec   : pimpleFoam

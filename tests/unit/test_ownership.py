@@ -13,15 +13,15 @@ from pathlib import Path
 import pytest
 
 from equisection.errors import SolverError
-from equisection.progress import Process
-from equisection.solvers import ownership
-from equisection.solvers.ownership import FOLDER, Claim, Owner, claimed
+from equisection.store import lock as ownership
+from equisection.store.lock import FOLDER, HeldLock, Owner, claimed
+from equisection.store.progress import Process
 
 #: A job that owns the directory until it is told to end, or killed.
 HOLDER = """
 import sys
 from pathlib import Path
-from equisection.solvers.ownership import claimed
+from equisection.store.lock import claimed
 with claimed(Path(sys.argv[1])):
     print("has it", flush=True)
     sys.stdin.read()
@@ -30,7 +30,7 @@ with claimed(Path(sys.argv[1])):
 ADDER = """
 import sys, time
 from pathlib import Path
-from equisection.solvers import ownership
+from equisection.store import lock as ownership
 ownership.LOOK = 0.01
 work = Path(sys.argv[1])
 for _ in range(5):
@@ -165,7 +165,7 @@ def test_owner_that_was_killed_before_it_could_say_who_it_is(tmp_path: Path) -> 
 
 def sleep_while_another_takes_over(work: Path) -> None:
     with claimed(work) as claim:
-        other = Claim(claim.folder, claim.number + 1, ELSEWHERE)
+        other = HeldLock(claim.folder, claim.number + 1, ELSEWHERE)
         other.file.write_text(json.dumps(asdict(ELSEWHERE)))
         time.sleep(60)  # is interrupted
 

@@ -10,16 +10,16 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from equisection.comparison import paper_values
-from equisection.comparison.bubble import bubble_table
-from equisection.comparison.onset import onset_table
-from equisection.comparison.paper import COLUMNS, paper_table
-from equisection.comparison.paper_here import Run, uniform_load_ratio
-from equisection.comparison.paper_values import PUBLISHED, Published, relative_difference
-from equisection.comparison.summary import summarise
-from equisection.comparison.tables import table_1, table_2
+from equisection.analysis.bubble import bubble_table
+from equisection.analysis.onset import onset_table
+from equisection.analysis.summary import summarise
 from equisection.config import Config
-from equisection.results.polar import gather_polar
+from equisection.paper import printed_values as paper_values
+from equisection.paper.comparison import COLUMNS, paper_table
+from equisection.paper.printed_values import PUBLISHED, Published, relative_difference
+from equisection.paper.quantities import Run, uniform_load_ratio
+from equisection.paper.tables import table_1, table_2
+from equisection.results.polar_dataset import gather_polar
 
 KINDS = ("bending", "bending", "torsion", "bending", "torsion", "in-plane")
 FREQUENCY = np.array([8.0, 50.0, 58.0, 140.0, 180.0, 188.0])

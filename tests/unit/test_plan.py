@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equisection import plan
-from equisection.comparison.onset import OnsetBracket, refinement_points
+from equisection.analysis.onset import OnsetBracket, refinement_points
 from equisection.config import Config, load_config
+from equisection.study import plan
 
 k_stars = st.floats(min_value=1e-3, max_value=1e6).map(lambda value: float(f"{value:.6g}"))
 angles = st.floats(min_value=-89, max_value=89).map(lambda value: float(f"{value:.6g}"))

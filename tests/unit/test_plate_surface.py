@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from equisection.comparison.bubble import plate_bubble_table
+from equisection.analysis.bubble import plate_bubble_table
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.plate_surface import PlateSurface, joined, plate_surface_from_dataset
-from equisection.results.steady import SteadyResult
+from equisection.results.steady_result import SteadyResult
 from equisection.results.surface import surface_from_dataset
 
 SPAN, THICKNESS = 2.0, 0.04

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from tests.conftest import ROOT
 
-from equisection.aerodynamics.polar_file import read_polar
-from equisection.command_line import main
 from equisection.errors import ResultFileError
+from equisection.io.polar_export import polar_csv
+from equisection.io.polar_file import read_polar
 from equisection.results.netcdf import write_dataset
-from equisection.results.polar_csv import polar_csv
-from equisection.results.steady import SteadyResult
+from equisection.results.steady_result import SteadyResult
+from equisection.run.command_line import main
 
 NOTHING = np.empty(0)
 

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from equisection.aerodynamics.polar_file import read_polar
 from equisection.errors import PolarFileError
+from equisection.io.polar_file import read_polar
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"
 HEADER = "incidence_deg,cl,cm,cd\n"

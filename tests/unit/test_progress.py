@@ -15,9 +15,16 @@ from pathlib import Path
 import pytest
 from rich.console import Console
 
-from equisection import progress, progress_bar
-from equisection.progress import JobProgress, Process, Snapshot, clock, label_of, read_snapshot
-from equisection.progress_bar import Bar
+from equisection.store import progress, progress_bar
+from equisection.store.progress import (
+    JobProgress,
+    Process,
+    Snapshot,
+    clock,
+    label_of,
+    read_snapshot,
+)
+from equisection.store.progress_bar import Bar
 
 
 def snapshot(**changes: object) -> Snapshot:

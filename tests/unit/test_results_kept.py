@@ -8,13 +8,13 @@ import xarray as xr
 from tests.sample_cases import STEADY, UNSTEADY
 
 from equisection.cases import Case, canonical, case_hash
-from equisection.command_line import main
-from equisection.results.kept import SECTION_MESH, keep_results, kept_mesh, kept_results
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.section_mesh import no_mesh
-from equisection.solvers import job
-from equisection.solvers.job import run_cases
-from equisection.solvers.result_store import ResultStore, Task
+from equisection.run.command_line import main
+from equisection.store import job
+from equisection.store.job import run_cases
+from equisection.store.kept import SECTION_MESH, keep_results, kept_mesh, kept_results
+from equisection.store.result_store import ResultStore, Task
 
 
 def write(path: Path, case: Case, **attributes: str) -> None:

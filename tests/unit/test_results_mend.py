@@ -8,9 +8,9 @@ import pytest
 import xarray as xr
 
 from equisection.errors import ResultFileError
-from equisection.results.index import read_index, result_files, write_index
-from equisection.results.mend import mend
 from equisection.results.netcdf import read_attributes, write_dataset
+from equisection.store.index import read_index, result_files, write_index
+from equisection.store.mend import mend
 
 
 def result(case_hash: str) -> xr.Dataset:

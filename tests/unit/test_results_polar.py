@@ -5,11 +5,11 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from equisection.aerodynamics.polar_file import read_polar
 from equisection.errors import ResultFileError
+from equisection.io.polar_file import read_polar
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.polar import at_resolution, gather_polar, given_polar, polar_at
-from equisection.results.steady import SteadyResult
+from equisection.results.polar_dataset import at_resolution, gather_polar, given_polar, polar_at
+from equisection.results.steady_result import SteadyResult
 from equisection.results.surface import SectionSurface
 from equisection.structure.mode_set import ModeSet
 

@@ -15,17 +15,17 @@ import yaml
 from tests.conftest import ROOT
 from tests.sample_cases import STEADY, STEADY_PLATE
 
-from equisection import plan
 from equisection.cases import SteadyCase, case_hash, read_cases, write_cases
 from equisection.config import load_config, resolve_config
-from equisection.config.sections import Beam, Flow, Structure
+from equisection.config.groups import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
-from equisection.results.index import read_index, write_index
-from equisection.results.kept import kept_results
 from equisection.results.netcdf import read_dataset
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
-from equisection.script import logged
+from equisection.run.script import logged
+from equisection.store.index import read_index, write_index
+from equisection.store.kept import kept_results
+from equisection.study import plan
 
 SCRIPTS = sorted(path.stem for path in (ROOT / "scripts").glob("*.py"))
 LoadScript = Callable[[str], ModuleType]

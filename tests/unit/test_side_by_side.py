@@ -12,15 +12,15 @@ import pandas as pd
 import pytest
 import xarray as xr
 
-from equisection.comparison.paper_values import PUBLISHED, TABLE_1
-from equisection.comparison.side_by_side import findings_loads as loads
-from equisection.comparison.side_by_side import findings_response as response
-from equisection.comparison.side_by_side.__main__ import main, page
-from equisection.comparison.side_by_side.claims import CLAIMS
-from equisection.comparison.side_by_side.evidence import Evidence, read_evidence
-from equisection.comparison.side_by_side.findings import Verdict, graded
-from equisection.comparison.side_by_side.kept_runs import base_of, cost_ladder
 from equisection.errors import ResultFileError
+from equisection.paper.claims_page import findings_loads as loads
+from equisection.paper.claims_page import findings_response as response
+from equisection.paper.claims_page.__main__ import main, page
+from equisection.paper.claims_page.claims import CLAIMS
+from equisection.paper.claims_page.evidence import Evidence, read_evidence
+from equisection.paper.claims_page.findings import ClaimVerdict, graded
+from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
+from equisection.paper.printed_values import PUBLISHED, TABLE_1
 from equisection.results.section_mesh import no_mesh
 
 #: k*, regime, amplitude (deg), growth (V/c), mean twist (deg), mean deflection (chords).
@@ -181,9 +181,9 @@ def without_plate() -> Evidence:
 
 def test_claims_that_hold_agree() -> None:
     judged = {claim.title: claim.judge(complete()).verdict for claim in CLAIMS}
-    open_ones = {title for title, verdict in judged.items() if verdict is Verdict.OPEN}
+    open_ones = {title for title, verdict in judged.items() if verdict is ClaimVerdict.OPEN}
     assert open_ones == {"Courant number"}
-    assert {judged[title] for title in judged.keys() - open_ones} == {Verdict.AGREES}
+    assert {judged[title] for title in judged.keys() - open_ones} == {ClaimVerdict.AGREES}
 
 
 @pytest.mark.parametrize(
@@ -199,37 +199,37 @@ def test_claims_that_hold_agree() -> None:
     ],
 )
 def test_what_needs_the_plate_is_open_without_it(judge: object) -> None:
-    assert judge(without_plate()).verdict is Verdict.OPEN  # type: ignore[operator]
+    assert judge(without_plate()).verdict is ClaimVerdict.OPEN  # type: ignore[operator]
 
 
 def test_onset_of_the_section_alone_does_not_make_the_claim() -> None:
     finding = response.onset(without_plate())
-    assert finding.verdict is Verdict.PARTLY
+    assert finding.verdict is ClaimVerdict.PARTLY
     assert "3d: not run yet" in finding.here
 
 
 def test_onset_far_from_the_papers_is_not_borne_out() -> None:
     far = complete().onset.assign(k_star_unstable=8.5, k_star_stable=10.0)
-    assert response.onset(replace(complete(), onset=far)).verdict is Verdict.DIFFERS
+    assert response.onset(replace(complete(), onset=far)).verdict is ClaimVerdict.DIFFERS
 
 
 def test_section_that_bends_less_than_the_plate_contradicts_the_paper() -> None:
     bending = [(*run[:5], 2 * run[5]) for run in BEAM]
     changed = replace(complete(), reductions=reductions(beam=bending))
     finding = response.mean_bending_uncorrected(changed)
-    assert finding.verdict is Verdict.DIFFERS
+    assert finding.verdict is ClaimVerdict.DIFFERS
 
 
 @pytest.mark.parametrize(
     ("growth_of_the_plate", "verdict"),
     [
-        ((0.03, 0.002), Verdict.PARTLY),
-        ((0.03, 0.02), Verdict.DIFFERS),
-        ((0.0, 0.0), Verdict.AGREES),
+        ((0.03, 0.002), ClaimVerdict.PARTLY),
+        ((0.03, 0.02), ClaimVerdict.DIFFERS),
+        ((0.0, 0.0), ClaimVerdict.AGREES),
     ],
 )
 def test_growth_is_compared_at_the_same_k_star(
-    growth_of_the_plate: tuple[float, float], verdict: Verdict
+    growth_of_the_plate: tuple[float, float], verdict: ClaimVerdict
 ) -> None:
     """Not at the stiffest that grows, where growth is next to nothing for either."""
     section: list[Run] = [
@@ -248,20 +248,20 @@ def test_decay_is_not_judged_on_runs_at_low_stiffness() -> None:
     slow = [run for run in BEAM if run[0] < 10.0]
     some = replace(complete(), summary=summary(m2d=SECTION, m2d_corrected=CORRECTED, m3d=slow))
     found = response.decay_at_high_stiffness(some)
-    assert found.verdict == Verdict.PARTLY
+    assert found.verdict == ClaimVerdict.PARTLY
     assert "3d: not run from k* = 10 on" in found.here
 
 
 @pytest.mark.parametrize(
     ("unstable", "stable", "verdict"),
     [
-        ("growing", "settled", Verdict.DIFFERS),
-        ("growing", "limit-cycle", Verdict.AGREES),
-        ("limit-cycle", "settled", Verdict.AGREES),
+        ("growing", "settled", ClaimVerdict.DIFFERS),
+        ("growing", "limit-cycle", ClaimVerdict.AGREES),
+        ("limit-cycle", "settled", ClaimVerdict.AGREES),
     ],
 )
 def test_limit_cycle_may_be_on_either_side_of_the_onset(
-    unstable: str, stable: str, verdict: Verdict
+    unstable: str, stable: str, verdict: ClaimVerdict
 ) -> None:
     runs: list[Run] = [(5.5, unstable, 0.6, 0.0, 0.8, 0.4), (8.0, stable, 0.4, 0.0, 0.6, 0.27)]
     finding = response.limit_cycle(replace(complete(), summary=summary(m2d_corrected=runs)))
@@ -272,7 +272,7 @@ def test_other_reduction_stands_beside_the_papers_and_is_not_judged() -> None:
     far = [(*run[:4], 3 * run[4], run[5]) for run in SECTION]
     both = pd.concat([reductions(), summary(m2d_consistent=far)])
     finding = response.mean_twist_uncorrected(replace(complete(), reductions=both))
-    assert finding.verdict is Verdict.AGREES
+    assert finding.verdict is ClaimVerdict.AGREES
     assert "With the consistent reduction mean twist: +219 % at 8" in finding.why
 
 
@@ -286,7 +286,7 @@ def test_means_of_a_large_motion_are_not_compared() -> None:
 def test_linear_theory_that_grows_at_the_onset_would_contradict_the_paper() -> None:
     linear = complete().linear.assign(growth_rate=[-0.05, 0.01])
     finding = response.not_classical_flutter(replace(complete(), linear=linear))
-    assert finding.verdict is Verdict.DIFFERS
+    assert finding.verdict is ClaimVerdict.DIFFERS
 
 
 def test_section_on_the_sweeps_mesh_is_set_against_the_plate_over_the_same_time() -> None:
@@ -331,7 +331,7 @@ def test_factors_are_not_judged_across_a_gap() -> None:
     assert "c_m/C_M: 1.20 at 2.5 deg, 1.10 at 5 deg, 0.90 at 10 deg" in found.here
     crossing["moment_factor"][1] = np.nan
     found = loads.section_against_plate(replace(whole, correction=crossing))
-    assert found.verdict is Verdict.OPEN
+    assert found.verdict is ClaimVerdict.OPEN
 
 
 def test_links_of_the_page_lead_to_its_headings() -> None:
@@ -346,12 +346,12 @@ def test_links_of_the_page_lead_to_its_headings() -> None:
 @pytest.mark.parametrize(
     ("differences", "verdict"),
     [
-        ([0.01, -0.04], Verdict.AGREES),
-        ([0.01, -0.1], Verdict.PARTLY),
-        ([0.2], Verdict.DIFFERS),
+        ([0.01, -0.04], ClaimVerdict.AGREES),
+        ([0.01, -0.1], ClaimVerdict.PARTLY),
+        ([0.2], ClaimVerdict.DIFFERS),
     ],
 )
-def test_largest_difference_decides(differences: list[float], verdict: Verdict) -> None:
+def test_largest_difference_decides(differences: list[float], verdict: ClaimVerdict) -> None:
     assert graded(differences, 0.05, 0.15) is verdict
 
 

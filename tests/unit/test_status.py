@@ -8,16 +8,16 @@ from pathlib import Path
 import pytest
 from tests.run_by_hand import GONE, PARTS, Run, unsteady
 
-from equisection import status_text
 from equisection.cases import (
     SteadyCase,
     case_hash,
     write_cases,
 )
-from equisection.command_line import main
-from equisection.progress import Process
-from equisection.status import State, run_status
-from equisection.status_logs import last_error
+from equisection.run import status_text
+from equisection.run.command_line import main
+from equisection.run.status import State, run_status
+from equisection.run.status_logs import last_error
+from equisection.store.progress import Process
 
 
 @pytest.fixture

@@ -14,14 +14,14 @@ from tests.run_by_hand import GONE, Run
 from tests.sample_cases import UNSTEADY
 
 from equisection.cases import Case, SolverBlock, UnsteadyCase, history_hash, write_cases
-from equisection.command_line import main
 from equisection.config import load_config, resolve_config
-from equisection.progress import Process
-from equisection.results.index import write_index
-from equisection.solvers import cost
-from equisection.solvers.ownership import FOLDER, Owner
-from equisection.status import State, run_status
-from equisection.status_words import core_time, estimated_end, where_of
+from equisection.run import cost
+from equisection.run.command_line import main
+from equisection.run.status import State, run_status
+from equisection.run.status_words import core_time, estimated_end, where_of
+from equisection.store.index import write_index
+from equisection.store.lock import FOLDER, Owner
+from equisection.store.progress import Process
 
 OPENFOAM = SolverBlock(name="openfoam", version="3", settings={})
 CONFIG = {"solver": "openfoam", "sweep": {"models": ["2d"]}, "unsteady": {"time_step": 0.02}}
@@ -125,7 +125,7 @@ def test_an_index_spares_the_opening_of_results(run: Run, monkeypatch: pytest.Mo
     }
     write_index(run.folder / "unsteady/2d/sweep.json", attributes)
     opened: list[Path] = []
-    monkeypatch.setattr("equisection.status.read_attributes", opened.append)
+    monkeypatch.setattr("equisection.run.status.read_attributes", opened.append)
     assert run_status(run.folder).count(steady=False) == {State.DONE: 2}
     assert opened == []
 

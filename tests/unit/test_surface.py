@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from equisection.comparison.bubble import bubble_table
+from equisection.analysis.bubble import bubble_table
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.steady import SteadyResult
+from equisection.results.steady_result import SteadyResult
 from equisection.results.surface import SectionSurface, suction_side, surface_from_dataset
 
 NOTHING = np.empty(0)

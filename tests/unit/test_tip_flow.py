@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.steady import SteadyResult
+from equisection.results.steady_result import SteadyResult
 from equisection.results.tip_flow import TipFlow, tip_flow_from_dataset
-from equisection.results.unsteady import UnsteadyResult
+from equisection.results.unsteady_result import UnsteadyResult
 
 NOTHING = np.empty(0)
 

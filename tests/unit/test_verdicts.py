@@ -6,17 +6,17 @@ import numpy as np
 import pytest
 from tests.sample_cases import UNSTEADY, UNSTEADY_PLATE
 
-from equisection.solvers.verdicts import Motion, judge, pitch_frequency
+from equisection.solvers.verdicts import TipMotion, judge, pitch_frequency
 
 TIME = np.arange(0.0, 60.0, 0.05)
 LEFT = "an incidence of 25.1 deg left the section polar"
 
 
-def moved(turns_deg: list[float], end: float) -> Motion:
+def moved(turns_deg: list[float], end: float) -> TipMotion:
     """Return a twist that goes from turn to turn, in equal times."""
     time = TIME[end >= TIME]
     twist = np.radians(np.interp(time, np.linspace(0.0, end, len(turns_deg)), turns_deg))
-    return Motion(time, twist, 0.1 * twist)
+    return TipMotion(time, twist, 0.1 * twist)
 
 
 @pytest.mark.parametrize(
@@ -45,8 +45,8 @@ def test_frequency_in_vacuum_is_that_of_the_section_or_of_the_first_torsion_mode
 def test_frequency_is_that_of_an_oscillation_or_not_known() -> None:
     """Not the structure's in vacuum, which stands in for a period where there is none."""
     ringing = np.radians(np.exp(-0.01 * TIME) * np.cos(1.1 * TIME))
-    found = judge(UNSTEADY, Motion(TIME, ringing, 0.1 * ringing))
+    found = judge(UNSTEADY, TipMotion(TIME, ringing, 0.1 * ringing))
     assert found["frequency_strouhal"] == pytest.approx(1.1 / (2 * math.pi), rel=1e-3)
     creeping = np.radians(1.0 - np.exp(-0.1 * TIME))
-    found = judge(UNSTEADY, Motion(TIME, creeping, 0.1 * creeping))
+    found = judge(UNSTEADY, TipMotion(TIME, creeping, 0.1 * creeping))
     assert math.isnan(found["frequency_strouhal"])

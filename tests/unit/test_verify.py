@@ -12,8 +12,6 @@ from tests.sample_cases import UNSTEADY
 
 import equisection
 from equisection.cases import canonical, case_hash, write_cases
-from equisection.command_line import main
-from equisection.made_from import write_record
 from equisection.provenance import (
     ATTRIBUTES,
     COMMAND_VARIABLE,
@@ -23,9 +21,11 @@ from equisection.provenance import (
     config_text,
     made_by_this,
 )
-from equisection.results.index import write_index
 from equisection.results.netcdf import read_attributes, write_dataset
-from equisection.verify import Fault, verify_run
+from equisection.run.command_line import main
+from equisection.run.verify import Fault, verify_run
+from equisection.store.index import write_index
+from equisection.store.made_from import write_record
 
 CASE = UNSTEADY
 RESULT = "unsteady/2d/k6.44.nc"

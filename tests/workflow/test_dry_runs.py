@@ -6,11 +6,11 @@ import pytest
 import yaml
 from snakemake.utils import update_config
 
-from equisection import plan
 from equisection.config import load_config
-from equisection.jobs import solver_jobs
-from equisection.solvers.cost import COST_MODEL, read_cost_model
+from equisection.run.cost import COST_MODEL, read_cost_model
+from equisection.run.jobs import solver_jobs
 from equisection.solvers.registry import SOLVERS, Capability
+from equisection.study import plan
 from tests.workflow.project import ROOT, Project, jobs_planned, one_case_at_a_time, small
 
 SHIPPED = sorted((ROOT / "config").glob("*.yaml")) + sorted(

@@ -11,10 +11,10 @@ import yaml
 import equisection
 from equisection.cases import case_hash, read_cases
 from equisection.config import load_config
-from equisection.results.index import read_index
 from equisection.results.netcdf import read_attributes
-from equisection.solvers.ownership import FOLDER as OWNERS
-from equisection.verify import verify_run
+from equisection.run.verify import verify_run
+from equisection.store.index import read_index
+from equisection.store.lock import FOLDER as OWNERS
 from tests.workflow.project import ROOT, Project, has_nothing_to_do, small
 
 MODELS = ("2d", "2d-corrected", "3d")

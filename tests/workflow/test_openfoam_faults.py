@@ -10,7 +10,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from equisection.config.sections.openfoam import PREFIX_VARIABLE
+from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from tests.conftest import ROOT
 from tests.workflow.project import Project, has_nothing_to_do, jobs_run, small
 from tests.workflow.test_kills import kill_while_working

@@ -10,7 +10,7 @@ import pandas as pd
 import pytest
 from matplotlib.image import imread
 
-from equisection.comparison.side_by_side.__main__ import main
+from equisection.paper.claims_page.__main__ import main
 from tests.workflow.project import ROOT, Project, jobs_planned
 
 

@@ -24,7 +24,7 @@ def test_editing_the_package_without_changing_a_case_runs_no_solver(
 ) -> None:
     project = finished.copy(tmp_path / "project")
     before = results_of_solver(project)
-    for module in ("solvers/embedded.py", "structure/modes.py", "aerodynamics/polar.py"):
+    for module in ("solvers/embedded/adapter.py", "structure/modes.py", "aerodynamics/polar.py"):
         with (project.folder / "workflow" / "equisection" / module).open("a") as source:
             source.write("# Nothing that decides a result.\n")
 

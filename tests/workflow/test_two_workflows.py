@@ -4,7 +4,7 @@ import sys
 
 import pytest
 
-from equisection.config.sections.openfoam import PREFIX_VARIABLE
+from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from equisection.results.netcdf import read_dataset
 from tests.conftest import ROOT
 from tests.processes import process_in, wait_until

@@ -42,6 +42,9 @@ from __future__ import annotations
 
 import math
 
+#: Largest |c_l| or |c_m| of a symmetric section at zero incidence that still counts as round-off.
+SYMMETRY_TOLERANCE = 1e-4
+
 
 def dynamic_pressure(density: float, speed: float) -> float:
     """Dynamic pressure q = rho V^2 / 2 (Pa)."""

@@ -6,14 +6,14 @@ import sys
 from pathlib import Path
 
 import equisection
-from equisection import plan
+from equisection.study import plan
 from equisection.config import (
     check_files,
     check_repeated_keys,
     load_config,
     resolve_config,
 )
-from equisection.config.sections import FLAT_PLATE
+from equisection.config.groups import FLAT_PLATE
 from equisection.errors import ConfigError
 from equisection.figures.models_shown import beam_model, section_model
 from equisection.provenance import (
@@ -22,8 +22,8 @@ from equisection.provenance import (
     command_line,
     config_hash,
 )
-from equisection.results.mend import mend
-from equisection.solvers.given_polars import check_polars
+from equisection.store.mend import mend
+from equisection.study.given_polars import check_polars
 from equisection.solvers.registry import SOLVERS, Capability, check_provided
 
 try:
@@ -78,14 +78,15 @@ wildcard_constraints:
 
 # Modules that decide what stands in a case file.
 CASES_MADE_OF = (
-    "assemble.py",
-    "plan.py",
+    "study/assemble.py",
+    "study/plan.py",
     "aerodynamics",
     "cases",
     "reduction",
     "results",
     "solvers",
     "structure/plate.py",
+    "io",
 )
 
 

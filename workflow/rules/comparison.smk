@@ -4,7 +4,7 @@
 LINEAR_THEORY = (
     "aerodynamics/indicial.py",
     "aerodynamics/thin_airfoil.py",
-    "comparison/linear_theory.py",
+    "analysis/linear_theory.py",
     "motion/linear_flutter.py",
 )
 
@@ -23,7 +23,7 @@ rule config_resolved:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("config"),
+        code=code("config", "keys"),
         config=RESOLVED,
     message:
         "resolved configuration"
@@ -52,7 +52,7 @@ rule summary:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code("comparison/summary.py", "results"),
+        code=code("analysis/summary.py", "results"),
         models=list(CONFIG.sweep.shown),
     message:
         "summary"
@@ -79,7 +79,7 @@ rule missing:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("comparison/missing.py", "results/index.py"),
+        code=code("analysis/missing.py", "store/index.py"),
     message:
         "cases without a kept result"
     script:
@@ -109,7 +109,7 @@ rule onset:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("comparison/onset.py", *LINEAR_THEORY),
+        code=code("analysis/onset.py", *LINEAR_THEORY),
         resolution=CONFIG.steady.resolution,
         incidence_deg=CONFIG.flow.incidence_deg,
         speed=CONFIG.flow.speed,
@@ -187,7 +187,7 @@ rule paper_comparison:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code("comparison", "results/correction.py"),
+        code=code("analysis", "paper", "results/correction_dataset.py"),
         is_paper_case=CONFIG.is_paper_case,
         config=RESOLVED,
     message:
@@ -217,7 +217,7 @@ rule rigid_beam_table:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("comparison/tables.py", "comparison/paper_values.py"),
+        code=code("paper/tables.py", "paper/printed_values.py"),
         is_paper_case=CONFIG.is_paper_case,
     message:
         "Table 1, loads of the rigid beam"

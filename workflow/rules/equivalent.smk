@@ -17,7 +17,7 @@ rule equivalent_section:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("reduction", "results/modes.py", "results/equivalent.py"),
+        code=code("reduction", "results/modes_dataset.py", "results/section_dataset.py"),
         beam=RESOLVED["beam"],
         flow=RESOLVED["flow"],
     message:
@@ -47,8 +47,8 @@ rule correction_factors:
         code=code(
             "reduction/correction.py",
             "reduction/modal_load.py",
-            "results/correction.py",
-            "results/polar.py",
+            "results/correction_dataset.py",
+            "results/polar_dataset.py",
         ),
         resolution=CONFIG.steady.resolution,
     message:

@@ -3,13 +3,13 @@
 # What every figure is made with; the rules name the modules of their own beside.
 DRAWING = (
     "figures/panels.py",
-    "figures/provenance.py",
+    "figures/origin.py",
     "figures/save.py",
     "figures/style.py",
 )
 CASES_SHOWN = (
     "figures/cases_shown.py",
-    "figures/history.py",
+    "figures/drawn_history.py",
     "figures/models.py",
     "figures/models_shown.py",
 )
@@ -83,7 +83,7 @@ rule fig03_modes:
     params:
         code=code(
             *DRAWING,
-            "figures/fig03_modes.py",
+            "figures/mode_shapes.py",
             "structure/analytic.py",
             "structure/span.py",
         ),
@@ -120,7 +120,7 @@ rule fig05_section_mesh:
     params:
         code=code(
             *DRAWING,
-            "figures/fig05_section_mesh.py",
+            "figures/mesh_of_section.py",
             "figures/mesh_lines.py",
             "results/plane_mesh.py",
         ),
@@ -155,7 +155,7 @@ rule fig06_section_polar:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig06_section_polar.py"),
+        code=code(*DRAWING, "figures/section_polar.py"),
     message:
         "Fig. 6, section polars"
     script:
@@ -189,8 +189,8 @@ rule fig07_surface:
     params:
         code=code(
             *DRAWING,
-            "comparison/paper_values.py",
-            "figures/fig07_surface.py",
+            "paper/printed_values.py",
+            "figures/surface_loads.py",
             "results/surface.py",
         ),
         resolution=CONFIG.steady.resolution,
@@ -227,7 +227,7 @@ rule fig08_courant_number:
         runtime=5,
     params:
         code=code(
-            *DRAWING, "figures/fig08_courant_number.py", "results/section_mesh.py"
+            *DRAWING, "figures/courant_number.py", "results/section_mesh.py"
         ),
     message:
         "Fig. 8, Courant number"
@@ -261,7 +261,7 @@ rule fig09_plate_mesh:
     params:
         code=code(
             *DRAWING,
-            "figures/fig09_plate_mesh.py",
+            "figures/mesh_of_beam.py",
             "figures/mesh_lines.py",
             "results/plane_mesh.py",
         ),
@@ -296,7 +296,7 @@ rule fig10_spanwise_loads:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig10_spanwise_loads.py", "figures/incidences.py"),
+        code=code(*DRAWING, "figures/spanwise_loads.py", "figures/incidences.py"),
         resolution=CONFIG.steady.resolution,
     message:
         "Fig. 10, spanwise loads"
@@ -333,7 +333,7 @@ rule fig11_plate_surface:
     params:
         code=code(
             *DRAWING,
-            "figures/fig11_plate_surface.py",
+            "figures/surface_of_beam.py",
             "figures/incidences.py",
             "results/plate_surface.py",
             "results/surface.py",
@@ -370,7 +370,7 @@ rule fig12_tip_flow:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig12_tip_flow.py", "results/tip_flow.py"),
+        code=code(*DRAWING, "figures/flow_at_tip.py", "results/tip_flow.py"),
         resolution=CONFIG.steady.resolution,
         incidence_deg=CONFIG.flow.incidence_deg,
     message:
@@ -407,8 +407,8 @@ rule fig13_lift_correction:
     params:
         code=code(
             *DRAWING,
-            "figures/fig13_lift_correction.py",
-            "figures/correction.py",
+            "figures/lift_correction.py",
+            "figures/load_correction.py",
             "figures/models.py",
         ),
         resolution=CONFIG.steady.resolution,
@@ -446,8 +446,8 @@ rule fig14_moment_correction:
     params:
         code=code(
             *DRAWING,
-            "figures/fig14_moment_correction.py",
-            "figures/correction.py",
+            "figures/moment_correction.py",
+            "figures/load_correction.py",
             "figures/models.py",
         ),
         resolution=CONFIG.steady.resolution,
@@ -482,7 +482,7 @@ rule fig15_modal_contributions:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, "figures/fig15_modal_contributions.py"),
+        code=code(*DRAWING, "figures/modal_contributions.py"),
     message:
         "Fig. 15, modal contributions"
     script:
@@ -516,7 +516,7 @@ rule fig16_response:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, *CASES_SHOWN, "figures/fig16_response.py"),
+        code=code(*DRAWING, *CASES_SHOWN, "figures/response.py"),
         reduction=CONFIG.reduction,
         boundary=CONFIG.beam.boundary,
     message:
@@ -552,7 +552,7 @@ rule fig17_hysteresis:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(*DRAWING, *CASES_SHOWN, "figures/fig17_hysteresis.py"),
+        code=code(*DRAWING, *CASES_SHOWN, "figures/hysteresis.py"),
         reduction=CONFIG.reduction,
     message:
         "Fig. 17, hysteresis"
@@ -627,8 +627,8 @@ rule section_and_beam:
     params:
         code=code(
             *DRAWING,
-            "comparison/section_and_beam.py",
-            "figures/section_and_beam.py",
+            "analysis/section_and_beam.py",
+            "figures/section_against_beam.py",
             "figures/models.py",
         ),
     message:

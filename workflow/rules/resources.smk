@@ -3,8 +3,8 @@
 Like everything that the graph is built from, they come from the configuration alone.
 """
 
-from equisection import jobs
-from equisection.solvers import cost
+from equisection.run import jobs
+from equisection.run import cost
 from equisection.solvers.protocol import MPIRUN
 
 try:

@@ -162,9 +162,9 @@ if CONFIG.steady.beam_polar:
             runtime=5,
         params:
             code=code(
-                "results/polar.py",
-                "aerodynamics/polar_file.py",
-                "aerodynamics/polar_rows.py",
+                "results/polar_dataset.py",
+                "io/polar_file.py",
+                "io/polar_rows.py",
             ),
             resolution=CONFIG.steady.resolution,
         message:
@@ -272,7 +272,7 @@ rule grid_study:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("comparison/grid_convergence.py", "comparison/grid_study.py"),
+        code=code("analysis/grid_convergence.py", "analysis/grid_study.py"),
         config=RESOLVED,
     message:
         "grid study of the section polar"
@@ -304,7 +304,7 @@ rule bubble:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("comparison/bubble.py", "results/surface.py"),
+        code=code("analysis/bubble.py", "results/surface.py"),
         cases=STEADY,
     message:
         "bubble of the section"

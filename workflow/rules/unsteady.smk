@@ -148,7 +148,7 @@ checkpoint refine_onset:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("comparison/onset.py", "comparison/summary.py"),
+        code=code("analysis/onset.py", "analysis/summary.py"),
         tolerance=CONFIG.sweep.onset_tolerance,
         points=CONFIG.sweep.onset_points,
     message:

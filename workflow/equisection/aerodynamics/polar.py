@@ -22,7 +22,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
-from equisection.aerodynamics.polar_rows import SYMMETRY_TOLERANCE
+from equisection.conventions import SYMMETRY_TOLERANCE
 from equisection.errors import IncidenceOutOfRangeError
 
 Floats = NDArray[np.float64]

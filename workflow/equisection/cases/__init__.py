@@ -1,9 +1,9 @@
 """What decides a result, and nothing else, as a small canonical file with a hash."""
 
-from equisection.cases.model import (
+from equisection.cases.case import (
     BeamModes,
     Case,
-    Criteria,
+    EndCriteria,
     Geometry,
     Medium,
     SectionProperties,
@@ -11,7 +11,7 @@ from equisection.cases.model import (
     SteadyCase,
     UnsteadyCase,
 )
-from equisection.cases.store import (
+from equisection.cases.case_file import (
     ENDS,
     are_alike,
     canonical,
@@ -25,7 +25,7 @@ __all__ = [
     "ENDS",
     "BeamModes",
     "Case",
-    "Criteria",
+    "EndCriteria",
     "Geometry",
     "Medium",
     "SectionProperties",

@@ -2,10 +2,10 @@
 
 Defaults, descriptions, the JSON schema (``workflow/schemas/config.schema.yaml``) and the
 reference of all keys (``config/README.md``) come from the models of
-:mod:`equisection.config.sections`; ``python -m equisection.config`` writes both files.
+:mod:`equisection.config.groups`; ``python -m equisection.config`` writes both files.
 """
 
-from equisection.config.files import check_files
+from equisection.config.input_files import check_files
 from equisection.config.load import load_config, resolve_config
 from equisection.config.model import Config
 from equisection.config.repeated_keys import check_repeated_keys

@@ -8,10 +8,10 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from equisection.config.checks import DisagreementError, Path, Problem, disagreements
+from equisection.config.groups import KeyGroup
 from equisection.config.model import Config
-from equisection.config.sections import Section
 from equisection.errors import ConfigError
+from equisection.keys.checks import DisagreementError, Path, Problem, disagreements
 
 
 def load_config(raw: Mapping[str, Any]) -> Config:
@@ -79,7 +79,7 @@ def _field_of(path: Path) -> Path:
 def _section_in(annotation: Any) -> type[BaseModel] | None:
     """Return the section that an annotation holds, alone or beside ``None``."""
     kinds = [kind for kind in get_args(annotation) or (annotation,) if kind is not type(None)]
-    if len(kinds) == 1 and isinstance(kinds[0], type) and issubclass(kinds[0], Section):
+    if len(kinds) == 1 and isinstance(kinds[0], type) and issubclass(kinds[0], KeyGroup):
         return kinds[0]
     return None
 

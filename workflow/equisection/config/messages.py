@@ -12,9 +12,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from pydantic_core import ErrorDetails
 
-from equisection.config.checks import Path, Problem
-from equisection.config.values import NAME_PATTERN
 from equisection.config.words import Fragment, allowed, alternatives, resolved, schema
+from equisection.keys.checks import Path, Problem
+from equisection.keys.values import NAME_PATTERN
 
 #: Parts of pydantic's locations that are no part of a key's path, and the types they choose.
 _TAGS = {"list": "array", "range": "object"}

@@ -10,21 +10,21 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, model_validator
 
-from equisection.config.checks import DisagreementError, Problem, check, disagreements
-from equisection.config.sections import (
+from equisection.config.groups import (
     FREE_TIP,
     Beam,
     Embedded,
     Flow,
+    KeyGroup,
     OpenFoam,
-    Section,
     Steady,
     Structure,
     Sweep,
     Unsteady,
 )
-from equisection.config.shown import shown
-from equisection.config.values import EMPTY, Name
+from equisection.keys.checks import DisagreementError, Problem, check, disagreements
+from equisection.keys.shown import shown
+from equisection.keys.values import EMPTY, Name
 
 #: The polar of the paper's rigid plate, of this L/c, h/c, Reynolds number and channel alone.
 PAPER_BEAM_POLAR = Path("config/polars/paper_plate_3d.csv")
@@ -38,7 +38,7 @@ _SAME_POLAR = 0.01
 RESERVED_RUN = "reference"
 
 
-class Config(Section):
+class Config(KeyGroup):
     """Configuration of one run; the defaults are the paper's plate on the embedded solver."""
 
     run: Name = Field(

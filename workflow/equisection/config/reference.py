@@ -7,8 +7,8 @@ from typing import Any
 
 from equisection.config.load import resolve_config
 from equisection.config.model import Config
-from equisection.config.shown import shown
 from equisection.config.words import Fragment, allowed, alternatives, resolved, schema
+from equisection.keys.shown import shown
 
 _HEAD = "| key | allowed | default | meaning (unit) |\n|---|---|---|---|"
 

@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any
 
 from equisection.config.model import Config
-from equisection.config.values import NAME_PATTERN
+from equisection.keys.values import NAME_PATTERN
 
 Fragment = dict[str, Any]
 

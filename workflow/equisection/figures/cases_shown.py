@@ -15,7 +15,7 @@ from pathlib import Path
 import pandas as pd
 
 from equisection.errors import ResultFileError
-from equisection.plan import case_name, k_star_of
+from equisection.study.plan import case_name, k_star_of
 
 SECTION_LETTERS = ("A", "B", "C")
 BEAM_LETTERS = ("D", "E", "F")

@@ -12,7 +12,7 @@ from matplotlib.patches import FancyBboxPatch, PathPatch
 from matplotlib.path import Path as Curve
 
 from equisection.figures.layers import Layout, lay_out
-from equisection.figures.provenance import add_provenance
+from equisection.figures.origin import add_provenance
 from equisection.figures.rule_graph import RuleGraph, RuleText
 from equisection.figures.style import GREY, PAGE_WIDTH
 

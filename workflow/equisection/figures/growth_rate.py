@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from equisection.figures.models import LOOKS
+from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.panels import letter, say
-from equisection.figures.provenance import add_provenance, solvers_of
 from equisection.figures.style import DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
 
 #: Symbols and units of the panels, by the columns of both tables.

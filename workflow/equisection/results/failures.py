@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from equisection.results.unsteady import Regime
+from equisection.results.unsteady_result import Regime
 
 
 def failure_of(attributes: Mapping[str, Any]) -> str:

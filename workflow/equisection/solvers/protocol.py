@@ -11,8 +11,8 @@ from typing import Any, Protocol
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
-from equisection.results.steady import SteadyResult
-from equisection.results.unsteady import UnsteadyResult
+from equisection.results.steady_result import SteadyResult
+from equisection.results.unsteady_result import UnsteadyResult
 
 
 class Capability(StrEnum):

@@ -13,13 +13,13 @@ from typing import Any
 
 from equisection.cases import SolverBlock
 from equisection.config import Config
-from equisection.config.checks import Problem
 from equisection.errors import CaseFileError, ConfigError
+from equisection.keys.checks import Problem
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Solver
 
 
 @dataclass(frozen=True)
-class Entry:
+class SolverEntry:
     """Where an adapter is, and what it provides; ``dimensions`` are those of its cases.
 
     ``work`` is the module that tells how much its jobs have to do (:class:`.work.Estimate`), and
@@ -33,17 +33,17 @@ class Entry:
     check: str = ""
 
 
-SOLVERS: dict[str, Entry] = {
-    "embedded": Entry(
-        "equisection.solvers.embedded",
+SOLVERS: dict[str, SolverEntry] = {
+    "embedded": SolverEntry(
+        "equisection.solvers.embedded.adapter",
         frozenset({Capability.BATCH}),
-        work="equisection.solvers.embedded_work",
+        work="equisection.solvers.embedded.job_work",
     ),
-    "openfoam": Entry(
+    "openfoam": SolverEntry(
         "equisection.solvers.openfoam.adapter",
         frozenset({Capability.MESH, Capability.SURFACE, Capability.FIELDS}),
-        work="equisection.solvers.openfoam.work",
-        check="equisection.solvers.openfoam.room",
+        work="equisection.solvers.openfoam.job_work",
+        check="equisection.solvers.openfoam.mesh.room",
     ),
 }
 

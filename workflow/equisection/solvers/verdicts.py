@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 
 from equisection.cases import UnsteadyCase
 from equisection.errors import ResultFileError
-from equisection.results.unsteady import Regime, UnsteadyResult
-from equisection.signals import Criteria, Verdict, assess, heave_grows, swings_grow
+from equisection.results.unsteady_result import Regime, UnsteadyResult
+from equisection.verdict import Criteria, Verdict, assess, heave_grows, swings_grow
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -32,17 +32,17 @@ LATE = 20.0
 
 
 @dataclass(frozen=True)
-class Motion:
+class TipMotion:
     """Twist (rad) and deflection (chords) of the tip over convective time, shape (n,)."""
 
     time: Floats
     twist: Floats
     deflection: Floats
 
-    def until(self, end: float) -> Motion:
+    def until(self, end: float) -> TipMotion:
         """Return the part up to a time (c/V)."""
         kept = self.time <= end * (1 + 1e-9)
-        return Motion(self.time[kept], self.twist[kept], self.deflection[kept])
+        return TipMotion(self.time[kept], self.twist[kept], self.deflection[kept])
 
 
 def criteria_of(case: UnsteadyCase) -> Criteria:
@@ -59,7 +59,7 @@ def pitch_frequency(case: UnsteadyCase) -> float:
     return math.sqrt(case.section.torsional_stiffness / case.section.inertia) / (2 * math.pi)
 
 
-def judge(case: UnsteadyCase, tip: Motion, failure: str = "") -> dict[str, Any]:
+def judge(case: UnsteadyCase, tip: TipMotion, failure: str = "") -> dict[str, Any]:
     """Return the attributes of the verdict on a run that has ended.
 
     Parameters
@@ -117,7 +117,7 @@ def refused(case: UnsteadyCase) -> UnsteadyResult:
 
 
 def monitor_of(
-    cases: Sequence[UnsteadyCase], lane_of: Callable[[Any, UnsteadyCase, int, slice], Motion]
+    cases: Sequence[UnsteadyCase], lane_of: Callable[[Any, UnsteadyCase, int, slice], TipMotion]
 ) -> Callable[[Any, Indices], Indices]:
     """Return a monitor that ends each lane of a batch when its verdict is in.
 
@@ -156,11 +156,11 @@ def monitor_of(
     return monitor
 
 
-def _may_be_beyond_bound(case: UnsteadyCase, late: Motion) -> bool:
+def _may_be_beyond_bound(case: UnsteadyCase, late: TipMotion) -> bool:
     return float(np.ptp(late.twist)) > 2 * math.radians(case.criteria.growing_amplitude_deg)
 
 
-def is_decided(case: UnsteadyCase, tip: Motion) -> bool:
+def is_decided(case: UnsteadyCase, tip: TipMotion) -> bool:
     """Tell whether the verdict on a run so far is in."""
     return assess(tip.time, tip.twist, tip.deflection, criteria_of(case)).decided
 
@@ -170,7 +170,7 @@ def last_look(time: float) -> float:
     return LOOKS_EVERY * math.floor(time / LOOKS_EVERY * (1 + 1e-9))
 
 
-def decided_at(case: UnsteadyCase, tip: Motion) -> float:
+def decided_at(case: UnsteadyCase, tip: TipMotion) -> float:
     """Return the first look (c/V) at which the verdict on a history is in; infinite if none is.
 
     A run ends a little later, as its solver is followed from outside; its result ends here, so that
@@ -183,7 +183,7 @@ def decided_at(case: UnsteadyCase, tip: Motion) -> float:
     return math.inf
 
 
-def _had_grown(case: UnsteadyCase, tip: Motion, verdict: Verdict) -> bool:
+def _had_grown(case: UnsteadyCase, tip: TipMotion, verdict: Verdict) -> bool:
     """Tell whether a motion was beyond the bound, and not by a first swing that may be its last.
 
     A heave that grows has no bound.

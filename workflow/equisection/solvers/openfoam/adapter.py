@@ -16,19 +16,19 @@ import numpy as np
 
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
-from equisection.config.sections.openfoam import MORPH
+from equisection.config.groups.openfoam_keys import MORPH
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
-from equisection.results.steady import SteadyResult
-from equisection.results.unsteady import UnsteadyResult
+from equisection.results.steady_result import SteadyResult
+from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.settings import Settings
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 if TYPE_CHECKING:
-    from equisection.solvers.openfoam.plate_rigid import PlateFlow
-    from equisection.solvers.openfoam.section_rigid import RigidLoads
+    from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow
+    from equisection.solvers.openfoam.section.rigid_section import RigidLoads
 
 logger = logging.getLogger(__name__)
 
@@ -70,7 +70,7 @@ class Adapter:
 
     def describe(self, dimension: str) -> str:
         """Return solver and resolution in words."""
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
         settings = self._settings.of_dimension(dimension)
         preset = PRESETS[settings.mesh]
@@ -83,16 +83,16 @@ class Adapter:
     @property
     def similar_cells(self) -> int | None:
         """Number of cells; none of a mesh that is not similar to the others."""
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
         return preset.cells if preset.is_similar else None
 
     def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
         """Return the mesh of a rigid section, with its Courant number at a time step (c/V)."""
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.section_mesh import section_mesh  # noqa: PLC0415
-        from equisection.solvers.openfoam.section_rigid import mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.reading.meshed_section import section_mesh  # noqa: PLC0415
+        from equisection.solvers.openfoam.section.rigid_section import mesh_of  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
@@ -100,7 +100,7 @@ class Adapter:
 
     def plate_grid(self, case: SteadyCase, work: Path) -> PlateGrid:
         """Return the mesh of a rigid plate."""
-        from equisection.solvers.openfoam.plate_grid import plate_grid  # noqa: PLC0415
+        from equisection.solvers.openfoam.reading.beam_grid import plate_grid  # noqa: PLC0415
 
         return plate_grid(self._plate_flow(find(), case, work))
 
@@ -126,8 +126,8 @@ class Adapter:
     def _rigid_section(
         self, installation: Installation, case: SteadyCase, place: Path, tell: Progress
     ) -> SteadyResult:
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.section_rigid import mesh_of, rigid_loads  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.section.rigid_section import mesh_of, rigid_loads  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
@@ -140,8 +140,8 @@ class Adapter:
         return self._plate_flow(installation, case, place).result(tell)
 
     def _plate_flow(self, installation: Installation, case: SteadyCase, place: Path) -> PlateFlow:
-        from equisection.solvers.openfoam.plate_rigid import PlateFlow, plate_mesh_of  # noqa: PLC0415
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         return PlateFlow(installation, case, mesh, self._settings.coupling, self._ranks, place)
@@ -168,10 +168,10 @@ class Adapter:
     def _free_section(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
     ) -> UnsteadyResult:
-        from equisection.solvers.openfoam.overset import OversetRun  # noqa: PLC0415
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.section_free import SectionRun  # noqa: PLC0415
-        from equisection.solvers.openfoam.section_rigid import mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.section.free_section import SectionRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.section.overset_section import OversetRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.section.rigid_section import mesh_of  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
@@ -181,9 +181,9 @@ class Adapter:
     def _free_plate(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
     ) -> UnsteadyResult:
-        from equisection.solvers.openfoam.plate_free import PlateRun  # noqa: PLC0415
-        from equisection.solvers.openfoam.plate_rigid import plate_mesh_of  # noqa: PLC0415
-        from equisection.solvers.openfoam.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.beam.free_beam import PlateRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         coupling, ranks = self._settings.coupling, self._ranks

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from equisection.files import write_text
-from equisection.solvers.openfoam.mesh import Mesh
+from equisection.solvers.openfoam.mesh.block_mesh import Mesh
 
 #: Patch of the section.
 PLATE = "plate"

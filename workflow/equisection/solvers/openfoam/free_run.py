@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Generic, TypeVar
 
 from equisection.cases import UnsteadyCase
-from equisection.solvers.openfoam import flow
+from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.rigid_flow import Tell
 

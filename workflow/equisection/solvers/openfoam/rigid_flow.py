@@ -17,8 +17,13 @@ from pathlib import Path
 
 from equisection.files import write_text
 from equisection.solvers.openfoam.dictionaries import dictionary
-from equisection.solvers.openfoam.loads import Loads, first_known, read_loads, require_reasonable
 from equisection.solvers.openfoam.process import Every, Watch
+from equisection.solvers.openfoam.reading.loads import (
+    Loads,
+    first_known,
+    read_loads,
+    require_reasonable,
+)
 from equisection.solvers.verdicts import LOOKS_EVERY
 
 #: Relative half range of the loads over the last iterations of a converged steady run.
@@ -34,7 +39,7 @@ Tell = Callable[[float, float], None]
 
 
 @dataclass(frozen=True)
-class Record:
+class RigidFlowRecord:
     """Time left out, and shortest and longest record, of a rigid unsteady run (c/V)."""
 
     discarded: float
@@ -98,7 +103,7 @@ def follow_iterations(
 
 
 def follow_unsteady(
-    folder: Path, record: Record, tell: Tell, run: Callable[[Watch], None]
+    folder: Path, record: RigidFlowRecord, tell: Tell, run: Callable[[Watch], None]
 ) -> Loads:
     """Follow a rigid unsteady run until the means of its loads are known, or for long enough.
 

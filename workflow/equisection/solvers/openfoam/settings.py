@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from equisection.config.sections.openfoam import MORPH, ON_CELLS_OF_PLATE
-from equisection.solvers.openfoam.flow import Coupling
+from equisection.config.groups.openfoam_keys import MORPH, ON_CELLS_OF_PLATE
+from equisection.solvers.openfoam.flow_setup import Coupling
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from equisection.config.sections.openfoam import MORPH
+from equisection.config.groups.openfoam_keys import MORPH
 from equisection.solvers.openfoam.adapter import Adapter
-from equisection.solvers.openfoam.work import OVERSET, cells_of, iterations_of
+from equisection.solvers.openfoam.job_work import OVERSET, cells_of, iterations_of
 from equisection.solvers.work import Work
 
 #: The words by which a steady result says how it was obtained.

@@ -1,0 +1,1 @@
+"""Quantities that are made of the results: summary, onset, linear theory, grid study."""

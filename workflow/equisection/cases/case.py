@@ -1,0 +1,137 @@
+"""The case: everything that decides the result of one solver run, and nothing else.
+
+No name, no path, no machine stands in a case, so that two runs that ask for the same thing
+share its result, and nothing that was edited around the solver asks for a new one.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Literal
+
+from pydantic import BaseModel, ConfigDict, model_validator
+
+SCHEMA_VERSION = 1
+
+
+class Block(BaseModel):
+    """Base of the parts of a case."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class SolverBlock(Block):
+    """Which solver, in which version of its numerics, with which settings."""
+
+    name: str
+    version: str
+    settings: dict[str, Any]
+
+
+class Geometry(Block):
+    """Plate and channel in chords; ``channel_height`` and ``tip_gap`` None in free air."""
+
+    chord: float  # m
+    span: float  # L/c
+    thickness: float  # h/c
+    root_on_wall: bool  # a wall at the root mirrors the flow
+    channel_height: float | None
+    tip_gap: float | None
+    upstream: float | None
+    downstream: float | None
+
+
+class Medium(Block):
+    """The fluid and its speed (SI)."""
+
+    speed: float  # m/s
+    density: float  # kg/m3
+    dynamic_viscosity: float  # Pa s
+
+
+class SteadyCase(Block):
+    """Rigid section or beam at one incidence."""
+
+    kind: Literal["steady"] = "steady"
+    schema_version: int = SCHEMA_VERSION
+    dimension: Literal["2d", "3d"]
+    incidence_deg: float
+    resolution: str
+    geometry: Geometry
+    medium: Medium
+    solver: SolverBlock
+
+
+class SectionProperties(Block):
+    """Equivalent section, non-dimensional (Eq. 18), as the solver moves it."""
+
+    torsional_stiffness: float  # k_theta/(q c^2); the corrected one in `2d-corrected`
+    flexural_stiffness: float  # k_w/q
+    inertia: float  # I_2D/(rho c^4/2)
+    mass: float  # m_2D/(rho c^2/2)
+    twist_recovery: float  # a: tip twist = twist/a
+    deflection_recovery: float  # b: tip deflection = deflection/b
+
+
+class BeamModes(Block):
+    """Modes of the beam for one k*, non-dimensional, bending and torsion apart.
+
+    Frequencies are omega c/V; shapes are normalised to a largest value of 1 and given over
+    ``span`` = z/L, one row a mode; ``inertia`` = rho_s c^3 h/12 /(rho c^4/2) and ``mass`` =
+    rho_s c h/(rho c^2/2) are the sectional ones.
+    """
+
+    span: tuple[float, ...]
+    bending_frequency: tuple[float, ...]
+    bending_shape: tuple[tuple[float, ...], ...]
+    torsion_frequency: tuple[float, ...]
+    torsion_shape: tuple[tuple[float, ...], ...]
+    inertia: float
+    mass: float
+
+
+class EndCriteria(Block):
+    """When the run ends and what it is called; they decide nothing of its history.
+
+    ``rules`` is the version of the judgement in equisection.verdict. It changes whenever the same
+    history would get another verdict, or get it at another time.
+    """
+
+    rules: int = 6
+    settled_amplitude_deg: float
+    growing_amplitude_deg: float
+    steadiness: float
+    periods: int
+
+
+class UnsteadyCase(Block):
+    """Free section (`2d`) or free beam (`3d`), released from the rigid steady state."""
+
+    kind: Literal["unsteady"] = "unsteady"
+    schema_version: int = SCHEMA_VERSION
+    dimension: Literal["2d", "3d"]
+    k_star: float  # structural, uncorrected
+    incidence_deg: float
+    resolution: str
+    geometry: Geometry
+    medium: Medium
+    section: SectionProperties | None = None
+    beam: BeamModes | None = None
+    duration: float  # c/V
+    time_step: float  # c/V
+    output_interval: float  # c/V
+    criteria: EndCriteria
+    solver: SolverBlock
+    refusal: str = ""  # why there is no structure to move; such a case is not run
+    diverges: bool = False  # the refusal is a static divergence, which is an instability
+
+    @model_validator(mode="after")
+    def _one_structure(self) -> UnsteadyCase:
+        if self.refusal:
+            return self
+        wanted = "section" if self.dimension == "2d" else "beam"
+        if getattr(self, wanted) is None or (self.section is None) == (self.beam is None):
+            raise ValueError(f"a case of dimension {self.dimension} holds '{wanted}' alone")
+        return self
+
+
+Case = SteadyCase | UnsteadyCase

@@ -1,0 +1,36 @@
+"""Sections of the configuration: one model each, every default the paper's case.
+
+Units stand in the description of each key; a name without a unit suffix is SI.
+"""
+
+from equisection.config.groups.beam import FREE_TIP, Beam, Boundary, CrossSection
+from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
+from equisection.config.groups.flow import Channel, Flow
+from equisection.config.groups.openfoam_keys import OpenFoam
+from equisection.config.groups.steady import Steady
+from equisection.config.groups.structure import Elements, Structure
+from equisection.config.groups.sweep import ModelName, Range, Sweep
+from equisection.config.groups.unsteady import Unsteady, VerdictKeys
+from equisection.keys.group import KeyGroup
+
+__all__ = [
+    "FLAT_PLATE",
+    "FREE_TIP",
+    "Beam",
+    "Boundary",
+    "Channel",
+    "CrossSection",
+    "Elements",
+    "Embedded",
+    "Flow",
+    "KeyGroup",
+    "ModelName",
+    "OpenFoam",
+    "Range",
+    "Separation",
+    "Steady",
+    "Structure",
+    "Sweep",
+    "Unsteady",
+    "VerdictKeys",
+]

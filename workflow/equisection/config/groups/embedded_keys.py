@@ -1,0 +1,92 @@
+"""Section ``embedded``: the solver that needs nothing but Python packages."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from equisection.keys.checks import Problem, check
+from equisection.keys.group import KeyGroup
+from equisection.keys.values import WHOLE, Name, NotNegative, Number, Truth
+
+#: Stands in the place of a polar file for thin-plate theory.
+FLAT_PLATE = "flat-plate"
+
+
+class Separation(KeyGroup):
+    """Lags of the separation bubble (c/V); the defaults are identified from CFD releases."""
+
+    relaxation: NotNegative = Field(2.58, description="tau_1 of the bubble (c/V).")
+    delay: Number = Field(0.64, description="tau_2 of the bubble (c/V); 0 where `relaxation` is 0.")
+    lift_lag: NotNegative = Field(0.55, description="tau_3 of the lift behind the bubble (c/V).")
+
+
+#: The sweep that is kept, and the k* of its section that the lags are fitted to.
+_KEPT = "results/reference/paper-plate-openfoam/unsteady"
+_FITTED_TO = ("5", "10")
+_K_STAR = ("4", "4.5", "5", "5.5", "6.44", "7.5", "8.5", "10", "14", "21")
+
+
+class Identification(KeyGroup):
+    """CFD releases behind the lags; `snakemake identification` identifies them again."""
+
+    fitted_to: Annotated[tuple[str, ...], Field(min_length=1)] = Field(
+        tuple(f"{_KEPT}/2d/k{k_star}.nc" for k_star in _FITTED_TO),
+        description="Releases of the section that the lags are fitted to: results of unsteady "
+        "cases (NetCDF files).",
+    )
+    judged_on: tuple[str, ...] = Field(
+        (
+            *(f"{_KEPT}/2d/k{k_star}.nc" for k_star in _K_STAR if k_star not in _FITTED_TO),
+            *(f"{_KEPT}/2d-corrected/k{k_star}.nc" for k_star in _K_STAR),
+        ),
+        description="Releases that the fitted model is judged on and never sees (the same).",
+    )
+
+
+class Embedded(KeyGroup):
+    """The embedded solver."""
+
+    polars: Annotated[dict[Name, Annotated[str, Field(min_length=1)]], Field(min_length=1)] = Field(
+        {"coarse": "config/polars/plate_2d_11136.csv"},
+        description="Section polar of each resolution: a CSV file (`incidence_deg,cl,cm,cd`; "
+        "path from the working directory) or `flat-plate` for the thin analytic plate.",
+    )
+    symmetric: Truth = Field(
+        True,
+        description="Whether the section is symmetric: its files hold incidences from 0 deg on "
+        "and are mirrored. With `false` they are taken as they are, and `steady.incidence_deg` "
+        "needs angles on both sides of `flow.incidence_deg`.",
+    )
+    separation: Separation = Field(Separation(), description="Lags of the separation bubble.")
+    identification: Identification = Field(
+        Identification(), description="Where the lags come from."
+    )
+    strips: Annotated[int, Field(ge=4, le=100), WHOLE] = Field(
+        20, description="Strips along the span (-)."
+    )
+
+    def input_files(self) -> list[str]:
+        """Return the files that the solver reads."""
+        return [path for path in self.polars.values() if path != FLAT_PLATE]
+
+    def threads(self, dimension: str) -> int:
+        """Return the threads of a job that runs cases of a dimension."""
+        del dimension
+        return 1
+
+    def environment(self) -> dict[str, str]:
+        """Return variables by which jobs find the solver on a machine."""
+        return {}
+
+
+@check("embedded.separation.delay", "embedded.separation.relaxation")
+def _delay_of_a_lag(delay: float, relaxation: float) -> Iterator[Problem]:
+    if relaxation == 0 and delay != 0:
+        yield Problem(
+            "embedded.separation.delay",
+            delay,
+            "allowed is 0 where relaxation is 0 (a bubble without lag)",
+        )

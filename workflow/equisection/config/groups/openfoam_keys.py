@@ -1,0 +1,132 @@
+"""Section ``openfoam``: the solver that resolves the flow."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from equisection.keys.checks import Problem, check
+from equisection.keys.group import KeyGroup
+from equisection.keys.values import NUMBER, WHOLE, Name
+
+MeshName = Literal[
+    "coarse",
+    "medium",
+    "fine",
+    "paper",
+    "plate-coarse",
+    "plate-medium",
+    "plate-fine",
+    "plate-paper",
+]
+#: Before the name of a mesh: the section has the cells that its plate has in the plane.
+ON_CELLS_OF_PLATE = "plate-"
+#: Meshes that have one around the plate, for overset.
+OVERSET_MESHES = ("coarse", "medium", "fine")
+
+#: A mesh that morphs around the section, and one above another that moves with it.
+MeshMotion = Literal["morph", "overset"]
+MORPH: MeshMotion = "morph"
+OVERSET: MeshMotion = "overset"
+#: Environment variable of the command before each program.
+PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
+#: The largest time step (c/V) that follows the flow over the plate.
+LARGEST_TIME_STEP = 0.04
+
+
+class OpenFoam(KeyGroup):
+    """OpenFOAM: k-omega SST, walls resolved; the section on one core, the plate on several."""
+
+    meshes: Annotated[dict[Name, MeshName], Field(min_length=1)] = Field(
+        {"coarse": "coarse", "medium": "medium", "fine": "fine"},
+        description="Mesh of each resolution: `coarse` (about 1e4 cells; 8e4 of the plate), "
+        "`medium` (2e4; 3e5), `fine` (6e4; 1e6), which are similar, or `paper` (8e4; 5e6), which "
+        "has the paper's cell sizes in the section's plane and its number of cells in 3D. With "
+        "`plate-` before the name the section has the cells of that plate in its plane.",
+    )
+    outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
+        8,
+        description="Iterations of flow, loads and motion in each time step, at most (-): they end "
+        "when flow and loads are one.",
+    )
+    velocity_relaxation: Annotated[float, Field(gt=0, le=1, allow_inf_nan=False), NUMBER] = Field(
+        0.95,
+        description="Under-relaxation of the velocity in these iterations (-); 1 is none, with "
+        "which they move apart where the flow separates wholly.",
+    )
+    mesh_motion: MeshMotion = Field(
+        MORPH,
+        description="How the mesh follows the free section: `morph` deforms it, `overset` moves a "
+        "mesh around the plate as it is above one of the channel, for large deflection and twist.",
+    )
+    prefix: str = Field(
+        "",
+        description="Command before each program, for instance `openfoam2312` or that of a "
+        "container; empty to use what is on the machine. It is the machine's and no part of a "
+        f"case; the environment variable {PREFIX_VARIABLE} goes before it.",
+    )
+
+    ranks: Annotated[int, Field(ge=1, le=4096), WHOLE] = Field(
+        1,
+        description="Ranks of MPI that a case of the plate runs on, each a thread of its job (-); "
+        "a case of the section runs on one. No part of a case.",
+    )
+
+    def threads(self, dimension: str) -> int:
+        """Return the threads of a job that runs a case of a dimension."""
+        return self.ranks if dimension == "3d" else 1
+
+    def input_files(self) -> list[str]:
+        """Return the files that the solver reads."""
+        return []
+
+    def environment(self) -> dict[str, str]:
+        """Return variables by which jobs find the solver on a machine."""
+        return {PREFIX_VARIABLE: self.prefix} if self.prefix else {}
+
+
+@check("solver", "unsteady.time_step")
+def _follows_the_flow(solver: str, step: float) -> Iterator[Problem]:
+    if solver == "openfoam" and step > LARGEST_TIME_STEP:
+        yield Problem(
+            "unsteady.time_step",
+            step,
+            f"allowed is up to {LARGEST_TIME_STEP:g} c/V with solver 'openfoam'",
+        )
+
+
+@check("solver", "flow.root_on_wall", "steady.beam_polar", "sweep.models")
+def _root_is_on_a_wall(
+    solver: str, root_on_wall: bool, beam_polar: str, models: tuple[str, ...]
+) -> Iterator[Problem]:
+    if solver == "openfoam" and not root_on_wall and ("3d" in models or not beam_polar):
+        yield Problem(
+            "flow.root_on_wall",
+            root_on_wall,
+            "allowed is true with solver 'openfoam', whose mesh of the plate has its root on a "
+            "wall; or give steady.beam_polar and leave out the model 3d",
+        )
+
+
+@check("solver", "flow.channel")
+def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
+    if solver == "openfoam" and channel is None:
+        yield Problem(
+            "flow.channel",
+            channel,
+            "allowed is a channel with solver 'openfoam', which meshes it; for free air give a "
+            "wide one, for instance flow.channel: {height_chords: 20, tip_gap_chords: 10}",
+        )
+
+
+@check("openfoam.mesh_motion", "openfoam.meshes")
+def _has_an_overset_mesh(motion: str, meshes: Mapping[str, str]) -> Iterator[Problem]:
+    for name, mesh in meshes.items():
+        if motion == OVERSET and mesh not in OVERSET_MESHES:
+            yield Problem(
+                f"openfoam.meshes.{name}",
+                mesh,
+                f"allowed are {', '.join(OVERSET_MESHES)} with openfoam.mesh_motion: overset",
+            )

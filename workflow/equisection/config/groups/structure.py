@@ -1,0 +1,64 @@
+"""Section ``structure``: how the modes are computed."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from equisection.keys.checks import Problem, check
+from equisection.keys.group import KeyGroup
+from equisection.keys.values import WHOLE
+
+Modes = Annotated[int, Field(ge=1, le=12), WHOLE]
+
+
+class Elements(KeyGroup):
+    """Number of quadratic elements in each direction."""
+
+    chord: Annotated[int, Field(ge=1, le=400), WHOLE] = Field(
+        24, description="Elements along the chord (-)."
+    )
+    span: Annotated[int, Field(ge=2, le=4000), WHOLE] = Field(
+        89, description="Elements along the span (-)."
+    )
+    thickness: Annotated[int, Field(ge=1, le=20), WHOLE] = Field(
+        1, description="Elements through the thickness (-)."
+    )
+
+
+class Structure(KeyGroup):
+    """How the modes are computed."""
+
+    method: Literal["solid", "beam", "analytic"] = Field(
+        "solid",
+        description="`solid`: three-dimensional elasticity; `beam`: one-dimensional beam "
+        "elements; `analytic`: closed form.",
+    )
+    elements: Elements = Field(
+        Elements(),
+        description="The mesh (`beam` and `analytic` use `span` alone).",
+    )
+    bending_modes: Modes = Field(4, description="Bending modes used (-).")
+    torsion_modes: Modes = Field(4, description="Torsion modes used (-).")
+    mesh_study: Annotated[tuple[Elements, ...], Field(min_length=1)] = Field(
+        (
+            Elements(chord=4, span=15, thickness=1),
+            Elements(chord=8, span=30, thickness=1),
+            Elements(chord=12, span=44, thickness=1),
+        ),
+        description="Coarser meshes of the mesh study (Table 2), coarsest first.",
+    )
+
+
+@check("structure.mesh_study")
+def _finer_and_finer(meshes: tuple[Elements, ...]) -> Iterator[Problem]:
+    for place, (coarse, fine) in enumerate(itertools.pairwise(meshes), start=1):
+        if any(getattr(fine, key) < getattr(coarse, key) for key in Elements.model_fields):
+            yield Problem(
+                f"structure.mesh_study.{place}",
+                fine.model_dump(),
+                "allowed is a mesh with no fewer elements in any direction than the one before",
+            )

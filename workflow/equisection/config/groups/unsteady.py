@@ -1,0 +1,73 @@
+"""Section ``unsteady``: runs of the free section and of the free beam, and their verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Annotated
+
+from pydantic import Field
+
+from equisection.keys.checks import Problem, check
+from equisection.keys.group import KeyGroup
+from equisection.keys.values import NUMBER, WHOLE, Positive
+
+
+class VerdictKeys(KeyGroup):
+    """When an unsteady run ends, and what it is called; amplitudes are those of the tip."""
+
+    settled_amplitude_deg: Positive = Field(
+        0.05, description="Twist amplitude (deg) below which a run has settled."
+    )
+    growing_amplitude_deg: Positive = Field(
+        6.0, description="Twist amplitude (deg) beyond which a run is growing, and ends."
+    )
+    steadiness: Annotated[float, Field(gt=0, lt=0.5, allow_inf_nan=False), NUMBER] = Field(
+        0.02, description="Relative change of amplitude that a limit cycle may still have (-)."
+    )
+    periods: Annotated[int, Field(ge=2, le=50), WHOLE] = Field(
+        10, description="Periods that a verdict rests on (-)."
+    )
+
+
+class Unsteady(KeyGroup):
+    """Runs of the free section and of the free beam, from the rigid steady state."""
+
+    duration: Positive = Field(
+        400.0, description="The longest a run may take (c/V), ten output intervals or more."
+    )
+    time_step: Positive = Field(0.05, description="Time step (c/V).")
+    output_interval: Positive = Field(
+        0.1, description="Interval of the stored history (c/V), a multiple of the time step."
+    )
+    verdict: VerdictKeys = Field(VerdictKeys(), description="How a run is judged.")
+
+
+@check("unsteady.verdict.growing_amplitude_deg", "unsteady.verdict.settled_amplitude_deg")
+def _growing_is_more(growing: float, settled: float) -> Iterator[Problem]:
+    if growing <= settled:
+        yield Problem(
+            "unsteady.verdict.growing_amplitude_deg",
+            growing,
+            f"allowed is a number above settled_amplitude_deg, {settled:g} deg",
+        )
+
+
+@check("unsteady.duration", "unsteady.output_interval")
+def _long_enough(duration: float, interval: float) -> Iterator[Problem]:
+    if duration < 10 * interval:
+        yield Problem(
+            "unsteady.duration",
+            duration,
+            f"allowed are ten output intervals, {interval:g} c/V each, or more",
+        )
+
+
+@check("unsteady.output_interval", "unsteady.time_step")
+def _whole_steps(interval: float, step: float) -> Iterator[Problem]:
+    ratio = interval / step
+    if ratio >= 1e9 or ratio < 1 - 1e-9 or abs(ratio - round(ratio)) > 1e-6 * ratio:
+        yield Problem(
+            "unsteady.output_interval",
+            interval,
+            f"allowed is the time step, {step:g} c/V, or a multiple of it",
+        )

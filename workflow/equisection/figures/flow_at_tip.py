@@ -1,0 +1,126 @@
+"""Fig. 12: the flow across the stream near the tip with its turbulence, rigid and flexible."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+
+from equisection.figures.origin import add_provenance, solver_of
+from equisection.figures.panels import letter, say
+from equisection.figures.style import BLACK, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.results.failures import failure_of
+from equisection.results.tip_flow import TipFlow, tip_flow_from_dataset
+
+#: Where the paper shows the flexible plate.
+K_STAR = 6.44
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the figure.
+
+    Attributes
+    ----------
+    title
+        What the plate is, for instance ``rigid``.
+    says
+        Solver, resolution and state of the flow; why there is none, if there is none.
+    flow
+        The flow near its tip, if there is one.
+    """
+
+    title: str
+    says: str
+    flow: TipFlow | None = None
+
+
+def column_of(title: str, result: xr.Dataset) -> Column:
+    """Return the column of a steady or an unsteady result of the plate."""
+    flow, failure = tip_flow_from_dataset(result), failure_of(result.attrs)
+    if flow is None:
+        why = f"it failed ({failure})" if failure else "docs/files.md says how to have it made"
+        return Column(title, f"The result has no flow near the tip: {why}.")
+    made = solver_of(str(result.attrs["solver_description"]), str(result.attrs["resolution"]))
+    return Column(title, f"{made}, {flow.state}", flow)
+
+
+def draw(columns: Sequence[Column]) -> Figure:
+    """Draw planes across the stream, from the plate into its wake, for each plate.
+
+    Parameters
+    ----------
+    columns
+        The plates: the rigid one (left), the flexible one (right).
+    """
+    flows = [shown.flow for shown in columns if shown.flow is not None]
+    rows = max((flow.x.size for flow in flows), default=1)
+    figure = Figure(figsize=(PAGE_WIDTH, 1.0 + 2.45 * rows if flows else 2.6))
+    panels = figure.subplots(rows, len(columns), squeeze=False)
+    scale = Normalize(0.0, max((float(np.nanmax(flow.turbulence)) for flow in flows), default=1.0))
+    for column, shown in enumerate(columns):
+        for row, axes in enumerate(panels[:, column]):
+            place = "abcdefghijkl"[row * len(columns) + column]
+            if shown.flow is None:
+                letter(axes, place, shown.title)
+                say(axes, shown.says)
+                continue
+            position = shown.flow.x[row] + 0.5
+            letter(axes, place, f"{shown.title}, {position:.3g} c from the leading edge")
+            _plane(axes, shown.flow, row, scale)
+            axes.set_xlabel("$z/c$" if row == rows - 1 else "")
+            axes.set_ylabel("$y/c$" if column == 0 else "")
+    if flows:
+        figure.colorbar(
+            ScalarMappable(scale, "viridis"), ax=panels, label=r"$k/V_\infty^2$", shrink=0.7
+        )
+    known = [f"{shown.title}: {shown.says}" for shown in columns if shown.flow is not None]
+    add_provenance(figure, *known)
+    return figure
+
+
+def _plane(axes: Axes, flow: TipFlow, number: int, scale: Normalize) -> None:
+    # up to the plate, which hides what is inside it
+    inside = np.abs(flow.y[:, None] - flow.chord_line[number]) < flow.thickness
+    turbulence = np.where(inside, np.nan_to_num(flow.turbulence[number]), flow.turbulence[number])
+    axes.pcolormesh(
+        flow.z,
+        flow.y,
+        np.ma.masked_invalid(turbulence),
+        norm=scale,
+        cmap="viridis",
+        shading="gouraud",
+        rasterized=True,
+    )
+    across, up = (np.ma.masked_invalid(flow.velocity[number, ..., n]) for n in (2, 1))
+    axes.streamplot(
+        flow.z, flow.y, across, up, density=1.1, color="white", linewidth=0.45, arrowsize=0.5
+    )
+    _plate(axes, flow, number)
+    axes.axvline(flow.span, color=LIGHT_GREY, linewidth=0.6, linestyle=":")
+    half = 0.5 * (flow.y[1] - flow.y[0])
+    axes.set(xlim=(flow.z[0] - half, flow.z[-1] + half), ylim=(flow.y[0] - half, flow.y[-1] + half))
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+
+
+def _plate(axes: Axes, flow: TipFlow, number: int) -> None:
+    """Draw the plate's section by the plane, which ends at the tip."""
+    there = np.isfinite(flow.chord_line[number])
+    if not there.any():
+        return
+    z, middle = flow.z[there], flow.chord_line[number, there]
+    z = np.append(z, flow.span)
+    middle = np.append(middle, middle[-1])
+    half = 0.5 * flow.thickness
+    outline = np.concatenate(
+        [np.stack([z, middle + half], -1), np.stack([z, middle - half], -1)[::-1]]
+    )
+    axes.add_patch(Polygon(outline, facecolor=GREY, edgecolor=BLACK, linewidth=0.4, zorder=3))

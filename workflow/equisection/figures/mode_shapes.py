@@ -1,0 +1,98 @@
+"""Fig. 3: the shapes of the first modes along the span, with the analytic beam's beside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import xarray as xr
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+
+from equisection.figures.origin import add_provenance
+from equisection.figures.panels import letter, say
+from equisection.figures.style import COLOURS, DASHES, GREY, PAGE_WIDTH
+from equisection.structure import analytic
+from equisection.structure.plate import Plate
+from equisection.structure.span import normalise
+
+Floats = NDArray[np.float64]
+
+#: Modes of either kind that are shown, as in the paper.
+COUNT = 4
+_STATIONS = 201
+
+
+@dataclass(frozen=True)
+class AnalyticShapes:
+    """Shapes of the analytic beam.
+
+    Attributes
+    ----------
+    span : (m,) array
+        z/L.
+    bending, torsion : (n, m) array
+        g_i and f_i, largest absolute value 1.
+    """
+
+    span: Floats
+    bending: Floats
+    torsion: Floats
+
+
+def analytic_shapes(plate: Plate) -> AnalyticShapes:
+    """Return the first shapes of the analytic beam with the plate's ends."""
+    span = np.linspace(0.0, 1.0, _STATIONS)
+    return AnalyticShapes(
+        span,
+        normalise(analytic.bending_modes(plate, span, COUNT)[1]),
+        normalise(analytic.torsion_modes(plate, span, COUNT)[1]),
+    )
+
+
+def draw(modes: xr.Dataset, beam: AnalyticShapes) -> Figure:
+    """Draw the first shapes: bending left, torsion right.
+
+    Parameters
+    ----------
+    modes
+        ``structure/modes.nc``.
+    beam
+        Shapes of the analytic beam.
+    """
+    figure = Figure(figsize=(PAGE_WIDTH, 3.0))
+    left, right = figure.subplots(1, 2, sharey=True)
+    shown = max(
+        _shapes(left, modes, "bending", beam.span, beam.bending),
+        _shapes(right, modes, "torsion", beam.span, beam.torsion),
+    )
+    letter(left, "a", "bending")
+    letter(right, "b", "torsion")
+    left.set_ylabel("normalised shape $g_i$")
+    right.set_ylabel("normalised shape $f_i$")
+    handles = [
+        Line2D([], [], color=COLOURS[i], linestyle=DASHES[i], label=f"mode {i + 1}")
+        for i in range(shown)
+    ]
+    handles.append(Line2D([], [], color=GREY, linewidth=0.6, label="analytic beam"))
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
+    mesh = "" if modes.attrs["elements"] == "none" else f", elements: {modes.attrs['elements']}"
+    add_provenance(figure, f"modes by method '{modes.attrs['method']}'{mesh}", "no flow solver")
+    return figure
+
+
+def _shapes(axes: Axes, modes: xr.Dataset, kind: str, span: Floats, beam: Floats) -> int:
+    """Draw the shapes of one kind and return how many there are."""
+    shapes = modes["shape"].values[modes["kind"].values == kind][:COUNT]
+    for number, shape in enumerate(shapes):
+        axes.plot(modes["span"], shape, color=COLOURS[number], linestyle=DASHES[number])
+    for shape in beam[: len(shapes)]:
+        axes.plot(span, shape, color=GREY, linewidth=0.6)
+    if len(shapes) == 0:
+        say(axes, f"No {kind} mode was computed.")
+        return 0
+    axes.axhline(0.0, color=GREY, linewidth=0.5)
+    axes.set(xlim=(0.0, 1.0), ylim=(-1.12, 1.12), xlabel="$z/L$")
+    return len(shapes)

@@ -1,0 +1,321 @@
+"""Fig. 16: mean deformation over k* for every model, and histories of the twist."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
+from matplotlib.patheffects import withStroke
+from matplotlib.ticker import MaxNLocator
+
+from equisection.figures.cases_shown import (
+    BEAM_LETTERS,
+    SECTION_LETTERS,
+    ShownCase,
+    cases_shown,
+    result_at,
+    results_of,
+)
+from equisection.figures.drawn_history import Extent, History, read_extent, read_history
+from equisection.figures.models import LOOKS, Look
+from equisection.figures.models_shown import beam_model, section_model
+from equisection.figures.origin import add_provenance, solvers_of
+from equisection.figures.panels import in_words, letter, say
+from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
+
+#: Where twist and deflection are: where the first mode of each is largest, at a free tip or inside.
+AT_THE_TIP, WHERE_LARGEST = "of the tip", "where it is largest"
+#: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
+_BOUNDED = ("settled", "limit-cycle")
+#: Marks, on the axis, of runs without a mean.
+_FAILED, _DIVERGED = "x", "+"
+#: Markers of a model at most, but for the few that are of another kind than the rest.
+_MOST_MARKERS = 40
+#: Part of the axis below which two letters would stand on each other.
+_TOO_CLOSE = 0.03
+#: Symbols and units of the two upper panels.
+_QUANTITIES = {
+    "mean_twist_deg": r"mean twist {place}  $\overline{\theta}$ (deg)",
+    "mean_deflection_chords": r"mean deflection {place}  $\overline{w}/c$",
+}
+
+
+#: Look of the range of motion: hatched, to be told from the bracket of the onset.
+_EXTENT: dict[str, Any] = {
+    "facecolor": "none",
+    "edgecolor": "#A8A8A8",
+    "hatch": "/////",
+    "linewidth": 0.4,
+}
+
+
+@dataclass(frozen=True)
+class Response:
+    """Everything that the figure shows.
+
+    Attributes
+    ----------
+    summary, onset
+        ``comparison/summary.csv`` and ``comparison/onset.csv``.
+    cases
+        The cases of each model whose histories are shown: of the section, then of the beam.
+    histories
+        Histories by the letters of the cases.
+    extents
+        Between what values the section moves, at each k* at which its motion is bounded.
+    place
+        Where along the beam twist and deflection are, in words.
+    reduction
+        Of models that don't name theirs, ``consistent`` or ``paper``.
+    """
+
+    summary: pd.DataFrame
+    onset: pd.DataFrame
+    cases: Mapping[str, Sequence[ShownCase]] = field(default_factory=dict)
+    histories: Mapping[str, History] = field(default_factory=dict)
+    extents: Sequence[Extent] = ()
+    place: str = AT_THE_TIP
+    reduction: str = "consistent"
+
+
+#: Extents of the section that are read and drawn; more would not be told apart in the panel.
+MOST_EXTENTS = 200
+
+
+def read_response(
+    summary: pd.DataFrame,
+    onset: pd.DataFrame,
+    results: Sequence[Path],
+    i_star: float,
+    *,
+    place: str = AT_THE_TIP,
+    reduction: str = "consistent",
+) -> Response:
+    """Choose the cases and read their histories alone, and the extents of the bounded section."""
+    models = list(dict.fromkeys(summary["model"]))
+    cases: dict[str, list[ShownCase]] = {}
+    histories: dict[str, History] = {}
+    extents: list[Extent] = []
+    section, beam = section_model(models), beam_model(models)
+    for model, letters in ((section, SECTION_LETTERS), (beam, BEAM_LETTERS)):
+        if model is None:
+            continue
+        files = results_of(results, model)
+        cases[model] = cases_shown(summary, onset, model, letters)
+        histories |= {
+            case.letter: read_history(result_at(files, case.k_star), i_star)
+            for case in cases[model]
+            if case.exists
+        }
+        if model == section:
+            bounded = summary[(summary["model"] == model) & summary["regime"].isin(_BOUNDED)]
+            apart = -(-len(bounded) // MOST_EXTENTS) or 1
+            k_stars = bounded["k_star"].sort_values().iloc[::apart]
+            extents = [read_extent(result_at(files, k_star)) for k_star in k_stars]
+    return Response(summary, onset, cases, histories, extents, place, reduction)
+
+
+def draw(response: Response) -> Figure:
+    """Draw the means over k* (top) and the histories (middle: section, bottom: beam)."""
+    models = list(dict.fromkeys(response.summary["model"]))
+    section, beam = section_model(models), beam_model(models)
+    figure = Figure(figsize=(PAGE_WIDTH, 7.6))
+    halves = figure.add_gridspec(2, 1, height_ratios=(1.0, 1.2))
+    above, below = halves[0].subgridspec(1, 2), halves[1].subgridspec(2, 3)
+    top = [figure.add_subplot(above[0]), figure.add_subplot(above[1])]
+    for axes, name, place in zip(top, _QUANTITIES, "ab", strict=True):
+        _means(axes, response, name)
+        letter(axes, place)
+    rows = ((section, SECTION_LETTERS, "cde", "2D"), (beam, BEAM_LETTERS, "fgh", "3D"))
+    for row, (model, letters, places, dimension) in enumerate(rows):
+        shown = {case.letter: case for case in response.cases.get(model or "", ())}
+        for column, (name, place) in enumerate(zip(letters, places, strict=True)):
+            axes = figure.add_subplot(below[row, column])
+            if model is None:
+                letter(axes, place, name)
+                say(axes, f"The sweep has no {dimension} model.", 24)
+            else:
+                _history(axes, place, shown[name], response.histories.get(name), LOOKS[model])
+    figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
+    sections = {"2d", "2d-corrected"} & set(models)
+    of_reduction = f"2D: reduction '{response.reduction}'"
+    add_provenance(figure, *_sources(response), *([of_reduction] if sections else []))
+    return figure
+
+
+def _means(axes: Axes, response: Response, name: str) -> None:
+    """Draw the mean of one quantity over k*, with the bracket of the onset."""
+    summary = response.summary
+    axes.set(xlabel="$k^*$", ylabel=_QUANTITIES[name].replace("{place}", response.place))
+    if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
+        say(axes, "No run of the sweep has a mean: every one failed or diverged.")
+        return
+    for _, unstable, stable, grey in _brackets(response):
+        axes.axvspan(unstable, stable, color=grey, linewidth=0)
+    _extent(axes, response, name)
+    for model, runs in summary.groupby("model", sort=False):
+        look = LOOKS[str(model)]
+        there = runs[runs[name].notna() & (runs["regime"] != "failed")]
+        bounded = there["mean_known"] == 1
+        axes.plot(there["k_star"], there[name], color=look.colour, linestyle=look.line)
+        for chosen, filled in ((there[bounded], True), (there[~bounded], False)):
+            axes.plot(
+                chosen["k_star"],
+                chosen[name],
+                color=look.colour,
+                linestyle="none",
+                marker=look.marker,
+                markevery=1 + len(there) // _MOST_MARKERS,
+                markerfacecolor=look.colour if filled else "white",
+            )
+        for marker, without in _without_mean(runs).items():
+            axes.plot(
+                without,
+                np.zeros(len(without)),
+                color=look.colour,
+                linestyle="none",
+                marker=marker,
+                transform=axes.get_xaxis_transform(),
+                clip_on=False,
+                zorder=5,
+            )
+    for shown in response.cases.values():
+        _letters(axes, shown, name)
+    axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
+    low, high = axes.get_ylim()
+    height = high - low
+    axes.set_ylim(low - 0.1 * height, high + 0.06 * height)  # room for the letters
+
+
+def _brackets(response: Response) -> list[tuple[Look, float, float, str]]:
+    """Return the brackets that are shown: look of the model, both sides, and their grey.
+
+    Those of the section and of the beam, as far as both sides are known; one for both if they
+    are the same.
+    """
+    closed = response.onset.dropna(subset=["k_star_stable", "k_star_unstable"])
+    found = []
+    for model, grey in zip(response.cases, (FAINT_GREY, LIGHT_GREY), strict=False):
+        for row in closed[closed["model"] == model].itertuples():
+            found.append((LOOKS[model], float(row.k_star_unstable), float(row.k_star_stable), grey))
+    if len(found) == 2 and found[0][1:3] == found[1][1:3]:
+        label = f"{found[0][0].label} and {found[1][0].label}"
+        return [(replace(found[1][0], label=label), *found[1][1:])]
+    return found
+
+
+def _without_mean(runs: pd.DataFrame) -> dict[str, list[float]]:
+    """Return the k* of runs that have no mean, by the mark that stands for them on the axis."""
+    failed = runs["regime"] == "failed"
+    diverged = ~failed & runs["mean_twist_deg"].isna()
+    marks = {_FAILED: runs.loc[failed, "k_star"], _DIVERGED: runs.loc[diverged, "k_star"]}
+    return {mark: list(k_star) for mark, k_star in marks.items() if len(k_star)}
+
+
+def _extent(axes: Axes, response: Response, name: str) -> None:
+    """Shade between what values the section moves."""
+    if len(response.extents) < 2:
+        return
+    extents = sorted(response.extents, key=lambda extent: extent.k_star)
+    ranges = [e.twist_deg if name == "mean_twist_deg" else e.deflection_chords for e in extents]
+    low, high = zip(*ranges, strict=True)
+    axes.fill_between(
+        [extent.k_star for extent in extents],
+        low,
+        high,
+        **_EXTENT,
+    )
+
+
+def _letters(axes: Axes, cases: Sequence[ShownCase], name: str) -> None:
+    """Mark the cases whose histories are shown; those too close to tell apart share a mark."""
+    low, high = axes.get_xlim()
+    groups: list[list[ShownCase]] = []
+    for case in sorted((c for c in cases if c.has_mean), key=lambda c: c.k_star):
+        if groups and case.k_star - groups[-1][0].k_star < _TOO_CLOSE * (high - low):
+            groups[-1].append(case)
+        else:
+            groups.append([case])
+    for same in groups:
+        above = same[0].letter in SECTION_LETTERS
+        axes.annotate(
+            ", ".join(sorted(case.letter for case in same)),
+            (same[0].k_star, getattr(same[0], name)),
+            xytext=(4, 15) if above else (-5, -15),
+            textcoords="offset points",
+            ha="center",
+            va="center",
+            fontsize=8,
+            fontweight="bold",
+            path_effects=[withStroke(linewidth=2.0, foreground="white")],
+            arrowprops={"arrowstyle": "-", "linewidth": 0.5, "shrinkA": 0, "shrinkB": 2},
+        )
+
+
+def _history(axes: Axes, place: str, case: ShownCase, history: History | None, look: Look) -> None:
+    """Draw the history of one case, or say why there is none."""
+    if not case.exists or history is None:
+        letter(axes, place, f"{case.letter}: {look.label}")
+        say(axes, f"No case {case.letter}: {case.regime}.", 24)
+        return
+    outcome = f"$k^*$ = {case.k_star:g}, {in_words(case.regime)}"
+    letter(axes, place, f"{case.letter}: {look.label}\n{outcome}")
+    if history.time.size == 0:
+        say(axes, "The run left no history: it diverged.", 24)
+        return
+    axes.plot(history.time, history.tip_twist_deg, color=look.colour, linewidth=0.6)
+    axes.set(xlabel="$t^*$", ylabel=r"$\theta$ (deg)", xlim=(0.0, float(history.time[-1])))
+
+
+def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
+    """Explain models, marks and shades."""
+    handles: list[Line2D | Patch] = [
+        Line2D([], [], color=look.colour, marker=look.marker, linestyle=look.line, label=look.label)
+        for look in (LOOKS[model] for model in models)
+    ]
+    run = response.summary[response.summary["regime"] != "failed"]
+    drifts = (run["mean_known"] == 0) & run["regime"].isin(_BOUNDED)
+    grows = run["regime"] == "growing"
+    words = [word for word, there in (("growing", grows), ("drifting", drifts)) if there.any()]
+    if words:
+        handles.append(_mark("o", f"still {' or '.join(words)}"))
+    labels = {_FAILED: "failed", _DIVERGED: "diverged, no mean"}
+    handles += [_mark(mark, labels[mark]) for mark in _without_mean(response.summary)]
+    handles += [
+        Patch(color=grey, linewidth=0, label=f"onset bracket, {look.label}")
+        for look, _, _, grey in _brackets(response)
+    ]
+    if len(response.extents) > 1:
+        model = section_model(list(response.cases))
+        label = f"range of motion, {LOOKS[model].label}" if model else "range of motion"
+        handles.append(Patch(label=label, **_EXTENT))
+    return handles
+
+
+def _mark(marker: str, label: str) -> Line2D:
+    return Line2D(
+        [],
+        [],
+        color=GREY,
+        linestyle="none",
+        marker=marker,
+        markerfacecolor="white",
+        label=label,
+    )
+
+
+def _sources(response: Response) -> tuple[str, ...]:
+    """Say what solvers made the runs; in words where a history tells."""
+    words = solvers_of((h.description, h.resolution) for h in response.histories.values())
+    if words:
+        return words
+    pairs = response.summary[["solver", "resolution"]].drop_duplicates()
+    return solvers_of((f"solver '{solver}'", str(name)) for solver, name in pairs.values)

@@ -1,0 +1,169 @@
+"""Fig. 11: pressure and lines of the wall shear stress on both sides of the rigid plate."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from numpy.typing import NDArray
+from scipy.interpolate import griddata
+
+from equisection.figures.origin import add_provenance
+from equisection.figures.panels import letter, say
+from equisection.figures.style import BLACK, PAGE_WIDTH, VERMILLION
+from equisection.results.plate_surface import PlateSurface
+from equisection.results.surface import suction_side
+
+Floats = NDArray[np.float64]
+
+#: Incidences (deg) that are shown, or those nearest: two that the paper has bubbles of, and one
+#: beyond.
+WANTED_DEG = (2.0, 4.0, 10.0)
+#: Distance of the points of the regular grid (chords), and part of the faces that is left out of
+#: the scale at either end.
+STEP, BEYOND_SCALE = 0.02, 0.02
+#: More than the rounding of places in a file (chords).
+ROUNDING = 1e-5
+
+
+@dataclass(frozen=True)
+class ShownSurface:
+    """Surface data of the plate at an incidence, and how they were obtained."""
+
+    surface: PlateSurface
+    method: str
+
+
+@dataclass(frozen=True)
+class Side:
+    """One side of the plate on a regular grid.
+
+    Attributes
+    ----------
+    z, x : (n,), (m,) array
+        z/c and x/c.
+    pressure, friction, spanwise_friction : (m, n) array
+        c_p, and c_f along the chord and along the span.
+    """
+
+    z: Floats
+    x: Floats
+    pressure: Floats
+    friction: Floats
+    spanwise_friction: Floats
+
+
+def on_grid(faces: PlateSurface) -> Side:
+    """Interpolate the faces of one side linearly; beyond their middles nothing changes."""
+    span = float(faces.area.sum())  # over a chord of 1
+    z, x = _middles(span), _middles(1.0)
+    grid = np.meshgrid(_within(z, faces.z), _within(x, faces.x))
+    values = np.stack([faces.pressure, faces.friction, faces.spanwise_friction], axis=-1)
+    there = griddata(np.stack([faces.z, faces.x], axis=-1), values, tuple(grid), method="linear")
+    return Side(z, x, there[..., 0], there[..., 1], there[..., 2])
+
+
+def _middles(end: float) -> Floats:
+    count = round(end / STEP)
+    return (np.arange(count) + 0.5) * end / count
+
+
+def _within(places: Floats, known: Floats) -> Floats:
+    """Return the places moved into the range of those known, a little more than rounding."""
+    return np.clip(places, known.min() + ROUNDING, known.max() - ROUNDING)
+
+
+def draw(surfaces: Mapping[float, ShownSurface], missing: Sequence[str], source: str) -> Figure:
+    """Draw the pressure side (left) and the suction side (right) at each incidence.
+
+    The title of a suction side says where its bubble ends in the layer at the root.
+
+    Parameters
+    ----------
+    surfaces
+        Surface data by incidence (deg), ascending.
+    missing
+        What is known of incidences that have none, a sentence each.
+    source
+        Solver and resolution, in words.
+    """
+    figure = Figure(figsize=(PAGE_WIDTH, 0.9 + 1.1 * max(len(surfaces), 1)))
+    panels = figure.subplots(max(len(surfaces), 1), 2, squeeze=False)
+    if not surfaces:
+        for axes, place in zip(panels.ravel(), "ab", strict=True):
+            letter(axes, place, "pressure side" if place == "a" else "suction side")
+            say(axes, "No incidence has surface data of the plate.")
+    scale = _scale(surfaces)
+    for row, (angle, shown) in enumerate(surfaces.items()):
+        suction = suction_side(angle)
+        sides = ("lower" if suction == "upper" else "upper", suction)
+        for column, (side, name) in enumerate(zip(sides, ("pressure", "suction"), strict=True)):
+            axes = panels[row, column]
+            title = rf"$\theta$ = {angle:g} deg, {name} side"
+            if name == "suction":
+                title += f": bubble {shown.surface.reattachment(side)[1][0]:.2f} c"
+            letter(axes, "abcdefgh"[2 * row + column], title)
+            _map(axes, on_grid(shown.surface.on(side)), scale)
+            axes.set_xlabel("$z/c$" if row == len(surfaces) - 1 else "")
+            axes.set_ylabel("$x/c$" if column == 0 else "")
+    if surfaces:
+        _explain(figure, panels, scale)
+    methods = [f"{angle:g} deg: {shown.method}" for angle, shown in surfaces.items()]
+    add_provenance(figure, f"rigid 3D beam: {source}", *methods, *missing)
+    return figure
+
+
+def _scale(surfaces: Mapping[float, ShownSurface]) -> Normalize:
+    """Return one scale of the pressure for all panels, without the peaks at the edges."""
+    every = [
+        shown.surface.on(side).pressure
+        for shown in surfaces.values()
+        for side in ("lower", "upper")
+    ]
+    values = np.concatenate(every) if every else np.zeros(1)
+    return Normalize(*np.quantile(values, [BEYOND_SCALE, 1.0 - BEYOND_SCALE]))
+
+
+def _map(axes: Axes, side: Side, scale: Normalize) -> None:
+    axes.pcolormesh(
+        side.z,
+        side.x,
+        side.pressure,
+        norm=scale,
+        cmap="viridis",
+        shading="nearest",
+        rasterized=True,
+    )
+    axes.streamplot(
+        side.z,
+        side.x,
+        side.spanwise_friction,
+        side.friction,
+        density=(1.3, 0.5),
+        color=BLACK,
+        linewidth=0.4,
+        arrowsize=0.5,
+    )
+    if side.friction.min() < 0.0 < side.friction.max():
+        axes.contour(side.z, side.x, side.friction, levels=[0.0], colors=VERMILLION, linewidths=0.8)
+    # seen from above, the stream comes from the top of the panel
+    axes.set(xlim=(0.0, side.z[-1] + side.z[0]), ylim=(1.0, 0.0))
+    axes.set_aspect("equal")
+    axes.grid(visible=False)
+
+
+def _explain(figure: Figure, panels: NDArray[np.object_], scale: Normalize) -> None:
+    figure.colorbar(
+        ScalarMappable(scale, "viridis"), ax=panels, label="$c_p$", extend="both", shrink=0.8
+    )
+    handles = [
+        Line2D([], [], color=BLACK, linewidth=0.6, label="lines of the wall shear stress"),
+        Line2D([], [], color=VERMILLION, linewidth=0.8, label="$c_f$ = 0 along the chord"),
+    ]
+    figure.legend(handles=handles, loc="outside upper center", ncols=2)

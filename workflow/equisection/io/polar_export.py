@@ -1,0 +1,90 @@
+"""Steady results written as a polar file, which the embedded solver and ``beam_polar`` read."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Sequence
+from pathlib import Path
+
+import xarray as xr
+
+from equisection.errors import ResultFileError
+from equisection.io.polar_rows import COLUMNS
+from equisection.results.netcdf import read_dataset
+
+
+def polar_csv(paths: Sequence[Path]) -> str:
+    """Return the polar of steady results as CSV, by ascending incidence.
+
+    The last column says how each value was obtained; comments say what solver did, and which
+    results are left out because they failed.
+
+    Raises
+    ------
+    ResultFileError
+        A file is no steady result, two are of the same incidence, or they are of different
+        solvers or meshes.
+    """
+    results = sorted(
+        (_steady(path) for path in paths), key=lambda data: data.attrs["incidence_deg"]
+    )
+    _require_one_polar(results)
+    text = io.StringIO()
+    text.write(f"# {results[0].attrs['solver_description']}.\n")
+    text.writelines(_flow(results[0]))
+    text.write(
+        "# Written by 'equisection polar' from steady results. Moment about mid-chord, nose up.\n"
+    )
+    table = csv.writer(text, lineterminator="\n")
+    failed = [data for data in results if data.attrs["failure"]]
+    for data in failed:
+        text.write(f"# Left out: {data.attrs['incidence_deg']:g} deg, {data.attrs['failure']}\n")
+    table.writerow((*COLUMNS, "method"))
+    for data in results:
+        if not data.attrs["failure"]:
+            values = (f"{float(data[name]):.5f}" for name in COLUMNS[1:])
+            table.writerow((f"{data.attrs['incidence_deg']:g}", *values, data.attrs["method"]))
+    return text.getvalue()
+
+
+def _steady(path: Path) -> xr.Dataset:
+    wanted = "give files of results/<run>/steady/<dimension>/"
+    if path.suffix != ".nc":
+        raise ResultFileError(f"{path}: no NetCDF file; {wanted}")
+    data = read_dataset(path)
+    if not {"method", "failure", "incidence_deg"} <= data.attrs.keys():
+        raise ResultFileError(f"{path}: no result of a steady case; {wanted}")
+    return data.assign_attrs(path=str(path))
+
+
+def _flow(data: xr.Dataset) -> list[str]:
+    """Return a comment about plate and flow, where the result holds its case."""
+    case = json.loads(data.attrs.get("case", "{}"))
+    if not case:
+        return []
+    geometry, medium = case["geometry"], case["medium"]
+    reynolds = medium["density"] * medium["speed"] * geometry["chord"] / medium["dynamic_viscosity"]
+    height = geometry["channel_height"]
+    around = "free air" if height is None else f"channel {height:g} c high"
+    return [f"# Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}.\n"]
+
+
+def _require_one_polar(results: Sequence[xr.Dataset]) -> None:
+    """Refuse results that do not make one polar."""
+    first = results[0]
+    of_incidence: dict[float, xr.Dataset] = {}
+    for data in results:
+        if data.attrs["solver_description"] != first.attrs["solver_description"]:
+            raise ResultFileError(
+                f"{data.attrs['path']}: by {data.attrs['solver_description']}, but "
+                f"{first.attrs['path']} by {first.attrs['solver_description']}; give the results "
+                "of one solver on one mesh, for instance steady/2d/coarse_a*.nc"
+            )
+        other = of_incidence.setdefault(data.attrs["incidence_deg"], data)
+        if other is not data:
+            raise ResultFileError(
+                f"{data.attrs['path']}: of the same incidence as {other.attrs['path']}; give one "
+                "of them"
+            )

@@ -1,0 +1,1 @@
+"""Keys of a configuration: their values, their words, their checks."""

@@ -1,0 +1,76 @@
+"""What keys must agree on: checks that name the keys they read.
+
+A check runs only when all of its keys hold allowed values, so that a mistake is reported once
+and the other checks still speak.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterator
+from dataclasses import dataclass
+from functools import reduce
+from typing import Any
+
+from equisection.keys.shown import shown
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """One thing that is wrong: the key's path, the value found, and what is allowed."""
+
+    key: str
+    value: object
+    allowed: str
+
+    @property
+    def line(self) -> str:
+        """Return the problem in one line."""
+        key = self.key if self.key.isprintable() else repr(self.key)
+        where = f"{key}: " if key else ""
+        return f"config: {where}{shown(self.value)}: {self.allowed}"
+
+
+class DisagreementError(ValueError):
+    """Keys do not agree with each other; raised inside validation."""
+
+    def __init__(self, problems: list[Problem]) -> None:
+        super().__init__("\n".join(problem.line for problem in problems))
+        self.problems = problems
+
+
+Check = Callable[..., Iterator[Problem]]
+_CHECKS: list[tuple[tuple[str, ...], Check]] = []
+
+
+def check(*keys: str) -> Callable[[Check], Check]:
+    """Register a check; it is given the values of its keys, in their order."""
+
+    def register(function: Check) -> Check:
+        _CHECKS.append((keys, function))
+        return function
+
+    return register
+
+
+def disagreements(config: object, wrong: Collection[Path] = ()) -> list[Problem]:
+    """Return what the checks find, leaving out those that read a key which is wrong itself."""
+    found: list[Problem] = []
+    for keys, function in _CHECKS:
+        paths = [tuple(key.split(".")) for key in keys]
+        if any(_overlap(path, other) for path in paths for other in wrong):
+            continue
+        values: list[Any] = [reduce(_attribute, path, config) for path in paths]
+        found += function(*values)
+    return found
+
+
+def _attribute(section: Any, name: str) -> Any:
+    """Return a key's value, or nothing inside an optional section that is null."""
+    return None if section is None else getattr(section, name)
+
+
+def _overlap(path: Path, other: Path) -> bool:
+    shared = min(len(path), len(other))
+    return path[:shared] == other[:shared]

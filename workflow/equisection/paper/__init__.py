@@ -1,0 +1,1 @@
+"""The paper's reproduction: its values, tables and claims. Nothing imports it."""

@@ -1,0 +1,193 @@
+"""Write the page that sets the paper's claims beside what was found here.
+
+    python -m equisection.paper.claims_page            # writes docs/side-by-side.md
+    python -m equisection.paper.claims_page --check    # tells whether it is up to date
+
+The evidence is what ``make paper`` leaves in ``results/``, and the runs kept in
+``results/reference/``.
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import math
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+import pandas as pd
+
+from equisection.errors import EquisectionError
+from equisection.files import write_text
+from equisection.paper.claims_page.claims import CLAIMS, Claim
+from equisection.paper.claims_page.evidence import Evidence, read_evidence
+from equisection.paper.claims_page.findings import Finding
+from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
+from equisection.paper.printed_values import PUBLISHED
+
+PAGE = Path("docs/side-by-side.md")
+COMMAND = "python -m equisection.paper.claims_page"
+_HEAD = f"""# The paper, claim by claim
+
+Written by `make paper` (its last step is `{COMMAND}`)
+from the results kept in `results/reference/`, with no flow solver: do not edit it. What is not run
+yet is said to be so; the page is written anew when results are added.
+"""
+
+
+def page(evidence: Evidence) -> str:
+    """Return the page."""
+    findings = [(claim, claim.judge(evidence)) for claim in CLAIMS]
+    parts = [_HEAD, _overview(findings)]
+    parts += [_section(number, *pair) for number, pair in enumerate(findings, start=1)]
+    parts += [_cost(evidence), _kept(evidence.kept), _missing(evidence.missing)]
+    return "\n".join(parts)
+
+
+def _overview(findings: Iterable[tuple[Claim, Finding]]) -> str:
+    rows = (
+        (str(number), f"[{claim.title}](#{_anchor(number, claim)})", f"**{finding.verdict}**")
+        for number, (claim, finding) in enumerate(findings, start=1)
+    )
+    return _table(("", "claim", "here"), rows)
+
+
+def _anchor(number: int, claim: Claim) -> str:
+    """Return the anchor that renderers make of a claim's heading."""
+    heading = f"{number}. {claim.title}".lower()
+    return "".join(c for c in heading if c.isalnum() or c in " -").replace(" ", "-")
+
+
+def _section(number: int, claim: Claim, finding: Finding) -> str:
+    lines = [
+        f"## {number}. {claim.title}\n",
+        f'> "{_plain(claim.words)}" ({claim.source})\n',
+        f"**{str(finding.verdict).capitalize()}:** {_plain(finding.here)}.\n",
+    ]
+    if finding.how:
+        lines.append(f"*Made by:* {_plain(finding.how)}.\n")
+    if finding.why:
+        lines.append(f"{_plain(finding.why)}.\n")
+    return "\n".join(lines)
+
+
+def _cost(evidence: Evidence) -> str:
+    ladder = cost_ladder(evidence.kept, evidence.embedded)
+    base = base_of(ladder)
+    base = ladder.iloc[-1] if base is None else base
+    rows = [
+        (
+            row.what,
+            _number(row.cells, ".0f"),
+            _number(row.time_step, "g"),
+            str(row.k_star),
+            f"{row.seconds:.2g}",
+            f"{row.seconds / base['seconds']:.2g}",
+            _number(row.cell_steps / base["cell_steps"], ".2g"),
+        )
+        for row in ladder.itertuples()
+    ]
+    columns = (
+        "",
+        "cells",
+        "step, c/V",
+        "k\\*",
+        "processor s for each c/V",
+        "ratio",
+        "ratio of cells times steps",
+    )
+    paper = next(p.value for p in PUBLISHED if p.quantity.startswith("cost of 3D over 2D"))
+    return (
+        "## Cost ladder\n\n"
+        "Processor time of the runs at the k\\* that the embedded solver was run at too, for each "
+        "convective time simulated. Ratios are to the section of the sweep. The paper's "
+        f"cells and time steps make the plate {paper:.0f} times the section. The embedded solver "
+        "is measured by running it (`make cost`).\n\n"
+    ) + _table(columns, rows)
+
+
+def _kept(kept: pd.DataFrame) -> str:
+    rows = [
+        (
+            row.model,
+            f"{row.k_star:g}",
+            row.resolution,
+            str(row.folder),
+            str(row.regime).replace("-", " "),
+            f"{row.growth_rate:+.4f}",
+            f"{row.twist_amplitude_deg:.2g}",
+            f"{row.end_time:.0f}",
+            f"{row.cpu_seconds:.0f}",
+        )
+        for row in kept.itertuples()
+    ]
+    columns = (
+        "model",
+        "k\\*",
+        "mesh",
+        "folder in `results/reference/`",
+        "regime",
+        "growth, V/c",
+        "amplitude, deg",
+        "end, c/V",
+        "processor s",
+    )
+    return "## Runs that are kept\n\n" + _table(columns, rows)
+
+
+def _missing(missing: pd.DataFrame) -> str:
+    if missing.empty:
+        return "## What is missing\n\nNothing that `make paper` asks for.\n"
+    rows = [(row.kind, row.model, row.case, _plain(row.reason)) for row in missing.itertuples()]
+    return (
+        "## What is missing\n\nCases that `make paper` asks for and nothing kept answers; "
+        "`make paper FROM=scratch` computes them.\n\n"
+    ) + _table(("kind", "model", "case", "reason"), rows)
+
+
+def _table(columns: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    lines = [columns, ["---"] * len(columns), *rows]
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+
+
+def _number(value: float, form: str) -> str:
+    return format(value, form) if math.isfinite(value) else ""
+
+
+def _plain(text: str) -> str:
+    """Keep the asterisk of k* from being read as a mark, and end without a full stop twice."""
+    return text.replace("k*", "k\\*").rstrip(".")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Write or check the page; return the exit status."""
+    parser = argparse.ArgumentParser(prog=COMMAND, description="The paper's claims, judged here.")
+    parser.add_argument("--figures", type=Path, default=Path("results/paper-figures"))
+    parser.add_argument("--plate", type=Path, default=Path("results/paper-plate-figures"))
+    parser.add_argument("--reductions", type=Path, default=Path("results/paper-reductions"))
+    parser.add_argument("--reference", type=Path, default=Path("results/reference"))
+    parser.add_argument("--page", type=Path, default=PAGE)
+    parser.add_argument("--check", action="store_true", help="only tell whether it is up to date")
+    options = parser.parse_args(arguments)
+    try:
+        runs = (options.figures, options.plate, options.reductions)
+        text = page(read_evidence(*runs, options.reference))
+    except EquisectionError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    if not options.check:
+        write_text(options.page, text)
+        print(f"written: {options.page}")
+        return 0
+    there = options.page.read_text(encoding="utf-8") if options.page.exists() else ""
+    if there == text:
+        return 0
+    changes = difflib.unified_diff(there.splitlines(), text.splitlines(), "there", "made now", n=0)
+    print("\n".join(changes), file=sys.stderr)
+    print(f"{options.page} is out of date: run `make paper` and commit it", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,154 @@
+"""Unsteady runs that are kept, whatever configuration made them, and what they cost."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from equisection.cases import UnsteadyCase
+from equisection.errors import ResultFileError
+from equisection.results.netcdf import read_dataset
+from equisection.solvers.verdicts import judge
+from equisection.store.judged_again import tip_motion
+from equisection.store.kept import Kept, kept_results
+from equisection.study.plan import model
+
+#: Columns of :func:`kept_runs`, in order.
+COLUMNS = (
+    "folder",
+    "model",
+    "k_star",
+    "solver",
+    "resolution",
+    "cells",
+    "time_step",
+    "settings",
+    "regime",
+    "growth_rate",
+    "growth_by_60",
+    "growth_by_100",
+    "twist_amplitude_deg",
+    "end_time",
+    "cpu_seconds",
+)
+
+
+def kept_runs(folder: Path) -> pd.DataFrame:
+    """Return a line for each unsteady result below a folder that has its case and has not failed.
+
+    ``model`` is the name of the folder that a result is in, ``folder`` that of its run, and
+    ``settings`` the words of the solver's settings. ``regime`` and the numbers beside it are judged
+    by the rules of today, whatever those were that a run ended by. ``growth_by_60`` and
+    ``growth_by_100`` are the growth rates (V/c) over the last periods of the first 60 and 100 c/V,
+    or of the whole of a run that ended before: growth changes with time, so runs of different
+    length are compared by these.
+    """
+    rows = []
+    for kept in kept_results(folder):
+        if kept.case.get("kind") == "unsteady":
+            solver = kept.case["solver"]
+            row: dict[str, Any] = {name: kept.attributes.get(name) for name in COLUMNS}
+            row |= {
+                "folder": str(kept.path.parents[2].relative_to(folder)),
+                "model": kept.path.parent.name,
+                "cells": cells_of(str(kept.attributes["solver_description"])),
+                "time_step": kept.case["time_step"],
+                "settings": json.dumps(solver["settings"], sort_keys=True),
+                **_verdict(kept),
+            }
+            rows.append(row)
+    table = pd.DataFrame(rows, columns=list(COLUMNS))
+    return table.sort_values(["model", "k_star", "cells", "folder"], ignore_index=True)
+
+
+def _verdict(kept: Kept) -> dict[str, Any]:
+    """Return the verdict on a run, and the growth (V/c) that its first 60 and 100 c/V show."""
+    case, whole = UnsteadyCase.model_validate(kept.case), tip_motion(read_dataset(kept.path))
+    verdict = judge(case, whole)
+    growth = {end: judge(case, whole.until(end))["growth_rate"] for end in (60, 100)}
+    return {
+        **{name: verdict[name] for name in ("regime", "growth_rate", "twist_amplitude_deg")},
+        **{f"growth_by_{end}": float(rate) for end, rate in growth.items()},
+    }
+
+
+def cells_of(description: str) -> float:
+    """Return the number of cells that a solver's description names; NaN if it names none."""
+    found = re.search(r"(\d+) cells", description)
+    return float(found[1]) if found else math.nan
+
+
+def base_of(ladder: pd.DataFrame) -> pd.Series | None:
+    """Return the line of a cost ladder that the others are set against.
+
+    It is that of the resolved section with the most k*, and of these that on the fewest cells.
+    """
+    section = ladder[ladder["what"].str.startswith("2D OpenFOAM")]
+    if section.empty:
+        return None
+    return section.sort_values(["k_star", "cells"], ascending=[False, True]).iloc[0]
+
+
+def cost_ladder(runs: pd.DataFrame, embedded: pd.DataFrame) -> pd.DataFrame:
+    """Return the processor time of a time simulated, from the plate down to the embedded solver.
+
+    Parameters
+    ----------
+    runs
+        :func:`kept_runs`.
+    embedded
+        ``comparison/summary.csv`` of the embedded solver.
+
+    Returns
+    -------
+    DataFrame
+        A line for each solver, dimension and mesh, the dearest first: ``what``, ``cells``,
+        ``time_step`` (c/V), ``k_star`` (how many), ``seconds`` (of the processor for each c/V, over
+        the k* that the embedded solver has too), ``cell_steps`` (cells times steps for each c/V).
+
+    Raises
+    ------
+    ResultFileError
+        The embedded solver has no run.
+    """
+    if embedded.empty:
+        raise ResultFileError("no run of the embedded solver to compare the cost with")
+    rows = []
+    known = runs.assign(dimension=[model(name, "consistent").dimension for name in runs["model"]])
+    groups = ["dimension", "resolution", "cells", "time_step", "settings"]
+    for (dimension, resolution, cells, step, settings), group in known.groupby(groups):
+        shared = group[group["k_star"].isin(embedded["k_star"])]
+        if shared.empty:
+            continue
+        chosen = json.loads(str(settings))
+        motion = ", overset" if chosen.get("mesh_motion") == "overset" else ""
+        rows.append(
+            {
+                "what": f"{str(dimension).upper()} OpenFOAM, {resolution}, "
+                f"{chosen.get('outer_correctors')} outer correctors{motion}",
+                "cells": cells,
+                "time_step": step,
+                "k_star": shared["k_star"].nunique(),
+                "seconds": shared["cpu_seconds"].sum() / shared["end_time"].sum(),
+                "cell_steps": float(cells) / float(step),
+            }
+        )
+    for dimension, names in (("3D", ("3d",)), ("2D", ("2d", "2d-corrected"))):
+        group = embedded[embedded["model"].isin(names)]
+        if len(group):
+            rows.append(
+                {
+                    "what": f"{dimension} embedded",
+                    "cells": math.nan,
+                    "time_step": math.nan,
+                    "k_star": group["k_star"].nunique(),
+                    "seconds": group["cpu_seconds"].sum() / group["end_time"].sum(),
+                    "cell_steps": math.nan,
+                }
+            )
+    return pd.DataFrame(rows).sort_values("seconds", ascending=False, ignore_index=True)

@@ -1,0 +1,85 @@
+"""Every number that the paper states, beside that of a run: ``comparison/paper.csv``.
+
+A quantity that the paper gives on several meshes has one row for each, so that nobody has to
+trust the choice of one; the finest is the one to judge by. A run of another case than the
+paper's has this run's values alone: a difference from the paper would mean nothing there.
+"""
+
+from __future__ import annotations
+
+import math
+
+import pandas as pd
+
+from equisection.paper.printed_values import PUBLISHED, Published, relative_difference
+from equisection.paper.quantities import Here, Run, values_here
+
+#: Columns of ``comparison/paper.csv``, in order.
+COLUMNS = (
+    "quantity",
+    "paper",
+    "here",
+    "relative_difference",
+    "relation",
+    "source",
+    "note",
+)
+OTHER_CASE = "the configuration is not the paper's case, so the paper has no value for it"
+
+
+def paper_table(run: Run, is_paper_case: bool) -> pd.DataFrame:
+    """Return ``comparison/paper.csv``.
+
+    Parameters
+    ----------
+    run
+        The results of this run.
+    is_paper_case
+        Whether beam and flow are the paper's.
+    """
+    values = values_here(run)
+    rows = [
+        _row(published, here) if is_paper_case else _row_of_other_case(published, here)
+        for published in PUBLISHED
+        for here in values[published.quantity]
+        if is_paper_case or math.isfinite(here.value)
+    ]
+    table = pd.DataFrame(rows, columns=list(COLUMNS))
+    return table.drop_duplicates("quantity", ignore_index=True)
+
+
+def _row(published: Published, here: Here) -> dict[str, object]:
+    notes = [published.note, here.note]
+    difference = math.nan
+    is_number = published.relation in ("equal", "about")
+    if not is_number and here.comparable and math.isfinite(here.value):
+        notes.insert(0, "holds" if published.holds(here.value) else "does not hold here")
+    elif is_number and here.comparable:
+        difference = relative_difference(published.value, here.value)
+        if published.value == 0.0 and math.isfinite(here.value):
+            notes.insert(0, f"absolute difference {here.value - published.value:.3g}")
+    return {
+        "quantity": _with_model(published.name, here),
+        "paper": published.value,
+        "here": here.value,
+        "relative_difference": difference,
+        "relation": published.relation,
+        "source": published.source,
+        "note": "; ".join(note for note in notes if note),
+    }
+
+
+def _row_of_other_case(published: Published, here: Here) -> dict[str, object]:
+    return {
+        "quantity": _with_model(published.quantity, here),
+        "paper": math.nan,
+        "here": here.value,
+        "relative_difference": math.nan,
+        "relation": "",
+        "source": "",
+        "note": "; ".join(note for note in (here.note, OTHER_CASE) if note),
+    }
+
+
+def _with_model(quantity: str, here: Here) -> str:
+    return f"{quantity}, {here.model}" if here.model else quantity

@@ -1,0 +1,133 @@
+"""The jobs of a configuration that run a solver: how many, and what each of them asks for.
+
+Like the graph, it comes from the configuration alone, so nothing has to be there but the file.
+Results that are kept or in the store already are not taken off.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rich import box
+from rich.table import Table
+
+from equisection.config import Config
+from equisection.run import cost
+from equisection.run.cost import CostModel
+from equisection.solvers.protocol import Capability
+from equisection.solvers.registry import SOLVERS
+from equisection.solvers.work import Work
+from equisection.study import plan
+
+#: Work of a job that runs no case but takes those that are kept (``compute: false``).
+LOOKING_UP = Work(cells=0.0)
+
+
+@dataclass(frozen=True)
+class Jobs:
+    """Jobs that are alike.
+
+    Attributes
+    ----------
+    what
+        Model of the sweep, or dimension and resolution of rigid cases.
+    number
+        How many there are, at most where the onset is refined.
+    cells
+        Cells of the mesh of one job; for the embedded solver sections of all of its cases.
+    ranks
+        Ranks of MPI of one job.
+    megabytes, minutes
+        Memory (MB) and time by the clock (minutes) that one job asks for.
+    core_hours
+        Time of the processors (h) that all of them are expected to take at most.
+    """
+
+    what: str
+    number: int
+    cells: float
+    ranks: int
+    megabytes: int
+    minutes: int
+    core_hours: float
+
+
+def solver_jobs(config: Config, model: CostModel) -> list[Jobs]:
+    """Return the jobs that run a solver, rigid cases first; none where nothing is computed.
+
+    Raises
+    ------
+    ConfigError
+        The cost model has no entry for the solver.
+    """
+    if not config.compute:
+        return []
+    batches = Capability.BATCH in SOLVERS[config.solver].provides
+    found = []
+    for what, dimension, number, work in _batches(config) if batches else _one_by_one(config):
+        per_cell, ranks = (
+            model.of(config.solver, dimension),
+            config.solver_section.threads(dimension),
+        )
+        asked = cost.megabytes(work, per_cell, ranks), cost.minutes(work, per_cell, ranks)
+        hours = number * cost.seconds(work, per_cell) / 3600
+        found.append(Jobs(what, number, work.cells, ranks, *asked, hours))
+    return found
+
+
+def steady_batch_work(config: Config, dimension: str) -> Work:
+    """Return the work of the job that runs all rigid cases of a dimension, or looks them up."""
+    if not config.compute:
+        return LOOKING_UP
+    cases = len(plan.steady_cases(config))
+    return cost.steady_work(config, dimension, config.steady.resolution, cases)
+
+
+def unsteady_batch_work(config: Config, dimension: str) -> Work:
+    """Return the work of the job that runs the sweep of a model, or a round of refinement."""
+    if not config.compute:
+        return LOOKING_UP
+    cases = max(len(plan.sweep_cases(config)), config.sweep.onset_points)
+    return cost.unsteady_work(config, dimension, cases)
+
+
+def table(jobs: list[Jobs]) -> Table:
+    """Return the jobs as a table, with the sum of the core hours."""
+    shown = Table(box=box.SIMPLE_HEAD, show_footer=True)
+    shown.add_column("cases", "all", no_wrap=True)
+    for heading in ("jobs", "cells", "ranks", "MB each", "min each"):
+        shown.add_column(heading, justify="right", no_wrap=True)
+    total = _hours(sum(one.core_hours for one in jobs))
+    shown.add_column("core hours", total, justify="right", no_wrap=True)
+    for one in jobs:
+        whole = (one.number, round(one.cells), one.ranks, one.megabytes, one.minutes)
+        shown.add_row(one.what, *(f"{value:,}" for value in whole), _hours(one.core_hours))
+    return shown
+
+
+def _hours(value: float) -> str:
+    return f"{value:,.0f}" if value >= 100 else f"{value:.3g}"
+
+
+def _one_by_one(config: Config) -> Iterator[tuple[str, str, int, Work]]:
+    """Give name, dimension, number and work of jobs of one case each."""
+    for dimension in plan.steady_dimensions(config):
+        for resolution in plan.resolutions(config):
+            number = len(plan.incidences(config, resolution))
+            work = cost.steady_work(config, dimension, resolution)
+            yield f"rigid {dimension}, {resolution}", dimension, number, work
+    refined = plan.refinement_rounds(config) * config.sweep.onset_points
+    for name in config.sweep.models:
+        dimension = plan.model(name, config.reduction).dimension
+        number = len(plan.sweep_cases(config)) + refined
+        yield name, dimension, number, cost.unsteady_work(config, dimension)
+
+
+def _batches(config: Config) -> Iterator[tuple[str, str, int, Work]]:
+    """Give name, dimension, number and work of jobs of many cases each."""
+    for dimension in plan.steady_dimensions(config):
+        yield f"rigid {dimension}", dimension, 1, steady_batch_work(config, dimension)
+    for name in config.sweep.models:
+        dimension = plan.model(name, config.reduction).dimension
+        yield name, dimension, len(plan.batches(config)), unsteady_batch_work(config, dimension)

@@ -1,0 +1,262 @@
+"""How far the sweep of a run is, read from the files that it leaves behind.
+
+Nothing is asked of the workflow: cases, results, progress files and logs say it all, so it can
+be read while a sweep runs, after a crash, and on a copy of the folder.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from equisection.cases import UnsteadyCase
+from equisection.errors import EquisectionError, ResultFileError
+from equisection.results.failures import failure_of
+from equisection.results.netcdf import read_attributes
+from equisection.results.whole import is_whole
+from equisection.run.listing import Listed, cases_of_run, config_of_run
+from equisection.run.status_cost import CostOfRun
+from equisection.run.status_logs import LINES, JobsOfRun, last_lines, printable
+from equisection.store.index import read_index
+from equisection.store.lock import Owner, living_owner
+from equisection.store.progress import Snapshot
+from equisection.store.result_store import ResultStore, runs_batches, task_of
+
+
+class StatusError(EquisectionError):
+    """There is no such folder to tell the status of."""
+
+
+class State(StrEnum):
+    """How far one case is."""
+
+    DONE = "done"
+    FAILED = "failed"  # ran and has no result, or its job ended with an error
+    RUNNING = "running"
+    STOPPED = "stopped"  # its job is gone without a word
+    STALE = "stale"  # its result is that of another case
+    BROKEN = "broken"  # a file that cannot be used
+    WAITING = "waiting"
+
+
+@dataclass(frozen=True)
+class CaseStatus:
+    """One case of a run.
+
+    Attributes
+    ----------
+    model
+        Model of the sweep, or ``steady 2d`` and ``steady 3d``.
+    case
+        Name of the case, for instance ``k6.44``.
+    regime
+        What a finished unsteady run turned out to be.
+    job
+        Progress of the job that runs it, or ran it last.
+    owner
+        Who runs it, where a job says so in its working directory.
+    text
+        The reason of a verdict or failure, or what to do.
+    last_lines
+        The last lines of the log of what failed or stopped.
+    simulated, duration
+        How long its history is, and the longest that it may be (c/V); none of a steady case.
+    core_seconds_used, core_seconds_to_come
+        What it took of all its processors, and what the cost model expects of the rest at most;
+        none where nobody knows.
+    """
+
+    model: str
+    case: str
+    state: State
+    regime: str = ""
+    job: Snapshot | None = None
+    owner: Owner | None = None
+    text: str = ""
+    last_lines: tuple[str, ...] = ()
+    simulated: float | None = None
+    duration: float | None = None
+    core_seconds_used: float | None = None
+    core_seconds_to_come: float | None = None
+
+    @property
+    def steady(self) -> bool:
+        """Whether it is a steady case."""
+        return self.model.startswith("steady")
+
+
+@dataclass(frozen=True)
+class RunStatus:
+    """How far a run is: its cases, and what went wrong outside of them."""
+
+    name: str
+    entries: tuple[CaseStatus, ...]
+    troubles: tuple[str, ...] = ()
+
+    def count(self, *, steady: bool) -> Counter[State]:
+        """Return how many cases are in each state."""
+        return Counter(entry.state for entry in self.entries if entry.steady is steady)
+
+    def core_seconds_used(self) -> float:
+        """Return what the results have taken, over all processors (s)."""
+        return sum(entry.core_seconds_used or 0.0 for entry in self.entries)
+
+    def core_seconds_to_come(self) -> float | None:
+        """Return what is to come at most (s); none where the cost of a case is not known."""
+        to_come = [entry.core_seconds_to_come for entry in self.entries]
+        return None if None in to_come else sum(value or 0.0 for value in to_come)
+
+
+def find_runs(folder: Path) -> list[Path]:
+    """Return the folder itself if it is that of a run, or else the runs in it.
+
+    Raises
+    ------
+    StatusError
+        There is no such folder.
+    """
+    if not folder.is_dir():
+        raise StatusError(
+            f"{folder}: no such folder; give that of a run, for instance 'results/paper-plate', "
+            "or start one with 'snakemake --cores 2'"
+        )
+    if _is_run(folder):
+        return [folder]
+    return sorted(path for path in folder.iterdir() if path.is_dir() and _is_run(path))
+
+
+def run_status(run: Path) -> RunStatus:
+    """Read how far a run is."""
+    reader = _Reader(run)
+    entries = tuple(reader.entry(listed) for listed in cases_of_run(run))
+    return RunStatus(run.name, entries, tuple(reader.jobs.troubles()))
+
+
+class _Indices:
+    """Attributes of the results that the indices of a run name, so that none need be opened."""
+
+    def __init__(self, run: Path) -> None:
+        self._run = run
+        self._of: dict[str, tuple[dict[str, Any], int]] = {}
+        for index in [*run.glob("steady/*/*.json"), *run.glob("unsteady/*/*.json")]:
+            try:
+                written, entries = index.stat().st_mtime_ns, read_index(index)
+            except (OSError, ResultFileError):
+                continue
+            place = index.parent.relative_to(run).as_posix()
+            for name, attributes in entries.items():
+                self._of[f"{place}/{name}.nc"] = attributes, written
+
+    def attributes(self, result: str, wanted: str) -> dict[str, Any]:
+        """Return the attributes of the result of a case.
+
+        Raises
+        ------
+        ResultFileError
+            It cannot be read. Its case is for the caller to look at.
+        """
+        path = self._run / result
+        attributes, written = self._of.get(result, ({}, 0))
+        sound = attributes.get("case_hash") == wanted and path.stat().st_mtime_ns <= written
+        return attributes if sound and is_whole(path) else read_attributes(path)
+
+
+class _Reader:
+    """Reads how far the cases of a run are."""
+
+    def __init__(self, run: Path) -> None:
+        self._run = run
+        self._store = ResultStore(run.parent / ".store")
+        self._indices = _Indices(run)
+        self._cost = CostOfRun(config_of_run(run))
+        self.jobs = JobsOfRun(run)
+
+    def entry(self, listed: Listed) -> CaseStatus:
+        """Return how far one case is."""
+        error, log = self.jobs.error(listed.place, listed.file)
+        entry = CaseStatus(listed.model, listed.name, State.BROKEN, text=printable(listed.problem))
+        if listed.case is None:
+            return entry
+        duration = listed.case.duration if isinstance(listed.case, UnsteadyCase) else None
+        entry = replace(entry, duration=duration)
+        fault = State.BROKEN, ""
+        if (self._run / listed.result).exists():
+            try:
+                attributes = self._indices.attributes(listed.result, listed.hash)
+            except ResultFileError as problem:
+                path = self._run / listed.result
+                fault = State.BROKEN, str(problem).removeprefix(f"{path}: ")
+            else:
+                if attributes.get("case_hash") == listed.hash:
+                    return _finished(entry, attributes)
+                fault = State.STALE, "its result is that of another case; run again"
+        return self._unfinished(entry, listed, fault, error, log)
+
+    def _unfinished(
+        self,
+        entry: CaseStatus,
+        listed: Listed,
+        fault: tuple[State, str],
+        error: str,
+        log: Path | None,
+    ) -> CaseStatus:
+        """Return how far a case without a usable result is."""
+        assert listed.case is not None
+        task = task_of(listed.case)
+        job = self.jobs.of(listed.hash)
+        owner = None if runs_batches(listed.case) else living_owner(self._store.work(task))
+        expected = self._cost.core_seconds(listed)
+        done = job.fraction if job else 0.0
+        entry = replace(
+            entry,
+            job=job,
+            owner=owner,
+            simulated=done * entry.duration if job and entry.duration is not None else None,
+            core_seconds_to_come=None if expected is None else (1 - done) * expected,
+        )
+        runs_here = job is not None and job.lives()
+        if runs_here or owner is not None:
+            text = "" if runs_here else "by another workflow in this store"
+            return replace(entry, state=State.RUNNING, text=text)
+        if fault[1]:
+            return replace(entry, state=fault[0], text=printable(fault[1]))
+        lines = last_lines(self._store.work(task), log)
+        if error:
+            return replace(entry, state=State.FAILED, text=printable(error), last_lines=lines)
+        if self._store.result(task).exists():
+            return replace(entry, state=State.WAITING, text="its result is in the store")
+        if job is not None:
+            text = f"its process ended at {100 * done:.0f} % without a word; run again"
+            return replace(entry, state=State.STOPPED, text=text, last_lines=lines)
+        return replace(entry, state=State.WAITING)
+
+
+def _finished(entry: CaseStatus, attributes: dict[str, Any]) -> CaseStatus:
+    """Return the entry of a result; a steady one has no regime, only perhaps a failure."""
+    failure = failure_of(attributes)
+    reason = failure or str(attributes.get("reason", ""))
+    return replace(
+        entry,
+        state=State.FAILED if failure else State.DONE,
+        regime=str(attributes.get("regime", "")),
+        text=printable(reason),
+        last_lines=tuple(map(printable, reason.splitlines()[-LINES:])) if failure else (),
+        simulated=_number(attributes.get("end_time")),
+        core_seconds_used=_number(attributes.get("cpu_seconds")),
+        core_seconds_to_come=0.0,
+    )
+
+
+def _number(value: Any) -> float | None:
+    return float(value) if isinstance(value, (int, float, np.floating)) else None
+
+
+def _is_run(folder: Path) -> bool:
+    if folder.name.startswith("."):
+        return False
+    return any((folder / name).exists() for name in ("cases", "logs", "config.resolved.yaml"))

@@ -1,0 +1,54 @@
+"""What is to come of a run's cases, by the cost model, and what a job has taken so far."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+from equisection.config import Config
+from equisection.errors import ConfigError
+from equisection.run import cost
+from equisection.run.listing import Listed
+from equisection.study.plan import angle_of
+
+
+class CostOfRun:
+    """The cost of each case of a run, if it is known.
+
+    Parameters
+    ----------
+    config
+        Configuration of the run.
+    model
+        File of the cost model.
+    """
+
+    def __init__(self, config: Config | None, model: Path = cost.COST_MODEL) -> None:
+        self._config = config
+        try:
+            self._model = cost.read_cost_model(model) if model.is_file() else None
+        except ConfigError:
+            self._model = None
+        self._seconds = cache(self._expected)
+
+    def core_seconds(self, listed: Listed) -> float | None:
+        """Return what a whole case takes at most; none if configuration or model do not tell."""
+        if listed.case is None:
+            return None
+        steady = listed.case.kind == "steady"
+        resolution = angle_of(listed.name)[0] if steady else ""
+        return self._seconds(listed.case.solver.name, listed.case.dimension, resolution)
+
+    def _expected(self, solver: str, dimension: str, resolution: str) -> float | None:
+        config = self._config
+        if config is None or self._model is None or config.solver != solver:
+            return None
+        try:
+            work = (
+                cost.steady_work(config, dimension, resolution)
+                if resolution
+                else cost.unsteady_work(config, dimension)
+            )
+            return cost.seconds(work, self._model.of(solver, dimension))
+        except (ConfigError, KeyError):  # no entry, or a resolution of an earlier configuration
+            return None

@@ -1,0 +1,1 @@
+"""The embedded solver: section polars, lifting line, lagged separation."""

@@ -1,0 +1,225 @@
+"""The embedded solver: steady and unsteady loads from section polars, with nothing but Python.
+
+Section polar, lifting line and lagged separation stand in the place of CFD. What it gives is
+labelled as what it is wherever it is shown.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.aerodynamics.induction import SpanStrips, cosine_strips, induction_matrix
+from equisection.aerodynamics.lifting_line import LiftingLine
+from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.separation import SeparationLags
+from equisection.cases import Geometry, SteadyCase, UnsteadyCase
+from equisection.config import Config
+from equisection.config.groups import FLAT_PLATE, Embedded
+from equisection.errors import IncidenceOutOfRangeError, SolverError
+from equisection.io.polar_file import read_polar
+from equisection.results.steady_result import SteadyResult
+from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
+
+Floats = NDArray[np.float64]
+
+#: Incidences that the thin analytic plate covers (rad).
+FLAT_PLATE_LIMIT = math.radians(30.0)
+#: Cases that run together; bounds the memory of their histories.
+LANES = 500
+
+
+class Adapter:
+    """The embedded solver on one section polar; fulfils the solver protocol."""
+
+    name = "embedded"
+    version = "4"
+    provides = frozenset({Capability.BATCH})
+
+    def __init__(self, polar: SectionPolar, strips: int, lags: SeparationLags) -> None:
+        self._polar = polar
+        self._strips = strips
+        self._lags = lags
+
+    @classmethod
+    def from_config(cls, config: Config, resolution: str) -> Adapter:
+        """Return the solver on the polar of a resolution.
+
+        Raises
+        ------
+        PolarFileError
+            The polar file cannot be used.
+        """
+        section = config.embedded
+        polar = read_section_polar(section, resolution)
+        lags = SeparationLags(**section.separation.model_dump(), provenance="configuration")
+        return cls(polar, section.strips, lags)
+
+    @classmethod
+    def from_settings(
+        cls, settings: dict[str, Any], allocation: Allocation = ONE_THREAD
+    ) -> Adapter:
+        """Return the solver of a case, which runs in one thread."""
+        del allocation
+        data = settings["polar"]
+        polar = SectionPolar(
+            np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
+        )
+        return cls(polar, settings["strips"], SeparationLags(**settings["separation"]))
+
+    def settings(self, dimension: str) -> dict[str, Any]:
+        """Return the polar, the strips and the lags of the separation."""
+        del dimension
+        lags = asdict(self._lags)
+        del lags["provenance"]
+        return {
+            "polar": {
+                "label": self._polar.label,
+                "incidence_deg": np.degrees(self._polar.incidence).tolist(),
+                "cd": self._polar.drag.tolist(),
+                "cl": self._polar.lift.tolist(),
+                "cm": self._polar.moment.tolist(),
+            },
+            "strips": self._strips,
+            "separation": lags,
+        }
+
+    def describe(self, dimension: str) -> str:
+        """Return solver and resolution in words; the beam's strips carry the section's polar."""
+        del dimension
+        return f"embedded solver, polar {self._polar.label}"
+
+    def run_steady(
+        self, cases: Sequence[SteadyCase], work: Path, progress: Progress
+    ) -> list[SteadyResult]:
+        """Read the polar (2D) or solve the lifting line on it (3D) at each incidence."""
+        del work
+        results = []
+        for number, case in enumerate(cases, start=1):
+            try:
+                run = self._section if case.dimension == "2d" else self._beam
+                results.append(run(case))
+            except (IncidenceOutOfRangeError, SolverError) as error:
+                results.append(_no_value(str(error)))
+            progress(number, len(cases))
+        return results
+
+    def run_unsteady(
+        self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
+    ) -> list[UnsteadyResult]:
+        """Release sections or beams together, each until its verdict is in."""
+        del work
+        total = sum(case.duration for case in cases)
+        results: dict[int, UnsteadyResult] = {}
+        done = 0.0
+        for group in _groups(cases):
+            members = [cases[index] for index in group]
+            share = sum(case.duration for case in members)
+
+            def tell(now: float, end: float, share: float = share, before: float = done) -> None:
+                progress(before + share * now / end, total)
+
+            results.update(zip(group, self._release(members, tell), strict=True))
+            done += share
+        return [results[index] for index in range(len(cases))]
+
+    def _release(self, cases: list[UnsteadyCase], progress: Progress) -> list[UnsteadyResult]:
+        # Imported here: writing a case file takes this module too, and none of what follows.
+        from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
+        from equisection.solvers.embedded.releases import (  # noqa: PLC0415
+            release_all_beams,
+            release_all_sections,
+        )
+
+        loads = UnsteadyLoads.from_polar(self._polar, self._lags)
+        if cases[0].dimension == "2d":
+            return release_all_sections(cases, loads, progress)
+        strips, matrix = self._induction(cases[0].geometry)
+        return release_all_beams(cases, loads, strips, matrix, progress)
+
+    def _section(self, case: SteadyCase) -> SteadyResult:
+        alpha = math.radians(case.incidence_deg)
+        self._polar.require(alpha)
+        return SteadyResult(
+            drag=float(self._polar.drag_coefficient(alpha)),
+            lift=float(self._polar.lift_coefficient(alpha)),
+            moment=float(self._polar.moment_coefficient(alpha)),
+            span=np.empty(0),
+            section_lift=np.empty(0),
+            section_moment=np.empty(0),
+            method="section polar",
+        )
+
+    def _beam(self, case: SteadyCase) -> SteadyResult:
+        strips, matrix = self._induction(case.geometry)
+        loads = LiftingLine(self._polar, strips, matrix).solve(math.radians(case.incidence_deg))
+        return SteadyResult(
+            drag=loads.drag,
+            lift=loads.lift,
+            moment=loads.moment,
+            span=strips.stations,
+            section_lift=loads.cl_section,
+            section_moment=loads.cm_section,
+            method="lifting line on the section polar",
+        )
+
+    def _induction(self, geometry: Geometry) -> tuple[SpanStrips, Floats]:
+        strips = cosine_strips(self._strips, geometry.root_on_wall)
+        width = None if geometry.tip_gap is None else geometry.span + geometry.tip_gap
+        matrix = induction_matrix(
+            strips,
+            1.0,
+            geometry.span,
+            width,
+            geometry.channel_height,
+            root_on_wall=geometry.root_on_wall,
+        )
+        return strips, matrix
+
+
+def read_section_polar(section: Embedded, resolution: str) -> SectionPolar:
+    """Return the section polar that a configuration names for a resolution.
+
+    Raises
+    ------
+    PolarFileError
+        The file cannot be used.
+    """
+    source = section.polars[resolution]
+    if source == FLAT_PLATE:
+        return SectionPolar.flat_plate(FLAT_PLATE_LIMIT)
+    return read_polar(Path(source), section.symmetric)
+
+
+def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:
+    """Group cases that differ in their structure's numbers alone, a bounded number at a time."""
+
+    def what_they_share(case: UnsteadyCase) -> str:
+        shared = case.model_dump(exclude={"k_star", "section"})
+        for lane in ("torsion_frequency", "bending_frequency"):
+            (shared["beam"] or {}).pop(lane, None)
+        return json.dumps(shared, sort_keys=True)
+
+    groups: dict[str, list[int]] = {}
+    for index, case in enumerate(cases):
+        groups.setdefault(what_they_share(case), []).append(index)
+    return [
+        members[at : at + LANES]
+        for members in groups.values()
+        for at in range(0, len(members), LANES)
+    ]
+
+
+def _no_value(reason: str) -> SteadyResult:
+    nothing = np.empty(0)
+    return SteadyResult(
+        math.nan, math.nan, math.nan, nothing, nothing, nothing, "none", failure=reason
+    )

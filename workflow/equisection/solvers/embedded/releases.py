@@ -1,0 +1,166 @@
+"""Releases of many sections or beams at once, each until its verdict is in."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import TypedDict
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.aerodynamics.induction import SpanStrips
+from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.cases import UnsteadyCase
+from equisection.motion.beams import BeamHistories, BeamParameters, release_beams
+from equisection.motion.march import Failure
+from equisection.motion.sections import SectionHistories, SectionParameters, release_sections
+from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.protocol import Progress
+from equisection.solvers.verdicts import TipMotion, judge, monitor_of
+
+Floats = NDArray[np.float64]
+
+
+class _Settings(TypedDict):
+    """What the cases of one release share."""
+
+    incidence_rad: float
+    duration: float
+    time_step: float
+    output_interval: float
+
+
+def release_all_sections(
+    cases: list[UnsteadyCase], loads: UnsteadyLoads, progress: Progress
+) -> list[UnsteadyResult]:
+    """Release the sections of some cases that share all but their structure."""
+    section = [case.section for case in cases]
+    parameters = SectionParameters(
+        inertia=np.array([s.inertia for s in section if s]),
+        torsional_stiffness=np.array([s.torsional_stiffness for s in section if s]),
+        mass=np.array([s.mass for s in section if s]),
+        heave_stiffness=np.array([s.flexural_stiffness for s in section if s]),
+    )
+    histories = release_sections(
+        parameters,
+        loads,
+        **_common_settings(cases[0]),
+        monitor=monitor_of(cases, _section_lane),
+        progress=progress,
+    )
+    return [_section_result(case, histories, lane) for lane, case in enumerate(cases)]
+
+
+def release_all_beams(
+    cases: list[UnsteadyCase],
+    loads: UnsteadyLoads,
+    strips: SpanStrips,
+    induction: Floats,
+    progress: Progress,
+) -> list[UnsteadyResult]:
+    """Release the beams of some cases that share all but their frequencies.
+
+    ``strips`` and ``induction`` are those of :mod:`equisection.aerodynamics.induction`.
+    """
+    modes = [case.beam for case in cases if case.beam]
+    parameters = BeamParameters.from_modes(
+        span=np.array(modes[0].span),
+        torsion_shapes=np.array(modes[0].torsion_shape),
+        torsion_frequencies=np.array([beam.torsion_frequency for beam in modes]),
+        inertia=np.array([beam.inertia for beam in modes]),
+        bending_shapes=np.array(modes[0].bending_shape),
+        bending_frequencies=np.array([beam.bending_frequency for beam in modes]),
+        mass=np.array([beam.mass for beam in modes]),
+        stations=strips.stations,
+        weights=strips.weights,
+        induction=induction,
+    )
+    histories = release_beams(
+        parameters,
+        loads,
+        **_common_settings(cases[0]),
+        monitor=monitor_of(cases, _beam_lane),
+        progress=progress,
+    )
+    return [_beam_result(case, histories, lane) for lane, case in enumerate(cases)]
+
+
+def _common_settings(case: UnsteadyCase) -> _Settings:
+    return {
+        "incidence_rad": math.radians(case.incidence_deg),
+        "duration": case.duration,
+        "time_step": case.time_step,
+        "output_interval": case.output_interval,
+    }
+
+
+def _section_lane(
+    histories: SectionHistories, case: UnsteadyCase, lane: int, part: slice
+) -> TipMotion:
+    assert case.section is not None
+    return TipMotion(
+        histories.time[part],
+        histories.twist[part, lane] / case.section.twist_recovery,
+        histories.deflection[part, lane] / case.section.deflection_recovery,
+    )
+
+
+def _beam_lane(histories: BeamHistories, case: UnsteadyCase, lane: int, part: slice) -> TipMotion:
+    del case
+    return TipMotion(
+        histories.time[part], histories.tip_twist[part, lane], histories.tip_deflection[part, lane]
+    )
+
+
+def _section_result(case: UnsteadyCase, histories: SectionHistories, lane: int) -> UnsteadyResult:
+    end = int(histories.samples[lane])
+    tip = _section_lane(histories, case, lane, slice(end))
+    twist = histories.twist[:end, lane]
+    return UnsteadyResult(
+        time=tip.time,
+        twist=twist,
+        deflection=histories.deflection[:end, lane],
+        tip_twist=tip.twist,
+        tip_deflection=tip.deflection,
+        lift=histories.lift_coefficient[:end, lane],
+        moment=histories.moment_coefficient[:end, lane],
+        incidence=math.radians(case.incidence_deg) + twist,
+        verdict=judge(case, tip, _failure(histories.failures, lane)),
+    )
+
+
+def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> UnsteadyResult:
+    end = int(histories.samples[lane])
+    tip = _beam_lane(histories, case, lane, slice(end))
+    return UnsteadyResult(
+        time=tip.time,
+        twist=tip.twist,
+        deflection=tip.deflection,
+        tip_twist=tip.twist,
+        tip_deflection=tip.deflection,
+        lift=histories.lift_coefficient[:end, lane],
+        moment=histories.moment_coefficient[:end, lane],
+        incidence=math.radians(case.incidence_deg) + tip.twist,
+        verdict=judge(case, tip, _failure(histories.failures, lane)),
+        torsion_amplitudes=histories.torsion_amplitudes[:end, lane].T,
+        bending_amplitudes=histories.bending_amplitudes[:end, lane].T,
+    )
+
+
+def _failure(failures: Iterable[Failure], lane: int) -> str:
+    """Return why a lane ended early, or nothing."""
+    for failure in failures:
+        if failure.lane == lane and failure.time == 0:
+            return (
+                "no steady flow to be released from was found: the incidence leaves the section "
+                "polar, or alternates from strip to strip where the lift falls too steeply; extend "
+                "the polar or take fewer embedded.strips"
+            )
+        if failure.lane == lane:
+            return (
+                f"at {failure.time:.4g} c/V an incidence of "
+                f"{math.degrees(failure.incidence_rad):.4g} deg left the section polar; extend "
+                "the polar or lower unsteady.verdict.growing_amplitude_deg"
+            )
+    return ""

@@ -1,0 +1,1 @@
+"""The beam on OpenFOAM, rigid and free."""

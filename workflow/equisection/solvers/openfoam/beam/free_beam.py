@@ -1,0 +1,356 @@
+"""The free plate: flow and structure coupled in each time step, until the verdict is in.
+
+OpenFOAM moves the mesh and resolves the flow; the structure is solved here, on its modes
+(``motion.modal_response``), with loads and places exchanged over pipes. The run starts from the
+rigid steady flow and is resumed from its last whole state, if its folder has one.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+
+from equisection.errors import SolverError
+from equisection.motion.modal_response import ModalStep, Staggered
+from equisection.results.tip_flow import TipFlow
+from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.openfoam import flow_setup as flow
+from equisection.solvers.openfoam.beam.beam_history import (
+    PlateHistory,
+    add_row,
+    keep_until,
+    read_plate,
+    require_state,
+)
+from equisection.solvers.openfoam.beam.lumped_points import (
+    Handed,
+    LumpedPoints,
+    motion_schemes,
+    motion_solvers,
+    write_lumped_motion,
+)
+from equisection.solvers.openfoam.beam.pipes import Alive, Pipes, names
+from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_control
+from equisection.solvers.openfoam.case_folder import (
+    drop_broken_states,
+    drop_histories_after,
+    drop_states_after,
+    emptied,
+    is_ready,
+    mark_ready,
+    states,
+)
+from equisection.solvers.openfoam.dictionaries import write_system
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun
+from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
+from equisection.solvers.openfoam.process import (
+    SILENCE,
+    BlowUpError,
+    Every,
+    run_beside,
+    run_program,
+)
+from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
+from equisection.solvers.openfoam.reading.loads import BEYOND_REASON
+from equisection.solvers.openfoam.reading.sampled_tip_flow import Pose, sample_tip_flow
+from equisection.solvers.openfoam.rigid_flow import Tell
+from equisection.solvers.openfoam.section.rigid_section import require_sound_mesh
+from equisection.solvers.openfoam.time_spent import spent
+from equisection.solvers.verdicts import (
+    LOOKS_EVERY,
+    TipMotion,
+    decided_at,
+    is_decided,
+    judge,
+    last_look,
+    refused,
+)
+
+logger = logging.getLogger(__name__)
+
+#: The version whose ``lumpedPointMovement`` the dictionaries are written for.
+_VERSION = "v1912"
+#: Room that must be left between the plate and floor or ceiling (chords).
+_ROOM = 0.1
+
+
+@dataclass(frozen=True)
+class PlateRun(FreeRun[PlateMesh]):
+    """The run of one case of the plate.
+
+    Attributes
+    ----------
+    ranks
+        Ranks of MPI that a program runs on.
+    """
+
+    ranks: int
+
+    @property
+    def history_file(self) -> Path:
+        """File of the structure's history."""
+        return self.folder / "structure.txt"
+
+    @cached_property
+    def points(self) -> LumpedPoints:
+        """The plate's modes at its lumped points."""
+        assert self.case.beam is not None
+        return LumpedPoints.of(self.case.beam, self.mesh.edges())
+
+    def history(self) -> PlateHistory:
+        """Return the history so far."""
+        return read_plate(self.history_file, self.points.frequency.size)
+
+    def run(self, tell: Tell) -> UnsteadyResult:
+        """Release the plate and follow it until its verdict is in.
+
+        Raises
+        ------
+        SolverError
+            A program failed, or the version of OpenFOAM is another. A flow or a mesh that broke
+            down, or a plate that comes to the wall, is a result: ``failed``, or ``growing`` if the
+            motion had grown beyond the bound before.
+        """
+        case, failure = self.case, ""
+        if self.installation.version() != _VERSION:
+            raise SolverError(
+                f"OpenFOAM {self.installation.version()}: the coupled plate is written for "
+                f"{_VERSION}, whose lumpedPointMovement reads other dictionaries than later ones; "
+                "run it there, or leave the model 3d out of sweep.models"
+            )
+        try:
+            if not is_ready(self.folder):
+                self._set_up(tell)
+            start = self._last_common_state()
+            if start < case.duration and not (start and self._is_over()):
+                self._go_on(start, tell)
+        except BlowUpError as error:
+            failure = f"{error}{self._where()}"
+            if not is_ready(self.folder):
+                return refused(case.model_copy(update={"refusal": failure}))
+        if failure and self._is_over():
+            logger.info("what went wrong is later than the verdict: %s", failure)
+            failure = ""
+        tip_flow = None if failure else self._tip_flow()
+        return replace(self._result(failure), tip_flow=tip_flow, spent=spent(self.work))
+
+    def _set_up(self, tell: Tell) -> None:
+        """Make the folder of the free run from the rigid steady flow, converged or not."""
+        rigid = PlateFlow(
+            self.installation, self.case, self.mesh, self.coupling, self.ranks, self.work
+        )
+        source, _, converged = rigid.steady(self.before_release(tell))
+        if not converged:
+            logger.info("the steady flow does not converge; the release is from its last state")
+        folder = emptied(self.folder)
+        copy_flow_of_all(source, folder)
+        write_lumped_motion(folder, self.points, names())
+        mark_ready(folder)
+
+    def _write_system(self) -> None:
+        """Write what controls the run; its end may differ from that of an earlier start."""
+        case = self.case
+        entries = plate_control(
+            "pimpleFoam", case.duration, case.time_step, STATE_INTERVAL, self.mesh.span
+        )
+        entries["libs"] = ['"liblumpedPointMotion.so"']
+        solution = flow.unsteady_solution(self.coupling)
+        solution["solvers"] |= motion_solvers()
+        schemes = flow.schemes(steady=False)
+        schemes["laplacianSchemes"] |= motion_schemes()
+        write_system(self.folder, entries, schemes, solution)
+
+    def _last_common_state(self) -> float:
+        """Return the time of the last state that is whole on all ranks; drop what is later."""
+        start = min(drop_broken_states(part) for part in parts(self.folder))
+        for part in parts(self.folder):
+            drop_states_after(part, start)
+        drop_histories_after(self.folder, start)
+        return start
+
+    def _is_over(self) -> bool:
+        """Tell whether the verdict is in."""
+        case = self.case
+        history = self.history().sampled(case.time_step, case.output_interval, case.duration)
+        return math.isfinite(decided_at(case, self.tip_motion(history)))
+
+    def _go_on(self, start: float, tell: Tell) -> None:
+        self._write_system()
+        # a case that was divided stays so, on however many ranks its job runs now
+        ranks = len(parts(self.folder))
+        if ranks != self.ranks:
+            logger.info("%d ranks: the run was begun on as many", ranks)
+        if start:
+            logger.info("goes on from %g c/V", start)
+        # the loads at the start are handed over anew in the first step
+        before = start - 0.5 * self.case.time_step
+        state = keep_until(self.history_file, before, self.points.frequency.size).state()
+        if start:
+            require_state(state, start, self.case.time_step, self.folder)
+        structure = Staggered(ModalStep(self.points.frequency, self.case.time_step), state)
+        pipes = Pipes(self.folder, SILENCE)
+        try:
+            run_beside(
+                self.installation,
+                "pimpleFoam",
+                self.folder,
+                _Exchange(self, structure, pipes, start, tell),
+                ranks=ranks,
+            )
+        finally:
+            pipes.close()
+
+    def _where(self) -> str:
+        """Return when and how far out the plate was, and whether its mesh was sound until then."""
+        if not self.history_file.exists() or not self.history().time.size:
+            return ""
+        history = self.history()
+        twist, deflection = self.points.tip(history.position[-1])
+        return (
+            f"; at {history.time[-1]:.4g} c/V the tip's twist was {math.degrees(twist):.3g} deg, "
+            f"its deflection {deflection:.3g} c{self._mesh_before()}"
+        )
+
+    def _mesh_before(self) -> str:
+        """Return whether the last mesh that was written is sound."""
+        last = states(parts(self.folder)[0])[-1].name
+        if float(last) == 0.0:
+            return ""
+        program, ranks = "checkMesh", len(parts(self.folder))
+        log = self.folder / f"log.{program}"
+        log.unlink(missing_ok=True)  # what was said before is of another mesh
+        try:
+            run_program(
+                self.installation, program, self.folder, arguments=("-latestTime",), ranks=ranks
+            )
+        except SolverError as error:
+            # the run has its result, whatever becomes of the search for its cause
+            logger.warning("the mesh at its end was not checked: %s", error)
+            return ""
+        try:
+            require_sound_mesh(log)
+        except SolverError as error:
+            return f"; at {last} c/V {error}"
+        return f"; at {last} c/V the mesh was sound"
+
+    def _tip_flow(self) -> TipFlow | None:
+        """Return the flow near the tip in the last state that was written."""
+        time, history = float(states(parts(self.folder)[0])[-1].name), self.history()
+        position = history.position[np.abs(history.time - time).argmin()]
+        points, edges = self.points, self.mesh.edges()  # the mesh's points stand at the edges
+        at_edges = (
+            np.interp(edges, points.locations, motion(position))
+            for motion in (points.twist, points.deflection)
+        )
+        twist, deflection = points.tip(position)
+        state = (
+            f"{time:.4g} c/V after the release, the tip at {math.degrees(twist):.2f} deg and "
+            f"{deflection:.3f} c"
+        )
+        return sample_tip_flow(
+            self.installation, self.folder, self.mesh, state=state, pose=Pose(edges, *at_edges)
+        )
+
+    def tip_motion(self, history: PlateHistory) -> TipMotion:
+        """Return the motion of the tip."""
+        return TipMotion(history.time, *self.points.tip(history.position))
+
+    def _result(self, failure: str) -> UnsteadyResult:
+        case = self.case
+        history = self.history().sampled(case.time_step, case.output_interval, case.duration)
+        end = math.inf if failure else decided_at(case, self.tip_motion(history))
+        history = history.sampled(case.time_step, case.output_interval, end)
+        tip = self.tip_motion(history)
+        torsion = self.points.torsion_modes
+        return UnsteadyResult(
+            time=history.time,
+            twist=tip.twist,
+            deflection=tip.deflection,
+            tip_twist=tip.twist,
+            tip_deflection=tip.deflection,
+            lift=history.lift,
+            moment=history.moment,
+            incidence=math.radians(case.incidence_deg) + tip.twist,
+            verdict=judge(case, tip, failure),
+            torsion_amplitudes=history.position[:, :torsion].T,
+            bending_amplitudes=history.position[:, torsion:].T,
+            torsion_loads=history.load[:, :torsion].T,
+            bending_loads=history.load[:, torsion:].T,
+        )
+
+
+class _Exchange:
+    """The structure's side of a run, from its start or resumption to its end."""
+
+    def __init__(
+        self, run: PlateRun, structure: Staggered, pipes: Pipes, start: float, tell: Tell
+    ) -> None:
+        self._run, self._structure, self._pipes, self._tell = run, structure, pipes, tell
+        self._due = Every(LOOKS_EVERY, last_look(start))
+        self._resumed = structure.proposed_position
+        self._last: Handed | None = None
+        self._answer = ""
+
+    def __call__(self, alive: Alive, end: Callable[[], None]) -> None:
+        """Serve the program until it has ended."""
+        with self._run.history_file.open("a", encoding="ascii") as stream:
+            while (message := self._pipes.receive(alive)) is not None:
+                handed = self._handed(message)
+                if not handed.is_again(self._last):
+                    self._last = handed
+                    self._answer = self._answer_to(handed, stream, end)
+                if not self._pipes.send(self._answer, alive):
+                    break
+
+    def _answer_to(self, handed: Handed, stream: IO[str], end: Callable[[], None]) -> str:
+        """Return the places of the points under loads that are new."""
+        points, structure = self._run.points, self._structure
+        coefficients = points.coefficients(handed.forces, handed.moments)
+        if not max(map(abs, coefficients)) < BEYOND_REASON:
+            raise BlowUpError(f"C_L {coefficients[0]:.3g}, C_M {coefficients[1]:.3g}")
+        is_new_step = structure.is_new_step(handed.time)
+        place = structure.turn(handed.time, points.modal_loads(handed.forces, handed.moments))
+        if is_new_step:
+            assert structure.state is not None
+            add_row(stream, structure.state, *coefficients)
+            if self._is_over(structure.state.time):
+                end()
+        self._require_room(place, handed.time)
+        return points.message(place)
+
+    def _handed(self, message: str) -> Handed:
+        try:
+            handed = Handed.read(message)
+        except (ValueError, StopIteration):
+            raise SolverError(
+                f"{self._run.folder}: what lumpedPointMovement handed over is not in its plain "
+                f"form: {message[:200]!r}"
+            ) from None
+        if self._resumed is not None:
+            handed = handed.about(self._run.points.deflection(self._resumed))
+            self._resumed = None
+        return handed
+
+    def _require_room(self, place: np.ndarray, time: float) -> None:
+        twist, deflection = self._run.points.tip(place)
+        room = 0.5 * self._run.mesh.section.channel.height - abs(float(deflection))
+        room -= 0.5 * abs(math.sin(self._run.mesh.section.incidence + float(twist)))
+        if room < _ROOM:
+            raise BlowUpError(
+                f"the plate has come to within {room:.2g} c of floor or ceiling at {time:.4g} c/V"
+            )
+
+    def _is_over(self, time: float) -> bool:
+        self._tell(time, self._run.case.duration)
+        if not self._due.is_due(time):
+            return False
+        case = self._run.case
+        history = self._run.history().sampled(case.time_step, case.output_interval, last_look(time))
+        return is_decided(case, self._run.tip_motion(history))

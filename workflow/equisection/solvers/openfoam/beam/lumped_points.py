@@ -1,0 +1,307 @@
+"""The plate as lumped points: where OpenFOAM hands over loads, and where it is told to move to.
+
+A point stands in the middle of each layer of cells along the plate, and one at either end. The
+loads of a layer's faces go to its point; the mesh's points on the plate are moved as the lumped
+points to either side, linearly between them, so the shapes of the modes are followed to second
+order in the size of a layer. The last layer of a free tip moves without a slope: beyond the tip the
+mesh has none, and what is between would be squeezed. A load does its work on the surface as it
+moves, so a mode's load takes the mean of the shape over each layer. Loads are those of the
+pressure: ``lumpedPointMovement`` leaves out friction, which has next to no lift and no moment
+about mid-chord.
+
+Angles are Euler angles (z, x, z) in radians, and a rotation about +z is nose *down*.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from equisection.cases import BeamModes
+from equisection.files import write_text
+from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
+from equisection.solvers.openfoam.mesh.beam_mesh import SIDE_WALLS
+from equisection.solvers.openfoam.ranks import parts
+from equisection.solvers.openfoam.section.section_motion import displacement
+from equisection.structure.span import integrate
+
+Floats = NDArray[np.float64]
+
+#: Iterations of the mesh's displacement in each motion.
+_ITERATIONS = 4
+#: A shape that is less than this at the tip, relative to its largest, is held there.
+_HELD = 1e-6
+
+
+@dataclass(frozen=True)
+class LumpedPoints:
+    """Modes of the plate at its lumped points, torsion modes before bending modes.
+
+    Attributes
+    ----------
+    span
+        L/c.
+    locations
+        z/c of the points, shape (P,).
+    torsion, bending
+        f_i and g_j that the points follow, shape (n_t, P) and (n_b, P).
+    torsion_at_loads, bending_at_loads
+        f_i and g_j on which the loads of the points do work, shape (n_t, P) and (n_b, P).
+    inertia
+        Generalised inertia of the modes, (I*/2) (L/c) int f_i^2 and (m*/2) (L/c) int g_j^2 (over
+        rho c^5 and rho c^3), shape (n_t + n_b,).
+    frequency
+        omega c/V, shape (n_t + n_b,).
+    torsion_at_tip, bending_at_tip
+        Shapes where the first of each kind is largest, shape (n_t,) and (n_b,).
+    """
+
+    span: float
+    locations: Floats
+    torsion: Floats
+    bending: Floats
+    torsion_at_loads: Floats
+    bending_at_loads: Floats
+    inertia: Floats
+    frequency: Floats
+    torsion_at_tip: Floats
+    bending_at_tip: Floats
+
+    @classmethod
+    def of(cls, modes: BeamModes, edges: Floats) -> LumpedPoints:
+        """Place the points of a plate whose layers of cells begin and end at ``edges`` (z/c)."""
+        span = float(edges[-1])
+        locations = _points(edges)
+        stations = np.array(modes.span)
+        torsion, bending = np.array(modes.torsion_shape), np.array(modes.bending_shape)
+        inertia = [
+            0.5 * modes.inertia * span * integrate(stations, torsion**2),
+            0.5 * modes.mass * span * integrate(stations, bending**2),
+        ]
+        twisting = _followed(CubicSpline(stations, torsion, axis=1)(locations / span), edges)
+        heaving = _followed(CubicSpline(stations, bending, axis=1)(locations / span), edges)
+        return cls(
+            span=span,
+            locations=locations,
+            torsion=twisting,
+            bending=heaving,
+            torsion_at_loads=_mean_of_layers(twisting, edges),
+            bending_at_loads=_mean_of_layers(heaving, edges),
+            inertia=np.concatenate(inertia),
+            frequency=np.array([*modes.torsion_frequency, *modes.bending_frequency]),
+            torsion_at_tip=torsion[:, np.abs(torsion[0]).argmax()],
+            bending_at_tip=bending[:, np.abs(bending[0]).argmax()],
+        )
+
+    @property
+    def torsion_modes(self) -> int:
+        """Number n_t of torsion modes."""
+        return int(self.torsion.shape[0])
+
+    def modal_loads(self, forces: Floats, moments: Floats) -> Floats:
+        """Return the loads of the modes over their inertia.
+
+        Parameters
+        ----------
+        forces, moments
+            On each point (rho V^2 c^2, c^3) about its place, shape (P, 3).
+        """
+        loads = np.concatenate(
+            [-self.torsion_at_loads @ moments[:, 2], self.bending_at_loads @ forces[:, 1]]
+        )
+        return np.asarray(loads / self.inertia)
+
+    def twist(self, position: Floats) -> Floats:
+        """Return theta (rad, nose up) of each point."""
+        return np.asarray(position[: self.torsion_modes] @ self.torsion)
+
+    def deflection(self, position: Floats) -> Floats:
+        """Return w/c of each point."""
+        return np.asarray(position[self.torsion_modes :] @ self.bending)
+
+    def tip(self, position: Floats) -> tuple[Floats, Floats]:
+        """Return theta (rad) and w/c of the tip, of positions of shape (..., n)."""
+        twist = position[..., : self.torsion_modes] @ self.torsion_at_tip
+        deflection = position[..., self.torsion_modes :] @ self.bending_at_tip
+        return np.asarray(twist), np.asarray(deflection)
+
+    def coefficients(self, forces: Floats, moments: Floats) -> tuple[float, float]:
+        """Return C_L, and C_M about the moving mid-chords (Eq. 22)."""
+        area = 0.5 * self.span
+        return float(forces[:, 1].sum()) / area, float(-moments[:, 2].sum()) / area
+
+    def message(self, position: Floats) -> str:
+        """Return places and angles of the points as ``lumpedPointMovement`` reads them."""
+        angles, heights = -self.twist(position), self.deflection(position)
+        rows = [
+            f"0 {height:.12g} {z:.12g} {angle:.12g} 0 0"
+            for height, z, angle in zip(heights, self.locations, angles, strict=True)
+        ]
+        return "\n".join([str(len(rows)), *rows, ""])
+
+
+def _points(edges: Floats) -> Floats:
+    """Return z/c of the points: the ends, and the middle of each layer between them."""
+    return np.concatenate([edges[:1], 0.5 * (edges[1:] + edges[:-1]), edges[-1:]])
+
+
+def _at_edges(shapes: Floats, edges: Floats) -> Floats:
+    """Return shapes given at the points at the edges of the layers, linearly between points."""
+    points = _points(edges)
+    return np.array([np.interp(edges, points, shape) for shape in shapes])
+
+
+def _followed(shapes: Floats, edges: Floats) -> Floats:
+    """Return shapes without a slope in the last layer, but for those of a tip that is held."""
+    flat = shapes.copy()
+    is_free = np.abs(shapes[:, -1]) > _HELD * np.abs(shapes).max(axis=1)
+    flat[is_free, -1] = _at_edges(shapes, edges)[is_free, -2]
+    return flat
+
+
+def _mean_of_layers(shapes: Floats, edges: Floats) -> Floats:
+    """Return the means of shapes over each layer; at the ends, their values there."""
+    ends = _at_edges(shapes, edges)
+    means = 0.5 * (ends[:, 1:] + ends[:, :-1])
+    return np.concatenate([ends[:, :1], means, ends[:, -1:]], axis=1)
+
+
+@dataclass(frozen=True)
+class Handed:
+    """What OpenFOAM hands over: forces and moments of the points at a time, shape (P, 3)."""
+
+    time: float
+    forces: Floats
+    moments: Floats
+
+    @classmethod
+    def read(cls, message: str) -> Handed:
+        """Read the plain form of ``lumpedPointMovement``.
+
+        Raises
+        ------
+        ValueError
+            It is not of this form.
+        """
+        lines = message.splitlines()
+        time = next(
+            float(word.removeprefix("value="))
+            for line in lines
+            if line.startswith("# Time")
+            for word in line.split()
+            if word.startswith("value=")
+        )
+        rows = [line.split() for line in lines if line and not line.startswith("#")]
+        values = np.array(rows, dtype=float).reshape(len(rows), 9)
+        return cls(time, values[:, 3:6], values[:, 6:9])
+
+    def is_again(self, last: Handed | None) -> bool:
+        """Tell whether this is what was handed over last, by the same forces at the same time.
+
+        The correction of the mesh's points at the plate asks twice for each motion of the mesh,
+        and must be told the same; what the flow comes to in a further iteration is never the same.
+        """
+        return last is not None and (
+            self.time == last.time and np.array_equal(self.forces, last.forces)
+        )
+
+    def about(self, deflection: Floats) -> Handed:
+        """Return the same with moments about points that stand higher by ``deflection`` (chords).
+
+        A run that starts anew takes its first moments about the points at rest.
+        """
+        moments = self.moments.copy()
+        moments[:, 2] += deflection * self.forces[:, 0]
+        return Handed(self.time, self.forces, moments)
+
+
+def write_lumped_motion(folder: Path, points: LumpedPoints, comms: Mapping[str, str]) -> None:
+    """Write what moves the mesh of a case, divided or not, with the plate at rest.
+
+    Parameters
+    ----------
+    comms
+        Names of the folder and the files of the exchange: ``commsDir``, ``inputName``,
+        ``outputName`` and ``logName``.
+    """
+    movement = {
+        "axis": (0, 0, 1),
+        "locations": tuple(map(float, points.locations)),
+        "centre": (0, 0, 0),
+        "division": 0.5,
+        "interpolationScheme": "linear",
+        "relax": 1.0,
+        "forces": {"p": "p", "pRef": 0.0, "rhoRef": 1.0},
+        "communication": {
+            **comms,
+            "log": False,
+            "waitInterval": 1,
+            "timeOut": 100,
+            "initByExternal": False,
+            "inputFormat": "plain",
+            "outputFormat": "plain",
+        },
+    }
+    mesh = {
+        "dynamicFvMesh": "dynamicMotionSolverFvMesh",
+        "motionSolverLibs": ['"libfvMotionSolvers.so"'],
+        "motionSolver": "displacementLaplacian",
+        # the cells' displacements alone leave the points beside the plate behind by more than the
+        # first cells are high, wherever the plate's displacement is curved along the span
+        "displacementLaplacianCoeffs": {
+            "diffusivity": f"quadratic inverseDistance ({PLATE})",
+            "interpolation": f"patchCorrected (({PLATE}) (inlet outlet floor ceiling))",
+        },
+    }
+    write_text(
+        folder / "system" / "lumpedPointMovement", dictionary("lumpedPointMovement", movement)
+    )
+    write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", mesh))
+    for part in parts(folder):
+        write_text(part / "0" / "pointDisplacement", _point_displacement())
+
+
+def _point_displacement() -> str:
+    walls = {"floor": "symmetryPlane", "ceiling": "symmetryPlane", **SIDE_WALLS}
+    return displacement(
+        {
+            **{name: {"type": kind} for name, kind in walls.items()},
+            PLATE: {"type": "lumpedPointDisplacement", "value": "uniform (0 0 0)"},
+            '"proc.*"': {"type": "processor", "value": "uniform (0 0 0)"},
+        }
+    )
+
+
+def motion_solvers() -> dict[str, Any]:
+    """Return the entries of ``fvSolution`` for the displacement of the mesh.
+
+    At the plate the diffusivity is as good as infinite, and so is what residuals are measured by:
+    by them the equation is solved after one iteration, while all but the first cells still lag
+    behind. So the number of iterations is given; and corrections from coarser levels are not
+    scaled, which for the same reason would take them for nothing.
+    """
+    solver = {
+        "solver": "GAMG",
+        "smoother": "GaussSeidel",
+        "tolerance": 0.0,
+        "relTol": 0.0,
+        "scaleCorrection": False,
+        "minIter": _ITERATIONS,
+        "maxIter": _ITERATIONS,
+    }
+    return {"cellDisplacement": solver, "cellDisplacementFinal": solver}
+
+
+def motion_schemes() -> dict[str, str]:
+    """Return the entry of ``laplacianSchemes`` for the displacement of the mesh.
+
+    Without the correction of faces that are not orthogonal: on the thin cells beside the plate it
+    feeds on the distortion that it makes, until the mesh fails within 8 c/V.
+    """
+    return {"laplacian(diffusivity,cellDisplacement)": "Gauss linear uncorrected"}

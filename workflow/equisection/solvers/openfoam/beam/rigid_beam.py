@@ -1,0 +1,249 @@
+"""The rigid plate in its channel: steady loads, or the mean of an unsteady run, and their span.
+
+The criteria are those of the section (``rigid_flow``), but for coefficients near zero, which waver
+more on the plate, and with means of shorter records: a step costs what eight of the section do.
+"""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.errors import SolverError
+from equisection.files import write_text
+from equisection.results.steady_result import SteadyResult
+from equisection.solvers.openfoam import flow_setup as flow
+from equisection.solvers.openfoam.case_folder import emptied, states
+from equisection.solvers.openfoam.dictionaries import (
+    LOADS,
+    Entries,
+    control,
+    write_system,
+)
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.mesh.beam_mesh import SIDE_WALLS, PlateMesh
+from equisection.solvers.openfoam.mesh.block_mesh import OF_PLATE, Spacing
+from equisection.solvers.openfoam.process import run_program
+from equisection.solvers.openfoam.ranks import copy_flow_of_all, divide, parts
+from equisection.solvers.openfoam.reading.beam_surface import plate_surface
+from equisection.solvers.openfoam.reading.loads import Loads
+from equisection.solvers.openfoam.reading.sampled_tip_flow import SAMPLED_FIELDS, sample_tip_flow
+from equisection.solvers.openfoam.reading.section_surface import averaging, write_wall_fields
+from equisection.solvers.openfoam.reading.span_loads import read_span_loads, surface_output
+from equisection.solvers.openfoam.rigid_flow import (
+    CONVERGED,
+    FEWEST,
+    MOST,
+    STEP,
+    WINDOW,
+    RigidFlowRecord,
+    Tell,
+    follow_iterations,
+    follow_unsteady,
+    method_of_mean,
+    write_at_rest,
+)
+from equisection.solvers.openfoam.section.rigid_section import SAMPLED, make_mesh, mesh_of
+from equisection.solvers.openfoam.time_spent import spent
+
+logger = logging.getLogger(__name__)
+
+#: Half range of a coefficient that counts as converged however small it is.
+CONVERGED_WITHIN = 1e-4
+#: Time left out, shortest and longest record of a rigid unsteady run (c/V).
+RECORD = RigidFlowRecord(10.0, 20.0, 60.0)
+
+
+def plate_mesh_of(
+    case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = OF_PLATE
+) -> PlateMesh:
+    """Return the mesh of a case of the plate.
+
+    Raises
+    ------
+    SolverError
+        The case has no channel, or the root does not stand on its wall.
+    """
+    section, geometry = mesh_of(case, refinement, spacing), case.geometry
+    if not geometry.root_on_wall:
+        raise SolverError(
+            "flow.root_on_wall: false: OpenFOAM's mesh of the plate has its root on the wall"
+        )
+    return PlateMesh(section, geometry.span, geometry.tip_gap or 0.0)
+
+
+@dataclass(frozen=True)
+class PlateFlow:
+    """The rigid plate of a case.
+
+    Attributes
+    ----------
+    installation
+        OpenFOAM.
+    case, mesh
+        The case and its mesh.
+    coupling
+        Of the flow in a time step, where it goes on unsteadily.
+    ranks
+        Ranks of MPI that a program runs on.
+    work
+        Where its folders are.
+    """
+
+    installation: Installation
+    case: SteadyCase | UnsteadyCase
+    mesh: PlateMesh
+    coupling: flow.Coupling
+    ranks: int
+    work: Path
+
+    def set_up(self) -> Path:
+        """Make the folder of the steady run with its mesh, not yet divided, and return it.
+
+        Raises
+        ------
+        SolverError
+            A program failed, or the mesh is not sound.
+        """
+        folder, case = emptied(self.work / "steady"), self.case
+        write_text(folder / "system" / "blockMeshDict", self.mesh.block_mesh_dict())
+        flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium), SIDE_WALLS)
+        entries = plate_control("simpleFoam", MOST, 1, MOST, self.mesh.span)
+        entries["functions"] |= surface_output({"executeControl": "onEnd", "writeControl": "onEnd"})
+        write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
+        make_mesh(self.installation, folder)
+        return folder
+
+    def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
+        """Make the mesh and run the steady solver until it has converged, or for long enough.
+
+        Returns
+        -------
+        tuple
+            Folder of the run, its loads over the iterations, and whether it has converged.
+
+        Raises
+        ------
+        SolverError
+            A program failed, or the mesh is not sound.
+        """
+        folder = self.set_up()
+        divide(self.installation, folder, self.ranks, self.mesh.layers)
+        loads, has_converged = follow_iterations(
+            folder,
+            _has_converged,
+            tell,
+            lambda watch: run_program(
+                self.installation, "simpleFoam", folder, watch, ranks=self.ranks
+            ),
+        )
+        return folder, loads, has_converged
+
+    def result(self, tell: Tell) -> SteadyResult:
+        """Return the loads of the rigid plate.
+
+        Raises
+        ------
+        SolverError
+            A program failed.
+        """
+        folder, steady, converged = self.steady(tell)
+        if converged:
+            record, mean = steady.last(WINDOW // 3), False
+            write_wall_fields(self.installation, folder, self.ranks)
+            method = f"steady, {steady.time.size} iterations"
+        else:
+            logger.info("%g deg: the steady solver does not converge", self.case.incidence_deg)
+            folder, record = self._unsteady(folder, tell)
+            mean = True
+            method = method_of_mean(record)
+        drag, lift, moment = record.means()
+        last = states(parts(folder)[0])[-1].name
+        span = read_span_loads(folder, last, self.mesh.edges(), mean=mean)
+        state = f"{self.case.incidence_deg:g} deg, {method}"
+        tip_flow = sample_tip_flow(self.installation, folder, self.mesh, state=state, mean=mean)
+        return SteadyResult(
+            drag,
+            lift,
+            moment,
+            span.span,
+            span.lift,
+            span.moment,
+            method,
+            surface=plate_surface(folder, self.mesh.section.incidence, mean=mean),
+            tip_flow=tip_flow,
+            spent=spent(self.work),
+        )
+
+    def _unsteady(self, source: Path, tell: Tell) -> tuple[Path, Loads]:
+        """Go on unsteadily from a steady run; return folder and record to be averaged."""
+        folder = emptied(self.work / "unsteady")
+        copy_flow_of_all(source, folder)
+        write_at_rest(folder)
+        end = RECORD.end
+        entries = plate_control("pimpleFoam", end, STEP, end, self.mesh.span)
+        entries["functions"] |= surface_output(
+            {"executeControl": "timeStep", "writeControl": "onEnd"}
+        )
+        entries["functions"]["force_means"] = _force_means()
+        entries["functions"] |= averaging(RECORD.discarded, SAMPLED, ("p", *SAMPLED_FIELDS))
+        write_system(
+            folder, entries, flow.schemes(steady=False), flow.unsteady_solution(self.coupling)
+        )
+        record = follow_unsteady(
+            folder,
+            RECORD,
+            tell,
+            lambda watch: run_program(
+                self.installation, "pimpleFoam", folder, watch, ranks=self.ranks
+            ),
+        )
+        return folder, record
+
+
+def _has_converged(loads: Loads) -> bool:
+    """Tell whether a steady run has converged, also where the plate has no lift."""
+    if loads.time.size < FEWEST:
+        return False
+    last = loads.last(WINDOW)
+    return all(
+        float(np.ptp(values)) / 2 <= max(CONVERGED * abs(float(values.mean())), CONVERGED_WITHIN)
+        for values in (last.drag, last.lift, last.moment)
+    )
+
+
+def _force_means() -> Entries:
+    """Return the function object that averages the force on each face over the record."""
+    averaged = {"mean": True, "prime2Mean": False, "base": "time"}
+    return {
+        "type": "fieldAverage",
+        "libs": ['"libfieldFunctionObjects.so"'],
+        "timeStart": RECORD.discarded,
+        "writeControl": "onEnd",
+        "fields": f"( {' '.join(f'{name} {_inline(averaged)}' for name in _AVERAGED)} )",
+    }
+
+
+_AVERAGED = ('"surface:force"', '"surface:moment"')
+
+
+def _inline(entries: Entries) -> str:
+    words = " ".join(
+        f"{key} {('on' if value else 'off') if isinstance(value, bool) else value};"
+        for key, value in entries.items()
+    )
+    return f"{{ {words} }}"
+
+
+def plate_control(
+    application: str, end: float, step: float, write_every: float, span: float
+) -> dict[str, Any]:
+    """Return ``controlDict`` as for the section, with coefficients over the area L c (Eq. 22)."""
+    entries = control(application, end, step, write_every)
+    entries["functions"][LOADS]["Aref"] = span
+    return entries

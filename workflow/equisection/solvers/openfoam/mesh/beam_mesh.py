@@ -1,0 +1,130 @@
+"""The plate and its channel: the section's mesh extruded over the span, and closed beyond the tip.
+
+Along z, the root stands on one side wall and the tip faces the other across the gap, where a
+block takes the plate's place::
+
+    z = 0                              L/c      L/c + gap
+    root wall  |  cells finer to the tip  |  gap  |  far wall
+
+All four walls of the channel are planes of symmetry: slip walls for the flow, and the only ones
+that keep their points in their plane where the mesh moves.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.solvers.openfoam.mesh.block_mesh import (
+    Layer,
+    Mesh,
+    Spacing,
+    block_mesh_text,
+    blocks_around_plate,
+    expansion,
+    face_x,
+    face_y,
+    face_z,
+    patch,
+)
+
+#: The channel's walls, with the patch type of each; in the plane there is ``sides`` instead.
+SIDE_WALLS = {"root_wall": "symmetryPlane", "far_wall": "symmetryPlane"}
+#: Cells along the plate and across the gap at refinement 1, and the size of those at the tip.
+_ALONG, _GAP, _AT_TIP = 44, 8, 1 / 16  # chords
+
+
+@dataclass(frozen=True)
+class PlateMesh:
+    """What ``blockMesh`` makes the mesh of a plate of.
+
+    Attributes
+    ----------
+    section
+        The mesh in the plane of the section.
+    span, gap
+        L/c, and the gap between tip and wall (chords); 0 for a plate from wall to wall.
+    """
+
+    section: Mesh
+    span: float
+    gap: float
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return plate_cells(self.section.spacing, self.section.refinement, gap=bool(self.gap))
+
+    @property
+    def layers(self) -> int:
+        """Number of layers of cells from wall to wall."""
+        along, beyond = _layers(self.section.refinement)
+        return along + (beyond if self.gap else 0)
+
+    def _ratio(self) -> float:
+        """Return the size of the last cell along the plate over that of the first."""
+        along, _ = _layers(self.section.refinement)
+        return 1 / expansion(self.span, along, _AT_TIP / self.section.refinement)
+
+    def edges(self) -> NDArray[np.float64]:
+        """Return where the cells along the plate begin and end, z/c, shape (n + 1,)."""
+        along, _ = _layers(self.section.refinement)
+        sizes = self._ratio() ** (np.arange(along) / (along - 1))
+        ends = np.concatenate([[0.0], np.cumsum(sizes)])
+        return np.asarray(self.span * ends / ends[-1], dtype=np.float64)
+
+    def block_mesh_dict(self) -> str:
+        """Return the text of ``blockMeshDict``.
+
+        Raises
+        ------
+        SolverError
+            The turned near field does not fit into the channel.
+        """
+        section, points = self.section, self.section.points()
+        along, beyond = _layers(section.refinement)
+        planes = [0.0, self.span]
+        around, everywhere = list(blocks_around_plate()), [(i, j) for i in _FIVE for j in _FIVE]
+        layers = [(around, Layer(0, along, f"{self._ratio():.8g}"))]
+        plate = [face_x(2, 2), face_x(3, 2), face_y(2, 2), face_y(2, 3)]
+        far = around
+        if self.gap:
+            planes.append(self.span + self.gap)
+            layers.append((everywhere, Layer(1, beyond)))
+            plate.append(face_z(2, 2, 1))
+            far = everywhere
+        numbers = range(len(layers))
+        vertices = [
+            f"    ({x:.12g} {y:.12g} {z:.12g})" for z in planes for x, y in points.reshape(-1, 2)
+        ]
+        blocks = [section.block(points, i, j, layer) for where, layer in layers for i, j in where]
+        patches = [
+            patch("inlet", "patch", [face_x(0, j, n) for n in numbers for j in _FIVE]),
+            patch("outlet", "patch", [face_x(5, j, n) for n in numbers for j in _FIVE]),
+            patch("floor", "symmetryPlane", [face_y(i, 0, n) for n in numbers for i in _FIVE]),
+            patch("ceiling", "symmetryPlane", [face_y(i, 5, n) for n in numbers for i in _FIVE]),
+            patch("plate", "wall", plate),
+            patch("root_wall", "symmetryPlane", [face_z(i, j, 0) for i, j in around]),
+            patch("far_wall", "symmetryPlane", [face_z(i, j, len(layers)) for i, j in far]),
+        ]
+        return block_mesh_text(vertices, blocks, patches)
+
+
+_FIVE = range(5)
+
+
+def plate_cells(spacing: Spacing, refinement: float, *, gap: bool = True) -> int:
+    """Return the number of cells, which the size of plate and channel has no part in.
+
+    The gap, if there is one, has cells where the plate is not.
+    """
+    along, beyond = _layers(refinement)
+    columns, rows = spacing.refined(refinement)
+    return spacing.cells(refinement) * along + sum(columns) * sum(rows) * beyond * gap
+
+
+def _layers(refinement: float) -> tuple[int, int]:
+    """Return the layers of cells along the plate and across the gap."""
+    return max(4, round(_ALONG * refinement)), max(2, round(_GAP * refinement))

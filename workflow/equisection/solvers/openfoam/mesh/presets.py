@@ -1,0 +1,49 @@
+"""The meshes that a configuration can name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
+from equisection.solvers.openfoam.mesh.beam_mesh import plate_cells
+from equisection.solvers.openfoam.mesh.block_mesh import OF_PLATE, SIMILAR, Spacing
+from equisection.solvers.openfoam.mesh.near_wall_spacing import PAPER
+
+
+@dataclass(frozen=True)
+class Preset:
+    """A mesh by name: what is refined, and how much in each direction."""
+
+    refinement: float
+    spacing: Spacing = SIMILAR
+    plate: float = 1.0  # refinement of the plate's mesh, whose spacing is that of a grid study
+
+    @property
+    def cells(self) -> int:
+        """Number of cells."""
+        return self.spacing.cells(self.refinement)
+
+    @property
+    def plate_cells(self) -> int:
+        """Number of cells of the plate's mesh, with a gap between tip and wall."""
+        return plate_cells(OF_PLATE, self.plate)
+
+    @property
+    def is_similar(self) -> bool:
+        """Whether it differs from the others alike by its refinement alone."""
+        return self.spacing is SIMILAR
+
+
+#: About 1e4, 2e4 and 6e4 cells, and the paper's cell sizes; of the plate 8e4, 3e5, 1e6 and 5e6.
+_OWN: Mapping[str, Preset] = {
+    "coarse": Preset(1.0, plate=0.52),
+    "medium": Preset(math.sqrt(2.0), plate=0.81),
+    "fine": Preset(math.sqrt(5.0), plate=1.19),
+    "paper": Preset(1.0, PAPER, plate=2.05),
+}
+_OF_PLATE = {
+    ON_CELLS_OF_PLATE + name: Preset(own.plate, OF_PLATE, own.plate) for name, own in _OWN.items()
+}
+PRESETS: Mapping[str, Preset] = {**_OWN, **_OF_PLATE}

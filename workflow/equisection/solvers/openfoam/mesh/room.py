@@ -1,0 +1,37 @@
+"""Whether the meshes of a configuration fit into its channel, looked at before any job starts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from equisection.config import Config
+from equisection.errors import SolverError
+from equisection.keys.checks import Problem
+from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh
+
+
+def problems(config: Config) -> Iterator[Problem]:
+    """Yield the first mesh that does not fit, by the incidences from the largest down.
+
+    An overset mesh needs less room than that of the rigid section, which every run has.
+    """
+    given = config.flow.channel
+    assert given is not None  # the configuration's own check
+    beam = config.beam
+    channel = ChannelBox(
+        beam.thickness / beam.chord,
+        given.height_chords,
+        given.upstream_chords,
+        given.downstream_chords,
+    )
+    angles = {*config.steady.incidence_deg, config.flow.incidence_deg}
+    try:
+        for angle in sorted(angles, key=abs, reverse=True):
+            Mesh(channel, math.radians(angle), 1.0).points()
+    except SolverError as error:
+        yield Problem(
+            "flow.channel",
+            given.model_dump(),
+            f"allowed is a channel with room for the mesh at all of steady.incidence_deg; {error}",
+        )

@@ -1,0 +1,1 @@
+"""Readers of OpenFOAM's output."""

@@ -1,0 +1,128 @@
+"""Loads on the section over time or iterations, and when they are known."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.solvers.openfoam.dictionaries import LOADS
+from equisection.solvers.openfoam.process import BlowUpError
+from equisection.solvers.openfoam.reading.histories import read_history
+
+Floats = NDArray[np.float64]
+
+#: Coefficients beyond this are those of a flow that has blown up.
+BEYOND_REASON = 1e3
+#: A coefficient counts as this large at least where a relative change of it is judged.
+_FLOOR = 0.02
+#: Samples of an impulsive start.
+_IMPULSIVE = 20
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Coefficients over time (c/V) or iterations, about mid-chord at rest, shape (n,)."""
+
+    time: Floats
+    drag: Floats
+    lift: Floats
+    moment: Floats
+
+    def until(self, end: float) -> Loads:
+        """Return the part up to a time."""
+        return self.first(int(np.searchsorted(self.time, end * (1 + 1e-9), side="right")))
+
+    def since(self, start: float) -> Loads:
+        """Return the part after a time."""
+        late = self.time > start
+        return Loads(self.time[late], self.drag[late], self.lift[late], self.moment[late])
+
+    def first(self, samples: int) -> Loads:
+        """Return the first samples."""
+        part = slice(samples)
+        return Loads(self.time[part], self.drag[part], self.lift[part], self.moment[part])
+
+    def last(self, samples: int) -> Loads:
+        """Return the last samples."""
+        part = slice(-samples, None)
+        return Loads(self.time[part], self.drag[part], self.lift[part], self.moment[part])
+
+    def means(self) -> tuple[float, float, float]:
+        """Return the means of drag, lift and moment."""
+        return float(self.drag.mean()), float(self.lift.mean()), float(self.moment.mean())
+
+    def spread(self) -> float:
+        """Return the largest half range of a coefficient relative to its mean."""
+        return max(
+            float(np.ptp(values)) / 2 / max(abs(float(values.mean())), _FLOOR)
+            for values in (self.drag, self.lift, self.moment)
+        )
+
+    def drift(self) -> float:
+        """Return the largest difference of the means of both halves relative to the mean."""
+        half = self.time.size // 2
+        return max(
+            abs(float(values[half:].mean() - values[:half].mean()))
+            / max(abs(float(values.mean())), _FLOOR)
+            for values in (self.drag, self.lift, self.moment)
+        )
+
+
+def has_loads(folder: Path) -> bool:
+    """Tell whether a case has written loads; their file is opened behind the first step."""
+    return any((folder / "postProcessing" / LOADS).glob("*/coefficient*.dat"))
+
+
+def read_loads(folder: Path) -> Loads:
+    """Return the loads of a case so far.
+
+    Raises
+    ------
+    SolverError
+        There are none, or their file has an unknown layout.
+    """
+    place = folder / "postProcessing" / LOADS
+    columns = read_history(place, "coefficient.dat", ["Cd", "Cl", "CmPitch"])
+    return Loads(columns["Time"], columns["Cd"], columns["Cl"], columns["CmPitch"])
+
+
+def first_known(
+    loads: Loads, is_known: Callable[[Loads], bool], shortest: float, interval: float
+) -> Loads | None:
+    """Return the first part that is known, of those that end at a multiple of an interval.
+
+    A run is followed from outside and ends a little later; what is taken of it ends here, so that
+    it does not depend on when the end was noticed. None if no part is known.
+    """
+    ends = np.arange(shortest, loads.time[-1] * (1 + 1e-9), interval) if loads.time.size else ()
+    return next(filter(is_known, (loads.until(float(end)) for end in ends)), None)
+
+
+def reasonable(loads: Loads) -> int:
+    """Return how many samples there are before the loads are not finite or beyond reason.
+
+    The first steps after an impulsive start have a peak of pressure and are let pass.
+    """
+    values = np.stack([loads.drag, loads.lift, loads.moment])
+    bound = np.where(np.arange(loads.time.size) < _IMPULSIVE, np.inf, BEYOND_REASON)
+    wrong = np.flatnonzero(~(np.abs(values) < bound).all(axis=0))
+    return int(wrong[0]) if wrong.size else loads.time.size
+
+
+def require_reasonable(loads: Loads, folder: Path) -> None:
+    """Refuse loads of a flow that has blown up.
+
+    Raises
+    ------
+    BlowUpError
+        They are not finite or beyond reason.
+    """
+    samples = reasonable(loads)
+    if samples < loads.time.size:
+        raise BlowUpError(
+            f"the loads are beyond reason from time {loads.time[samples]:g} on; see {folder}"
+        )

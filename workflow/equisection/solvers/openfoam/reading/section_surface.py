@@ -1,0 +1,144 @@
+"""Pressure, friction and wall distance on the plate, from the fields of a rigid run."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from foamlib import FoamFieldFile
+from numpy.typing import NDArray
+
+from equisection.results.surface import TANGENTS, SectionSurface
+from equisection.solvers.openfoam.case_folder import states
+from equisection.solvers.openfoam.dictionaries import PLATE
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.mesh.block_mesh import Mesh
+from equisection.solvers.openfoam.mesh.poly_mesh import PolyMesh, read_poly_mesh
+from equisection.solvers.openfoam.process import run_program
+
+Floats = NDArray[np.float64]
+
+_AT_WALL = ("wallShearStress", "yPlus")
+
+
+def surface_of_steady(installation: Installation, folder: Path, mesh: Mesh) -> SectionSurface:
+    """Return the surface data of the last state of a steady run.
+
+    Raises
+    ------
+    SolverError
+        The program that makes them failed.
+    """
+    write_wall_fields(installation, folder)
+    return _read(folder, mesh, "")
+
+
+def write_wall_fields(installation: Installation, folder: Path, ranks: int = 1) -> None:
+    """Have shear stress and y+ at the wall written into the last state of a steady run.
+
+    Raises
+    ------
+    SolverError
+        The program failed.
+    """
+    functions = ("-postProcess", "-latestTime", "-funcs", "(wallShearStress yPlus)")
+    run_program(installation, "simpleFoam", folder, arguments=functions, ranks=ranks)
+
+
+def averaging(start: float, every: int, fields: Sequence[str] = ("p",)) -> dict[str, Any]:
+    """Return the function objects that average the flow at the wall, and fields beside.
+
+    Parameters
+    ----------
+    start
+        Time of the first sample (c/V).
+    every
+        Time steps from one sample to the next.
+    fields
+        Fields of the flow that are averaged too.
+    """
+    common = {
+        "libs": ['"libfieldFunctionObjects.so"'],
+        "timeStart": start,
+        "executeControl": "timeStep",
+        "executeInterval": every,
+        "log": False,
+    }
+    averaged = " ".join(
+        f"{name} {{ mean on; prime2Mean off; base time; }}" for name in (*fields, *_AT_WALL)
+    )
+    at_wall = {name: {"type": name, **common, "writeControl": "none"} for name in _AT_WALL}
+    mean = {
+        "type": "fieldAverage",
+        **common,
+        "writeControl": "writeTime",
+        "fields": f"({averaged})",
+    }
+    return {**at_wall, "means": mean}
+
+
+def surface_of_mean(folder: Path, mesh: Mesh) -> SectionSurface:
+    """Return the surface data of the means of an unsteady run."""
+    return _read(folder, mesh, "Mean")
+
+
+def _read(folder: Path, mesh: Mesh, suffix: str) -> SectionSurface:
+    """Return the surface data from the fields of the last state.
+
+    ``wallShearStress`` is what the wall does to the flow; its negative acts on the wall. The
+    pressure at the wall is that of the cell, as in the loads (zero gradient).
+    """
+    poly, state = read_poly_mesh(folder), states(folder)[-1]
+    faces = poly.patches[PLATE]
+    pressure = np.asarray(FoamFieldFile(state / f"p{suffix}").internal_field)[poly.owner[faces]]
+    friction = -on_plate(state / f"wallShearStress{suffix}")[:, :2]
+    x, y, length, side = _contour(poly, faces, mesh.incidence)
+    tangent = _to_flow(np.array([TANGENTS[name] for name in side]), mesh.incidence)
+    order = np.lexsort((y, x, side))
+    return SectionSurface(
+        x=x[order],
+        y=y[order],
+        length=length[order],
+        side=side[order],
+        pressure=2.0 * pressure[order],
+        friction=2.0 * (friction * tangent).sum(axis=1)[order],
+        y_plus=on_plate(state / f"yPlus{suffix}")[order],
+    )
+
+
+def on_plate(path: Path) -> Floats:
+    """Return the values of a field on the plate's faces, shape (n,) or (n, 3)."""
+    patch: Any = FoamFieldFile(path).boundary_field[PLATE]
+    return np.asarray(patch.value, dtype=float)
+
+
+def _contour(
+    poly: PolyMesh, faces: slice, incidence: float
+) -> tuple[Floats, Floats, Floats, NDArray[np.str_]]:
+    """Return x, y and length of faces in the frame of the section, and the side of each."""
+    in_flow = poly.points[poly.faces[faces], :2]
+    # of the four corners of a face two and two stand behind each other
+    low, high = in_flow.min(axis=1), in_flow.max(axis=1)
+    length = np.hypot(*(high - low).T)
+    middle = to_section(in_flow.mean(axis=1), incidence)
+    lengthwise = np.ptp(to_section(in_flow, incidence), axis=1)
+    is_edge = lengthwise[:, 0] < lengthwise[:, 1]
+    side = np.where(
+        is_edge,
+        np.where(middle[:, 0] < 0, "leading edge", "trailing edge"),
+        np.where(middle[:, 1] < 0, "lower", "upper"),
+    )
+    return middle[:, 0] + 0.5, middle[:, 1], length, side
+
+
+def to_section(vectors: Floats, incidence: float) -> Floats:
+    """Turn vectors of the flow's frame, shape (..., 2), into that of the section."""
+    cosine, sine = math.cos(incidence), math.sin(incidence)
+    return np.asarray(vectors @ np.array([[cosine, sine], [-sine, cosine]]))
+
+
+def _to_flow(vectors: Floats, incidence: float) -> Floats:
+    return to_section(vectors, -incidence)

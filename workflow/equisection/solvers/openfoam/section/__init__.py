@@ -1,0 +1,1 @@
+"""The section on OpenFOAM, rigid and free."""

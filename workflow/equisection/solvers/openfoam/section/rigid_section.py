@@ -1,0 +1,241 @@
+"""The rigid section: steady loads, or the mean of an unsteady run where there are none.
+
+What converged and known mean stands in ``rigid_flow``.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.errors import SolverError
+from equisection.results.surface import SectionSurface
+from equisection.solvers.openfoam import flow_setup as flow
+from equisection.solvers.openfoam.case_folder import copy_flow, emptied
+from equisection.solvers.openfoam.dictionaries import (
+    control,
+    write_mesh_dictionary,
+    write_system,
+)
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.mesh.block_mesh import SIMILAR, ChannelBox, Mesh, Spacing
+from equisection.solvers.openfoam.process import BlowUpError, run_program
+from equisection.solvers.openfoam.reading.loads import Loads
+from equisection.solvers.openfoam.reading.section_surface import (
+    averaging,
+    surface_of_mean,
+    surface_of_steady,
+)
+from equisection.solvers.openfoam.rigid_flow import (
+    MOST,
+    STEP,
+    WINDOW,
+    RigidFlowRecord,
+    Tell,
+    follow_iterations,
+    follow_unsteady,
+    has_converged,
+    method_of_mean,
+    write_at_rest,
+)
+
+logger = logging.getLogger(__name__)
+
+#: Time left out, shortest and longest record of a rigid unsteady run (c/V).
+RECORD = RigidFlowRecord(10.0, 40.0, 100.0)
+#: Steps of a rigid unsteady run from one sample of the surface data to the next.
+SAMPLED = 5
+
+
+@dataclass(frozen=True)
+class RigidLoads:
+    """Loads of the rigid section, how they were obtained, and what they are the sum of."""
+
+    drag: float
+    lift: float
+    moment: float
+    method: str
+    cells: int
+    surface: SectionSurface
+
+
+def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = SIMILAR) -> Mesh:
+    """Return the mesh of a case.
+
+    Raises
+    ------
+    SolverError
+        The case has no channel, which the mesh fills.
+    """
+    geometry = case.geometry
+    if None in (geometry.channel_height, geometry.upstream, geometry.downstream):
+        raise SolverError("flow.channel: null: the mesh of OpenFOAM fills a channel; give one")
+    assert geometry.channel_height is not None
+    assert geometry.upstream is not None
+    assert geometry.downstream is not None
+    channel = ChannelBox(
+        geometry.thickness, geometry.channel_height, geometry.upstream, geometry.downstream
+    )
+    return Mesh(channel, math.radians(case.incidence_deg), refinement, spacing)
+
+
+def run_steady(
+    installation: Installation,
+    case: SteadyCase | UnsteadyCase,
+    mesh: Mesh,
+    work: Path,
+    tell: Tell,
+) -> tuple[Path, Loads, bool]:
+    """Make the mesh and run the steady solver until it has converged, or for long enough.
+
+    Returns
+    -------
+    tuple
+        Folder of the run, its loads over the iterations, and whether it has converged.
+
+    Raises
+    ------
+    SolverError
+        A program failed, or the mesh is not sound.
+    """
+    folder = emptied(work / "steady")
+    write_mesh_dictionary(folder, mesh)
+    flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium))
+    write_system(
+        folder,
+        control("simpleFoam", MOST, 1, MOST),
+        flow.schemes(steady=True),
+        flow.steady_solution(),
+    )
+    make_mesh(installation, folder)
+    return iterate(installation, "simpleFoam", folder, tell)
+
+
+def iterate(
+    installation: Installation, program: str, folder: Path, tell: Tell
+) -> tuple[Path, Loads, bool]:
+    """Run a steady solver until it has converged, or for long enough; see :func:`run_steady`."""
+    loads, converged = follow_iterations(
+        folder, has_converged, tell, lambda watch: run_program(installation, program, folder, watch)
+    )
+    return folder, loads, converged
+
+
+def make_mesh(installation: Installation, folder: Path) -> None:
+    """Make the mesh of a folder with its dictionaries, and have it checked.
+
+    Raises
+    ------
+    SolverError
+        A program failed, or the mesh is not sound.
+    """
+    run_program(installation, "blockMesh", folder)
+    run_program(installation, "checkMesh", folder)
+    require_sound_mesh(folder / "log.checkMesh")
+
+
+def require_sound_mesh(log: Path) -> None:
+    """Refuse a mesh that ``checkMesh`` finds fault with.
+
+    Raises
+    ------
+    BlowUpError
+        It found faults: this section at this incidence has no mesh.
+    SolverError
+        It said nothing of the kind.
+    """
+    said = log.read_text(encoding="utf-8", errors="replace")
+    if "Mesh OK." in said:
+        return
+    faults = [line.strip(" *") for line in said.splitlines() if "***" in line]
+    if not faults:
+        raise SolverError(f"checkMesh has no verdict on the mesh; see {log}")
+    raise BlowUpError(f"the mesh is not sound: {'; '.join(faults)}; see {log}")
+
+
+def rigid_loads(
+    installation: Installation,
+    case: SteadyCase,
+    mesh: Mesh,
+    work: Path,
+    tell: Tell,
+    *,
+    coupling: flow.Coupling,
+) -> RigidLoads:
+    """Return the loads of a rigid section.
+
+    Parameters
+    ----------
+    installation
+        OpenFOAM.
+    case
+        The case.
+    mesh
+        Its mesh.
+    work
+        Where its folders are.
+    tell
+        Told what is done.
+    coupling
+        Of the flow in a time step, where it goes on unsteadily.
+
+    Raises
+    ------
+    SolverError
+        A program failed.
+    """
+    folder, steady, converged = run_steady(installation, case, mesh, work, tell)
+    if converged:
+        return steady_mean(installation, folder, steady, mesh)
+    logger.info("%g deg: the steady solver does not converge", case.incidence_deg)
+    return unsteady_mean(installation, folder, mesh, work, tell, coupling=coupling)
+
+
+def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Mesh) -> RigidLoads:
+    """Return the loads of a converged steady run, the means of its last iterations.
+
+    Raises
+    ------
+    SolverError
+        A program failed.
+    """
+    drag, lift, moment = loads.last(WINDOW // 3).means()
+    surface = surface_of_steady(installation, folder, mesh)
+    method = f"steady, {loads.time.size} iterations"
+    return RigidLoads(drag, lift, moment, method, mesh.cells, surface)
+
+
+def unsteady_mean(
+    installation: Installation,
+    source: Path,
+    mesh: Mesh,
+    work: Path,
+    tell: Tell,
+    *,
+    coupling: flow.Coupling,
+) -> RigidLoads:
+    """Return the mean loads of the flow that goes on unsteadily from a steady run.
+
+    With too few outer correctors pressure and velocity are not one, and vortices are shed that
+    the flow does not have.
+
+    Raises
+    ------
+    SolverError
+        A program failed.
+    """
+    folder = emptied(work / "unsteady")
+    copy_flow(source, folder)
+    write_at_rest(folder)
+    entries = control("pimpleFoam", RECORD.end, STEP, RECORD.end)
+    entries["functions"] |= averaging(RECORD.discarded, SAMPLED)
+    write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution(coupling))
+    record = follow_unsteady(
+        folder, RECORD, tell, lambda watch: run_program(installation, "pimpleFoam", folder, watch)
+    )
+    drag, lift, moment = record.means()
+    surface = surface_of_mean(folder, mesh)
+    return RigidLoads(drag, lift, moment, method_of_mean(record), mesh.cells, surface)

@@ -1,0 +1,114 @@
+"""Motion and loads of the free section over time, from what its run has written so far."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.errors import SolverError
+from equisection.solvers.openfoam.reading.loads import Loads, read_loads, reasonable
+from equisection.solvers.openfoam.section.section_motion import BodyMotion, read_motion
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SectionHistory:
+    """Motion and loads of the section over convective time, shape (n,).
+
+    Attributes
+    ----------
+    time
+        s (c/V).
+    twist, deflection
+        Nose up (rad); up (chords).
+    lift, moment
+        c_l, and c_m about the moving mid-chord.
+    """
+
+    time: Floats
+    twist: Floats
+    deflection: Floats
+    lift: Floats
+    moment: Floats
+
+    def sampled(self, step: float, interval: float, end: float = math.inf) -> SectionHistory:
+        """Return the samples up to an end at multiples of an interval, which is one of the step."""
+        every = round(interval / step)
+        kept = np.rint(self.time / step).astype(int) % every == 0
+        kept &= self.time < end + 0.5 * step
+        return SectionHistory(
+            self.time[kept],
+            self.twist[kept],
+            self.deflection[kept],
+            self.lift[kept],
+            self.moment[kept],
+        )
+
+
+def read_section(
+    folder: Path,
+    loads: Loads | None = None,
+    motion_of: Callable[[Path], BodyMotion] = read_motion,
+) -> SectionHistory:
+    """Return the history of a free run so far.
+
+    Parameters
+    ----------
+    folder
+        Folder of the run.
+    loads
+        Its loads, if they are read already.
+    motion_of
+        Reads its motion from where it stands.
+
+    Raises
+    ------
+    SolverError
+        A file is missing or of an unknown layout, or steps are missing in it.
+    """
+    loads = read_loads(folder) if loads is None else loads
+    loads = loads.first(reasonable(loads))
+    motion = motion_of(folder)
+    # either file may have a row that the other does not have yet
+    _, one, other = np.intersect1d(
+        _steps(loads.time), _steps(motion.time), return_indices=True, assume_unique=True
+    )
+    _require_every_step(loads.time[one], folder)
+    deflection = motion.deflection[other]
+    return SectionHistory(
+        time=loads.time[one],
+        twist=motion.twist[other],
+        deflection=deflection,
+        lift=loads.lift[one],
+        moment=_about_moving_centre(loads, one, deflection),
+    )
+
+
+def _steps(time: Floats) -> NDArray[np.int64]:
+    """Return times as whole numbers, by which two files agree."""
+    return np.rint(time * 1e7).astype(np.int64)
+
+
+def _require_every_step(time: Floats, folder: Path) -> None:
+    """Refuse a history that a full disk, or a hand, has left with a gap."""
+    steps = np.diff(_steps(time))
+    if steps.size and steps.max() > 1.5 * np.median(steps):
+        gap = int(steps.argmax())
+        raise SolverError(
+            f"{folder / 'postProcessing'}: steps are missing between {time[gap]:g} and "
+            f"{time[gap + 1]:g} c/V; delete {folder} and run again"
+        )
+
+
+def _about_moving_centre(loads: Loads, rows: NDArray[np.intp], deflection: Floats) -> Floats:
+    """Return c_m about mid-chord at w/c from that about the centre at rest.
+
+    c_m(w) = c_m(0) - (w/c) c_d: drag above the centre at rest turns the nose up about that.
+    """
+    return loads.moment[rows] - deflection * loads.drag[rows]

@@ -1,0 +1,163 @@
+"""The free section as a rigid body with springs, and the mesh that follows it.
+
+Without dimensions (chord, speed and density 1) the section of Eq. 18 has, per unit span, the
+inertia I*/2, the mass m*/2 and the stiffnesses k*/2 and k_w*/2.
+
+Newmark's rule (gamma 1/2, beta 1/4) is applied anew in each outer iteration of a time step, with
+the loads and the springs at what is known of the new position.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.cases import SectionProperties
+from equisection.files import write_text
+from equisection.solvers.openfoam.dictionaries import PLATE, Entries, dictionary
+from equisection.solvers.openfoam.reading.histories import read_history
+
+#: Name of the function object of the motion.
+MOTION = "motion"
+#: Within the first distance from the plate the mesh moves with it, beyond the second it stands;
+#: the second as a part of the half channel at the most.
+_RIGID_WITHIN, _STILL_BEYOND, _STILL_PART = 0.3, 1.5, 0.75
+
+
+@dataclass(frozen=True)
+class BodyMotion:
+    """Time (c/V), twist (rad), nose up, and deflection (chords), upwards, shape (n,)."""
+
+    time: NDArray[np.float64]
+    twist: NDArray[np.float64]
+    deflection: NDArray[np.float64]
+
+
+def write_motion(folder: Path, section: SectionProperties, channel_height: float) -> None:
+    """Write ``constant/dynamicMeshDict``: the section, and the mesh that morphs around it."""
+    entries = morphing(section, channel_height)
+    write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", entries))
+    write_displacement(folder)
+
+
+def morphing(section: SectionProperties, channel_height: float) -> dict[str, Any]:
+    """Return the section, and the mesh that morphs around it up to near the channel's walls."""
+    still = min(_STILL_BEYOND, _STILL_PART * channel_height / 2)
+    return {
+        "dynamicFvMesh": "dynamicMotionSolverFvMesh",
+        "motionSolverLibs": ['"libsixDoFRigidBodyMotion.so"'],
+        "motionSolver": "sixDoFRigidBodyMotion",
+        "sixDoFRigidBodyMotionCoeffs": rigid_body(section, min(_RIGID_WITHIN, 0.4 * still), still),
+    }
+
+
+def rigid_body(section: SectionProperties, rigid_within: float, still: float) -> dict[str, Any]:
+    """Return the section, released from rest with slack springs.
+
+    Up to the first distance (chords) the mesh moves with it, beyond the second it stands.
+    """
+    return {
+        "patches": [PLATE],
+        "innerDistance": rigid_within,
+        "outerDistance": still,
+        "mass": section.mass / 2,
+        "centreOfMass": (0, 0, 0),
+        "momentOfInertia": (1.0, 1.0, section.inertia / 2),
+        "velocity": (0, 0, 0),
+        "acceleration": (0, 0, 0),
+        "angularMomentum": (0, 0, 0),
+        "torque": (0, 0, 0),
+        "rho": "rhoInf",
+        "rhoInf": 1.0,
+        "g": (0, 0, 0),
+        "accelerationRelaxation": 1.0,
+        "report": False,
+        "solver": {"type": "Newmark", "gamma": 0.5, "beta": 0.25},
+        "constraints": {
+            "heave": {
+                "sixDoFRigidBodyMotionConstraint": "line",
+                "centreOfRotation": (0, 0, 0),
+                "direction": (0, 1, 0),
+            },
+            "pitch": {"sixDoFRigidBodyMotionConstraint": "axis", "axis": (0, 0, 1)},
+        },
+        "restraints": {
+            "bending": {
+                "sixDoFRigidBodyMotionRestraint": "linearSpring",
+                "anchor": (0, 0, 0),
+                "refAttachmentPt": (0, 0, 0),
+                "stiffness": section.flexural_stiffness / 2,
+                "damping": 0.0,
+                "restLength": 0.0,
+            },
+            "torsion": {
+                "sixDoFRigidBodyMotionRestraint": "linearAxialAngularSpring",
+                "axis": (0, 0, 1),
+                "stiffness": section.torsional_stiffness / 2,
+                "damping": 0.0,
+                "referenceOrientation": (1, 0, 0, 0, 1, 0, 0, 0, 1),
+            },
+        },
+    }
+
+
+def write_displacement(folder: Path, further: Mapping[str, Entries] | None = None) -> None:
+    """Write the field ``pointDisplacement`` at time 0, with patches beyond those of the channel."""
+    mirror = {"type": "symmetryPlane"}
+    patches = {
+        "floor": mirror,
+        "ceiling": mirror,
+        PLATE: {"type": "calculated"},
+        "sides": {"type": "empty"},
+        **(further or {}),
+    }
+    write_text(folder / "0" / "pointDisplacement", displacement(patches))
+
+
+def displacement(patches: Mapping[str, Entries]) -> str:
+    """Return the field ``pointDisplacement`` of a mesh at rest; inlet and outlet stay there."""
+    at_rest = {"type": "fixedValue", "value": "uniform (0 0 0)"}
+    entries = {
+        "dimensions": "[0 1 0 0 0 0 0]",
+        "internalField": "uniform (0 0 0)",
+        "boundaryField": {"inlet": at_rest, "outlet": at_rest, **patches},
+    }
+    return dictionary("pointDisplacement", entries, "pointVectorField")
+
+
+def motion_output() -> dict[str, Any]:
+    """Return the function object that writes position and rotation of the section."""
+    return {
+        MOTION: {
+            "type": "sixDoFRigidBodyState",
+            "libs": ['"libsixDoFRigidBodyState.so"'],
+            "angleFormat": "radians",
+            "writeControl": "timeStep",
+            "writeInterval": 1,
+        }
+    }
+
+
+def read_motion(folder: Path) -> BodyMotion:
+    """Return the motion of a run so far, from what its function object wrote.
+
+    Raises
+    ------
+    SolverError
+        There is none, or its file has an unknown layout.
+    """
+    motion = read_history(
+        folder / "postProcessing" / MOTION,
+        "sixDoFRigidBodyState.dat",
+        ["centreOfRotation", "rotation"],
+    )
+    return BodyMotion(
+        motion["Time"],
+        -motion["rotation"].reshape(-1, 3)[:, 2],
+        motion["centreOfRotation"].reshape(-1, 3)[:, 1],
+    )

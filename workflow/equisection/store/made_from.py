@@ -1,0 +1,79 @@
+"""What each job made from what: SHA-256 of its inputs and outputs, in ``provenance/`` of the run.
+
+Snakemake knows it too, for itself and on the machine where it ran. These records go with the
+folder of the run, and ``equisection verify`` judges by them. They are no outputs of rules: nothing
+runs because of them.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from equisection.errors import ResultFileError
+from equisection.files import write_text
+from equisection.provenance import file_hash, made_by_this
+from equisection.results.spent import cpu_seconds_so_far
+from equisection.store.index import is_index, result_files
+
+FOLDER = "provenance"
+
+
+@dataclass(frozen=True)
+class ProvenanceRecord:
+    """What one job made.
+
+    Attributes
+    ----------
+    made_by
+        Version, commit, configuration and command.
+    inputs, outputs
+        SHA-256 by file: those of the run as seen from its folder, others from where the workflow
+        was started. With an index go the results that it names.
+    cpu_seconds
+        What the job took of all its processors (s).
+    """
+
+    made_by: dict[str, str]
+    inputs: dict[str, str]
+    outputs: dict[str, str]
+    cpu_seconds: float
+
+
+def write_record(log: Path, inputs: Iterable[Path], outputs: Iterable[Path]) -> None:
+    """Write what a job has made, and from what, in the run whose ``logs`` hold its log."""
+    run, given, made = log.parent.parent, set(inputs), set(outputs)
+    for index in [path for path in made if is_index(path.relative_to(run))]:
+        made.update(set(result_files([index])) - given)
+    record = ProvenanceRecord(
+        made_by_this(), _hashes(given, run), _hashes(made, run), cpu_seconds_so_far()
+    )
+    write_text(run / FOLDER / f"{log.stem}.json", json.dumps(asdict(record), indent=1) + "\n")
+
+
+def read_record(path: Path) -> ProvenanceRecord:
+    """Read what a job has made.
+
+    Raises
+    ------
+    ResultFileError
+        The file is no record.
+    """
+    try:
+        raw = json.loads(path.read_text(encoding="utf-8"))
+        made_by, inputs, outputs = (dict(raw[name]) for name in ("made_by", "inputs", "outputs"))
+        return ProvenanceRecord(made_by, inputs, outputs, float(raw["cpu_seconds"]))
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ResultFileError(
+            f"{path}: cannot be read as a record of what a job has made ({error!r}); delete it"
+        ) from None
+
+
+def _hashes(paths: Iterable[Path], run: Path) -> dict[str, str]:
+    """Return the hash of each file, by its name seen from the run if it is the run's."""
+    return {
+        (path.relative_to(run) if path.is_relative_to(run) else path).as_posix(): file_hash(path)
+        for path in sorted(paths)
+    }

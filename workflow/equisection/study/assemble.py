@@ -1,0 +1,209 @@
+"""Cases from the configuration, the modes, the equivalent section and the correction.
+
+Here the arrows of Fig. 1 meet: everything that decides a run is put into its case file.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+import xarray as xr
+
+from equisection.cases import (
+    BeamModes,
+    EndCriteria,
+    Geometry,
+    Medium,
+    SectionProperties,
+    SolverBlock,
+    SteadyCase,
+    UnsteadyCase,
+)
+from equisection.config import Config
+from equisection.errors import ConfigError, DivergenceError, EquisectionError
+from equisection.reduction.correction import corrected_equilibrium
+from equisection.reduction.reduce import EquivalentSection, Reduction
+from equisection.results.correction_dataset import factors_from_dataset
+from equisection.results.modes_dataset import modes_from_dataset
+from equisection.results.section_dataset import section_from_dataset
+from equisection.solvers.protocol import Solver
+from equisection.solvers.verdicts import pitch_frequency
+from equisection.structure.plate import Plate
+from equisection.study.plan import Model
+
+#: Of the twist, below which its extrema are not where they seem to be.
+FEWEST_SAMPLES_A_PERIOD = 6
+
+
+def steady_case(
+    config: Config, dimension: str, incidence_deg: float, resolution: str, solver: Solver
+) -> SteadyCase:
+    """Return the case of the rigid section (``2d``) or beam (``3d``) at an incidence (deg)."""
+    return SteadyCase(
+        dimension=dimension,
+        incidence_deg=incidence_deg,
+        resolution=resolution,
+        geometry=_geometry(config),
+        medium=_medium(config),
+        solver=_solver_block(solver, dimension),
+    )
+
+
+def unsteady_case(
+    config: Config, model: Model, k_star: float, data: Mapping[str, xr.Dataset], solver: Solver
+) -> UnsteadyCase:
+    """Return the case of a model at a k*.
+
+    Parameters
+    ----------
+    config
+        The configuration.
+    model
+        The model of the sweep.
+    k_star
+        k* of the uncorrected structural stiffness.
+    data
+        ``equivalent``, with ``modes`` in 3D and ``correction`` for a corrected model.
+    solver
+        The solver that is to run it.
+
+    Notes
+    -----
+    A corrected section without a static equilibrium inside the polars is refused: its case says
+    why, and the other k* go on. Its result is ``growing`` if it diverges, else ``failed``.
+
+    Raises
+    ------
+    ConfigError
+        The history would be written too seldom to tell an oscillation.
+    """
+    stiffness_scale = k_star / nominal_k_star(config, data["equivalent"])
+    section, beam, refusal, diverges = None, None, "", False
+    if model.dimension == "3d":
+        beam = _beam_modes(config, data["modes"], stiffness_scale)
+    else:
+        try:
+            section = _section(config, model, data, stiffness_scale)
+        except EquisectionError as error:
+            refusal = str(error)
+            diverges = isinstance(error, DivergenceError)
+    unsteady = config.unsteady
+    case = UnsteadyCase(
+        dimension=model.dimension,
+        k_star=k_star,
+        incidence_deg=config.flow.incidence_deg,
+        resolution=config.steady.resolution,
+        geometry=_geometry(config),
+        medium=_medium(config),
+        section=section,
+        beam=beam,
+        duration=unsteady.duration,
+        time_step=unsteady.time_step,
+        output_interval=unsteady.output_interval,
+        criteria=EndCriteria(**unsteady.verdict.model_dump()),
+        solver=_solver_block(solver, model.dimension),
+        refusal=refusal,
+        diverges=diverges,
+    )
+    _require_samples(case)
+    return case
+
+
+def _require_samples(case: UnsteadyCase) -> None:
+    """Refuse a history without enough samples in a period of the pitch, which looks at rest."""
+    most = 1.0 / (FEWEST_SAMPLES_A_PERIOD * pitch_frequency(case))
+    if case.output_interval > most:
+        raise ConfigError(
+            f"config: unsteady.output_interval: {case.output_interval:g}: allowed is up to "
+            f"{most:.2g} c/V at k* = {case.k_star:g}, {FEWEST_SAMPLES_A_PERIOD} samples a period "
+            "of the pitch; or leave out the stiffest k*"
+        )
+
+
+def _geometry(config: Config) -> Geometry:
+    beam, flow = config.beam, config.flow
+    channel = flow.channel
+    return Geometry(
+        chord=beam.chord,
+        span=beam.length / beam.chord,
+        thickness=beam.thickness / beam.chord,
+        root_on_wall=flow.root_on_wall,
+        channel_height=channel.height_chords if channel else None,
+        tip_gap=channel.tip_gap_chords if channel else None,
+        upstream=channel.upstream_chords if channel else None,
+        downstream=channel.downstream_chords if channel else None,
+    )
+
+
+def _medium(config: Config) -> Medium:
+    flow = config.flow
+    return Medium(speed=flow.speed, density=flow.density, dynamic_viscosity=flow.dynamic_viscosity)
+
+
+def _solver_block(solver: Solver, dimension: str) -> SolverBlock:
+    settings = solver.settings(dimension)
+    return SolverBlock(name=solver.name, version=solver.version, settings=settings)
+
+
+def nominal_k_star(config: Config, equivalent: xr.Dataset) -> float:
+    """Return k* of the configured beam: Eq. 17 in the paper's form, the axis of every comparison.
+
+    Both reductions and the beam stand at the same k* when they have the same Young's modulus.
+    """
+    flow = config.flow
+    return section_from_dataset(equivalent, "paper").k_star(
+        flow.density, flow.speed, config.beam.chord
+    )
+
+
+def _section(
+    config: Config, model: Model, data: Mapping[str, xr.Dataset], stiffness_scale: float
+) -> SectionProperties:
+    flow, chord = config.flow, config.beam.chord
+    reduction: Reduction = "paper" if model.reduction == "paper" else "consistent"
+    section = section_from_dataset(data["equivalent"], reduction).scaled(stiffness_scale)
+    lift_factor, moment_factor = 1.0, 1.0
+    if model.corrected:
+        lift_factor, moment_factor = _factors(config, section, data["correction"])
+    return SectionProperties(
+        torsional_stiffness=moment_factor * section.k_star(flow.density, flow.speed, chord),
+        flexural_stiffness=lift_factor * section.k_w_star(flow.density, flow.speed),
+        inertia=moment_factor * section.i_star(flow.density, chord),
+        mass=lift_factor * section.m_star(flow.density, chord),
+        twist_recovery=section.twist_recovery,
+        deflection_recovery=section.deflection_recovery,
+    )
+
+
+def _factors(
+    config: Config, section: EquivalentSection, correction: xr.Dataset
+) -> tuple[float, float]:
+    """Return the factors of Eq. 20 of lift and moment at the aeroelastic equilibrium."""
+    flow = config.flow
+    equilibrium = corrected_equilibrium(
+        factors_from_dataset(correction),
+        math.radians(flow.incidence_deg),
+        section.k_star(flow.density, flow.speed, config.beam.chord),
+        section.stiffness_ratio(config.beam.chord),
+    )
+    return float(equilibrium.lift_factor[0]), float(equilibrium.moment_factor[0])
+
+
+def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> BeamModes:
+    """Return the beam's modes, with frequencies that grow as the square root of E."""
+    plate = Plate.from_values(config.beam.model_dump())
+    modes = modes_from_dataset(dataset)
+    bending = modes.bending(config.structure.bending_modes)
+    torsion = modes.torsion(config.structure.torsion_modes)
+    flow, chord = config.flow, config.beam.chord
+    to_reduced = 2 * math.pi * chord / flow.speed * math.sqrt(stiffness_scale)  # Hz to omega c/V
+    return BeamModes(
+        span=tuple(modes.span),
+        bending_frequency=tuple(to_reduced * bending.frequency),
+        bending_shape=tuple(map(tuple, bending.shape)),
+        torsion_frequency=tuple(to_reduced * torsion.frequency),
+        torsion_shape=tuple(map(tuple, torsion.shape)),
+        inertia=plate.inertia_per_length / (0.5 * flow.density * chord**4),
+        mass=plate.mass_per_length / (0.5 * flow.density * chord**2),
+    )
