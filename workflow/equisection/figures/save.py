@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import matplotlib
 from matplotlib.figure import Figure
 
 import equisection
@@ -38,7 +39,8 @@ def save_figure(figure: Figure, paths: Sequence[Path]) -> None:
         A suffix is none of ``.png``, ``.svg`` and ``.pdf``.
     """
     figure.draw_without_rendering()  # lays the panels out, which costs more than drawing them
-    figure.set_layout_engine("none")
+    with matplotlib.rc_context({"figure.constrained_layout.use": False}):
+        figure.set_layout_engine(None)  # with one, even of fixed places, each format is drawn twice
     for path in paths:
         suffix = path.suffix.removeprefix(".")
         if suffix not in _METADATA:

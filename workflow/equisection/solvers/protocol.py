@@ -6,13 +6,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
-from equisection.cases import SteadyCase, UnsteadyCase
-from equisection.results.plate_grid import PlateGrid
-from equisection.results.section_mesh import SectionMesh
-from equisection.results.steady_result import SteadyResult
-from equisection.results.unsteady_result import UnsteadyResult
+if TYPE_CHECKING:  # the graph is built from what solvers provide, without numerics
+    from equisection.cases import SteadyCase, UnsteadyCase
+    from equisection.results.plate_grid import PlateGrid
+    from equisection.results.section_mesh import SectionMesh
+    from equisection.results.steady_result import SteadyResult
+    from equisection.results.unsteady_result import UnsteadyResult
 
 
 class Capability(StrEnum):
