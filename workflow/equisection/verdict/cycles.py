@@ -16,7 +16,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import find_peaks
 
 Array = NDArray[np.float64]
 
@@ -93,6 +92,9 @@ def find_cycles(time: Array, signal: Array) -> Cycles:
     signal : ndarray, shape (n,)
         Any history.
     """
+    # it brings scipy.stats along, half a second that jobs without a history need not wait
+    from scipy.signal import find_peaks  # noqa: PLC0415
+
     noise = noise_level(signal)
     rounding = 1e-12 * (1e-3 + float(np.max(np.abs(signal), initial=0.0)))
     prominence = max(_PROMINENCE_IN_NOISE * noise, rounding)
