@@ -19,6 +19,7 @@ ROOMS = (
     "files",
     "provenance",
     "keys",
+    "beam",
     "structure",
     "verdict",
     "aerodynamics",
