@@ -30,6 +30,7 @@ from equisection.results.section_dataset import section_from_dataset
 from equisection.solvers.protocol import Solver
 from equisection.solvers.verdicts import pitch_frequency
 from equisection.structure.plate import Plate
+from equisection.study.axes import K_STAR, Point
 from equisection.study.plan import Model
 
 #: Of the twist, below which its extrema are not where they seem to be.
@@ -48,6 +49,20 @@ def steady_case(
         medium=_medium(config),
         solver=_solver_block(solver, dimension),
     )
+
+
+def case_at(
+    config: Config, model: Model, point: Point, data: Mapping[str, xr.Dataset], solver: Solver
+) -> UnsteadyCase:
+    """Return the case of a model at a point of the sweep.
+
+    Incidence and speed of the point take the place of the configuration's. Without a k* the beam is
+    as given, and has the k* of its speed. Parameters and errors are those of
+    :func:`unsteady_case`.
+    """
+    there = point.of_config(config)
+    k_star = point.columns.get(K_STAR.name) or nominal_k_star(there, data["equivalent"])
+    return unsteady_case(there, model, k_star, data, solver)
 
 
 def unsteady_case(
