@@ -148,8 +148,8 @@ def test_bracket_over_speed_is_that_over_k_star_seen_from_the_other_side():
     speeds = [round(speed_of(k_star), 6) for k_star in K_STARS]
     over_speed = summary_over((SPEED,), *zip(speeds, REGIMES, strict=True))
     (mine,) = with_speeds(onset_table(over_k_star), 8.0, 20.0).to_dict("records")
-    (other,) = onset_table(over_speed).to_dict("records")
-    for side in ("speed_stable", "speed_unstable"):
+    (other,) = with_speeds(onset_table(over_speed), 8.0, 20.0).to_dict("records")
+    for side in ("speed_stable", "speed_unstable", "k_star_stable", "k_star_unstable"):
         assert other[side] == pytest.approx(mine[side], rel=1e-6)
     assert float(other["failed_inside"]) == pytest.approx(speed_of(6.0), rel=1e-5)
     assert float(other["stable_below"]) == pytest.approx(speed_of(3.0), rel=1e-5)

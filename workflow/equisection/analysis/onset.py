@@ -237,9 +237,9 @@ def _sweeps(summary: pd.DataFrame) -> Iterator[tuple[str, dict[Axis, float], pd.
 
 
 def with_speeds(onset: pd.DataFrame, k_star_given: float, speed: float) -> pd.DataFrame:
-    """Return the brackets with the speeds at which the beam as given has these k*.
+    """Return the brackets over k* with their speeds, or those over speed with their k*.
 
-    k* is a stiffness over a dynamic pressure, so the beam has the k* of the onset at
+    k* is a stiffness over a dynamic pressure, so the beam as given has the k* of the onset at
     V sqrt(k*_given/k*). The polar is taken to be the same at that speed, whose Reynolds number is
     another.
 
@@ -252,8 +252,10 @@ def with_speeds(onset: pd.DataFrame, k_star_given: float, speed: float) -> pd.Da
     speed
         V (m/s).
     """
-    return onset.assign(
-        k_star_given=k_star_given,
-        speed_stable=speed * np.sqrt(k_star_given / onset["k_star_stable"]),
-        speed_unstable=speed * np.sqrt(k_star_given / onset["k_star_unstable"]),
-    )
+    added = {}
+    for side in ("stable", "unstable"):
+        if f"k_star_{side}" in onset:
+            added[f"speed_{side}"] = speed * np.sqrt(k_star_given / onset[f"k_star_{side}"])
+        else:
+            added[f"k_star_{side}"] = k_star_given * (speed / onset[f"speed_{side}"]) ** 2
+    return onset.assign(k_star_given=k_star_given, **added)
