@@ -15,7 +15,9 @@ def main(index: Path, cases: Sequence[str], output: Path) -> None:
     """Read the surface data of what cases of the section there are, in their order."""
     found = read_index(index)
     results = {
-        plan.angle_of(name): read_dataset(result_file(index, name), str(found[name]["case_hash"]))
+        plan.rigid_point(name): read_dataset(
+            result_file(index, name), str(found[name]["case_hash"])
+        )
         for name in cases
         if name in found
     }

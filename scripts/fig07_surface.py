@@ -31,7 +31,7 @@ def main(
     there = table[(table["resolution"] == resolution) & table["bubble"].notna()]
     surfaces = {}
     for angle in incidences_shown(there["incidence_deg"].tolist(), incidence_deg):
-        result = read_dataset(result_file(index, plan.angle_name(resolution, angle)))
+        result = read_dataset(result_file(index, plan.rigid_case(resolution, angle)))
         surface = surface_from_dataset(result)
         if surface is not None:
             surfaces[angle] = surface

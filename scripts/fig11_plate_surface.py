@@ -17,7 +17,7 @@ from equisection.study import plan
 
 def main(index: Path, resolution: str, style: Path, outputs: Sequence[Path]) -> None:
     """Draw what the results at a resolution have, of the incidences nearest to those wanted."""
-    names = {plan.angle_of(name): name for name in read_index(index)}
+    names = {plan.rigid_point(name): name for name in read_index(index)}
     found, without, source = {}, [], ""
     for (_, angle), name in sorted(item for item in names.items() if item[0][0] == resolution):
         result = read_dataset(result_file(index, name))

@@ -33,21 +33,22 @@ def main(
 
 
 def _of_rigid(index: Path, resolution: str, incidence_deg: float) -> Column:
-    names = [name for name in read_index(index) if plan.angle_of(name)[0] == resolution]
+    names = [name for name in read_index(index) if plan.rigid_point(name)[0] == resolution]
     if not names:
         return Column("rigid", f"The rigid plate has no result at resolution '{resolution}'.")
-    name = min(names, key=lambda name: abs(plan.angle_of(name)[1] - incidence_deg))
+    name = min(names, key=lambda name: abs(plan.rigid_point(name)[1] - incidence_deg))
     return column_of("rigid", read_dataset(result_file(index, name)))
 
 
 def _of_flexible(index: Path | None) -> Column:
     if index is None:
         return Column("flexible", "The flexible plate is not among the models of the sweep.")
-    runs = [name for name, result in read_index(index).items() if not failure_of(result)]
+    runs = {name: run for name, run in read_index(index).items() if not failure_of(run)}
     if not runs:
         return Column("flexible", "Every run of the flexible plate failed.")
-    name = min(runs, key=lambda name: abs(plan.k_star_of(name) - K_STAR))
-    title = f"k* = {plan.k_star_of(name):g}"
+    k_star = {name: float(run["k_star"]) for name, run in runs.items()}
+    name = min(runs, key=lambda name: abs(k_star[name] - K_STAR))
+    title = f"k* = {k_star[name]:g}"
     return column_of(title, read_dataset(result_file(index, name)))
 
 

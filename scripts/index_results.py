@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.cases import case_hash, read_cases
+from equisection.cases import case_hash, point_of, read_cases
 from equisection.results.netcdf import read_attributes
 from equisection.run.script import logged
 from equisection.store.index import write_index
@@ -14,7 +14,7 @@ def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:
     attributes = {}
     for case_file, result in zip(cases, results, strict=True):
         (case,) = read_cases(case_file).values()
-        attributes[result.stem] = read_attributes(result, case_hash(case))
+        attributes[result.stem] = point_of(case) | read_attributes(result, case_hash(case))
     write_index(output, attributes)
 
 

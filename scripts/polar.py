@@ -14,7 +14,9 @@ def main(index: Path, cases: Sequence[str], output: Path) -> None:
     """Gather what results there are, in the order of the cases, each checked to be of its case."""
     found = read_index(index)
     gathered = {
-        plan.angle_of(name): read_dataset(result_file(index, name), str(found[name]["case_hash"]))
+        plan.rigid_point(name): read_dataset(
+            result_file(index, name), str(found[name]["case_hash"])
+        )
         for name in cases
         if name in found
     }

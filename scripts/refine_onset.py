@@ -1,24 +1,17 @@
-"""Choose the next k* inside the bracket of a model's onset."""
+"""Choose the next points inside the bracket of a model's onset."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.analysis.onset import bracket_of, refinement_points
-from equisection.analysis.summary import summarise
+from equisection.analysis.onset import next_points
+from equisection.analysis.summary import summary_of
 from equisection.run.script import logged
-from equisection.store.index import read_index
 from equisection.study import plan
 
 
 def main(indices: Sequence[Path], tolerance: float, points: int, output: Path) -> None:
-    """Write the k* that narrow the bracket; none when it is open or narrow enough."""
-    rows = [
-        (index.parent.name, attributes)
-        for index in indices
-        for attributes in read_index(index).values()
-    ]
-    bracket = bracket_of(summarise(rows))
-    plan.write_refinement(output, refinement_points(bracket, tolerance, points))
+    """Write the points that narrow the bracket; none when it is open or narrow enough."""
+    plan.write_refinement(output, next_points(summary_of(indices), tolerance, points))
 
 
 if __name__ == "__main__":

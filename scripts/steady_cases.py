@@ -18,7 +18,7 @@ def main(raw_config: dict[str, Any], dimension: str, names: Sequence[str], outpu
     solvers = {name: solver_from_config(config, name) for name in plan.resolutions(config)}
     cases = {}
     for name in names:
-        resolution, incidence_deg = plan.angle_of(name)
+        resolution, incidence_deg = plan.rigid_point(name)
         cases[name] = steady_case(config, dimension, incidence_deg, resolution, solvers[resolution])
     write_cases(output, cases)
 

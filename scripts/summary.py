@@ -3,21 +3,15 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.analysis.summary import summarise
+from equisection.analysis.summary import summary_of
 from equisection.files import written_whole
 from equisection.run.script import logged
-from equisection.store.index import read_index
 
 
 def main(indices: Sequence[Path], output: Path) -> None:
     """Summarise the verdicts; the folder of an index is named after its model."""
-    rows = [
-        (index.parent.name, attributes)
-        for index in indices
-        for attributes in read_index(index).values()
-    ]
     with written_whole(output) as aside:
-        summarise(rows).to_csv(aside, index=False)
+        summary_of(indices).to_csv(aside, index=False)
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""Write the case file of a batch of k* for a model, or of one of its cases."""
+"""Write the case file of a batch for a model, or of one of its cases."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -10,7 +10,8 @@ from equisection.results.netcdf import read_dataset
 from equisection.run.script import logged
 from equisection.solvers.registry import solver_from_config
 from equisection.study import plan
-from equisection.study.assemble import unsteady_case
+from equisection.study.assemble import case_at
+from equisection.study.axes import Point
 
 
 def main(
@@ -20,7 +21,7 @@ def main(
     names: Sequence[str],
     output: Path,
 ) -> None:
-    """Write the cases, whose names say k*.
+    """Write the cases, whose names say their point of the study.
 
     ``structure_files`` holds ``equivalent``, with ``modes`` in 3D and ``correction`` for
     corrected models.
@@ -29,9 +30,7 @@ def main(
     model = plan.model(model_name, config.reduction)
     solver = solver_from_config(config, config.steady.resolution)
     data = {name: read_dataset(path) for name, path in structure_files.items()}
-    cases = {
-        name: unsteady_case(config, model, plan.k_star_of(name), data, solver) for name in names
-    }
+    cases = {name: case_at(config, model, Point.named(name), data, solver) for name in names}
     write_cases(output, cases)
 
 

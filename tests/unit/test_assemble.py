@@ -25,7 +25,8 @@ from equisection.solvers.registry import solver_from_config
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import compute_modes
 from equisection.study import plan
-from equisection.study.assemble import steady_case, unsteady_case
+from equisection.study.assemble import case_at, k_star_as_given, steady_case, unsteady_case
+from equisection.study.axes import INCIDENCE, K_STAR, SPEED, Axis, Point
 
 RAW: dict[str, Any] = {
     "structure": {"bending_modes": 2, "torsion_modes": 2},
@@ -264,3 +265,42 @@ def test_steady_case_has_its_angle_and_the_geometry_in_chords(config: Config) ->
     # the sample cases are written down by hand for the same plate
     assert made.geometry.model_dump() == pytest.approx(STEADY.geometry.model_dump())
     assert made.medium == STEADY.medium
+
+
+def at(model: str, values: dict[Axis, float], data: dict[str, xr.Dataset]) -> UnsteadyCase:
+    config = load_config(RAW)
+    solver = solver_from_config(config, "thin")
+    return case_at(config, plan.model(model, config.reduction), Point.at(values), data, solver)
+
+
+@pytest.mark.parametrize("model", ["2d-corrected-paper", "3d"])
+def test_point_of_k_star_alone_is_the_case_of_that_k_star(
+    model: str, data: dict[str, xr.Dataset]
+) -> None:
+    assert case_hash(at(model, {K_STAR: 6.44}, data)) == case_hash(case(model, 6.44, data))
+
+
+def test_point_with_an_incidence_is_the_case_of_a_run_at_it(data: dict[str, xr.Dataset]) -> None:
+    there = load_config(RAW | {"flow": {"incidence_deg": 5.0}})
+    found = at("2d-corrected", {INCIDENCE: 5.0, K_STAR: 6.44}, data)
+    assert case_hash(found) == case_hash(case("2d-corrected", 6.44, data, there))
+
+
+@pytest.mark.parametrize("speed", [10.0, 20.0, 33.0])
+def test_point_of_a_speed_is_the_beam_as_given_at_that_speed(
+    speed: float, config: Config, data: dict[str, xr.Dataset]
+) -> None:
+    """k* is a stiffness over a dynamic pressure; frequencies over V/c go with the time c/V."""
+    given = k_star_as_given(config, data["equivalent"])
+    section, beam = (at(model, {SPEED: speed}, data) for model in ("2d-paper", "3d"))
+    ratio = config.flow.speed / speed
+    assert section.medium.speed == beam.medium.speed == speed
+    assert section.k_star == pytest.approx(given * ratio**2, rel=1e-12)
+    assert section.section is not None
+    assert section.section.torsional_stiffness == pytest.approx(section.k_star, rel=1e-12)
+    as_given = case("3d", given, data).beam
+    assert beam.beam is not None
+    assert as_given is not None
+    assert beam.beam.torsion_frequency == pytest.approx(
+        ratio * np.array(as_given.torsion_frequency), rel=1e-12
+    )

@@ -8,7 +8,7 @@ import yaml
 from tests.conftest import ROOT
 from tests.sample_cases import UNSTEADY
 
-from equisection.cases import SolverBlock, canonical, case_hash
+from equisection.cases import FREE, STEADY, SolverBlock, canonical, case_hash
 from equisection.config import load_config
 from equisection.errors import ConfigError
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -16,7 +16,7 @@ from equisection.run import cost
 from equisection.run.command_line import main
 from equisection.run.cost import CellCost, megabytes, minutes, read_cost_model, seconds
 from equisection.run.cost_fit import fits, fitted
-from equisection.run.jobs import solver_jobs, steady_batch_work, unsteady_batch_work
+from equisection.run.jobs import batch_work, solver_jobs
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.work_done import work_done
 from equisection.solvers.work import Work
@@ -33,7 +33,7 @@ OPENFOAM = {
 
 def openfoam_work(dimension: str, **changes: object) -> Work:
     raw = {**OPENFOAM, "openfoam": {"outer_correctors": 3, **changes}}
-    return cost.unsteady_work(load_config(raw), dimension)
+    return cost.work_of(load_config(raw), FREE, dimension, "coarse")
 
 
 def test_work_of_a_section_is_that_of_its_mesh_and_steps() -> None:
@@ -57,22 +57,22 @@ def test_work_grows_with_mesh_steps_and_iterations() -> None:
 @pytest.mark.parametrize(("dimension", "longest"), [("2d", 110.0), ("3d", 70.0)])
 def test_rigid_case_may_go_on_as_long_as_its_record_can_be(dimension: str, longest: float) -> None:
     """The plate's is shorter, for what it costs (docs/openfoam.md and docs/plate.md)."""
-    work = cost.steady_work(load_config(OPENFOAM), dimension, "coarse")
+    work = cost.work_of(load_config(OPENFOAM), STEADY, dimension, "coarse")
     assert work.steps == pytest.approx(longest / 0.02 * 3)
 
 
 def test_job_that_looks_up_what_is_kept_asks_for_no_solver() -> None:
     raw = yaml.safe_load((ROOT / "config" / "paper.yaml").read_text(encoding="utf-8"))
     computes, looks_up = (load_config({**raw, "compute": compute}) for compute in (True, False))
-    assert steady_batch_work(computes, "3d").cells > 1e6
-    for work in (steady_batch_work(looks_up, "3d"), unsteady_batch_work(looks_up, "3d")):
+    assert batch_work(computes, STEADY, "3d").cells > 1e6
+    for work in (batch_work(looks_up, kind, "3d") for kind in (STEADY, FREE)):
         assert megabytes(work, CELL, 1) <= 2000
         assert minutes(work, CELL, 1) <= 60
 
 
 def test_batch_of_the_embedded_solver_has_the_work_of_its_cases() -> None:
     config = load_config({"embedded": {"strips": 10}})
-    one, many = (cost.unsteady_work(config, "3d", cases) for cases in (1, 7))
+    one, many = (cost.work_of(config, FREE, "3d", "coarse", cases) for cases in (1, 7))
     assert one.cells == 10
     assert many.cells == 70
     assert many.steps == one.steps == pytest.approx(400.0 / 0.05)
@@ -191,12 +191,12 @@ def test_jobs_of_a_solver_that_runs_one_case_each() -> None:
     raw["openfoam"] = {"outer_correctors": 3, "ranks": 4}
     config, model = load_config(raw), read_cost_model(COSTS)
     section, plate, free_section, free_plate = solver_jobs(config, model)
-    assert (section.what, plate.what) == ("rigid 2d, coarse", "rigid 3d, coarse")
+    assert (section.what, plate.what) == ("steady 2d, coarse", "steady 3d, coarse")
     assert section.number == plate.number == 4
     # a third of the bracket narrows to 0.02 in three rounds of three
     assert free_section.number == free_plate.number == 3 + 3 * 3
     assert (free_section.ranks, free_plate.ranks) == (1, 4)
-    work, per_cell = cost.unsteady_work(config, "3d"), model.of("openfoam", "3d")
+    work, per_cell = cost.work_of(config, FREE, "3d", "coarse"), model.of("openfoam", "3d")
     assert free_plate.core_hours == pytest.approx(12 * seconds(work, per_cell) / 3600)
     assert free_plate.megabytes == megabytes(work, per_cell, 4)
     assert free_plate.minutes == minutes(work, per_cell, 4)
@@ -220,7 +220,7 @@ def test_command_tells_what_jobs_ask_for(
     (free,) = (line for line in lines if line[:1] == ["2d"])
     assert free[1:4] == ["1", "11,136", "1"]
     (total,) = (line for line in lines if line[:1] == ["all"])
-    rows = [line for line in lines if line[:1] in (["rigid"], ["2d"])]
+    rows = [line for line in lines if line[:1] in (["steady"], ["2d"])]
     assert float(total[-1]) == pytest.approx(sum(float(line[-1]) for line in rows), rel=0.01)
 
     own.write_text("compute: false\n")

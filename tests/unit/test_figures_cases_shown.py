@@ -22,7 +22,7 @@ def tables(*runs: tuple[float, str, float]) -> tuple[pd.DataFrame, pd.DataFrame]
 
 
 def chosen(*runs: tuple[float, str, float]) -> list[float]:
-    return [case.k_star for case in cases_shown(*tables(*runs), "2d", "ABC")]
+    return [case.value for case in cases_shown(*tables(*runs), "2d", "ABC")]
 
 
 def test_either_side_of_the_onset_and_the_stiffest():

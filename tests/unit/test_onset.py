@@ -6,20 +6,20 @@ import pytest
 
 from equisection.analysis.linear_theory import ONSET_COLUMNS, with_linear_theory
 from equisection.analysis.onset import (
-    COLUMNS,
+    next_points,
     onset_bracket,
     onset_table,
     refinement_points,
     with_speeds,
 )
-from equisection.analysis.summary import COLUMNS as SUMMARY_COLUMNS
-from equisection.analysis.summary import summarise
+from equisection.analysis.summary import columns, summarise
+from equisection.study.axes import INCIDENCE, K_STAR, SPEED, Axis
 
 S, L, G, F = "settled", "limit-cycle", "growing", "failed"
 
 
 def sides(bracket):
-    return bracket.k_unstable, bracket.k_stable
+    return bracket.unstable, bracket.stable
 
 
 def test_monotone_sweep_in_any_order():
@@ -44,7 +44,10 @@ def test_no_runs():
 def test_table_of_no_runs_has_its_columns_and_no_lines():
     summary = pd.read_csv(io.StringIO(summarise([]).to_csv(index=False)))
     table = with_linear_theory(onset_table(summary), {}, "consistent")
-    assert tuple(table.columns) == (*COLUMNS, *ONSET_COLUMNS)
+    assert tuple(table.columns) == (
+        *("model", "k_star_stable", "k_star_unstable", "failed_inside", "stable_below"),
+        *ONSET_COLUMNS,
+    )
     assert table.empty
 
 
@@ -52,7 +55,7 @@ def test_speeds_of_the_bracket_have_its_dynamic_pressures():
     """k* = 8 at 20 m/s is 2 at 40 m/s: a quarter of the k*, four times the dynamic pressure."""
     rows = [("2d", {"k_star": k, "regime": r}) for k, r in ((2.0, G), (4.5, S), (6.0, S))]
     rows += [("3d", {"k_star": 2.0, "regime": S})]
-    known = dict.fromkeys(SUMMARY_COLUMNS, math.nan) | {"mean_known": 1}
+    known = dict.fromkeys(columns(), math.nan) | {"mean_known": 1}
     table = onset_table(summarise((model, known | found) for model, found in rows))
     section, beam = with_speeds(table, 8.0, 20.0).to_dict("records")
     assert section["k_star_given"] == 8.0
@@ -121,5 +124,49 @@ def test_repeated_refinement_converges():
         k_star += points
         regimes += [G if k < 5.5432 else S for k in points]
     bracket = onset_bracket(k_star, regimes)
-    assert bracket.k_unstable < 5.5432 < bracket.k_stable
+    assert bracket.unstable < 5.5432 < bracket.stable
     assert bracket.relative_width <= 0.01
+
+
+def summary_over(axes: tuple[Axis, ...], *runs: tuple[float | str, ...]) -> pd.DataFrame:
+    """Return the summary of runs of one model: values on the axes, then the regime."""
+    known = dict.fromkeys(columns(axes), math.nan) | {"mean_known": 1}
+    names = [*(axis.name for axis in axes), "regime"]
+    return summarise((("2d", known | dict(zip(names, run, strict=True))) for run in runs), axes)
+
+
+K_STARS, REGIMES = (3.0, 4.0, 5.0, 6.0, 7.0, 8.0), (S, G, G, F, S, S)
+
+
+def speed_of(k_star: float) -> float:
+    """Return the speed (m/s) at which a beam with k* = 8 at 20 m/s has a k*."""
+    return 20.0 * math.sqrt(8.0 / k_star)
+
+
+def test_bracket_over_speed_is_that_over_k_star_seen_from_the_other_side():
+    over_k_star = summary_over((K_STAR,), *zip(K_STARS, REGIMES, strict=True))
+    speeds = [round(speed_of(k_star), 6) for k_star in K_STARS]
+    over_speed = summary_over((SPEED,), *zip(speeds, REGIMES, strict=True))
+    (mine,) = with_speeds(onset_table(over_k_star), 8.0, 20.0).to_dict("records")
+    (other,) = with_speeds(onset_table(over_speed), 8.0, 20.0).to_dict("records")
+    for side in ("speed_stable", "speed_unstable", "k_star_stable", "k_star_unstable"):
+        assert other[side] == pytest.approx(mine[side], rel=1e-6)
+    assert float(other["failed_inside"]) == pytest.approx(speed_of(6.0), rel=1e-5)
+    assert float(other["stable_below"]) == pytest.approx(speed_of(3.0), rel=1e-5)
+    assert other["speed_stable"] < other["speed_unstable"]
+
+
+def test_each_incidence_has_a_bracket_and_points_of_its_own():
+    axes = (INCIDENCE, K_STAR)
+    runs = [(2.5, 5.0, G), (2.5, 6.0, S), (5.0, 5.0, G), (5.0, 6.0, G), (5.0, 8.0, S)]
+    summary = summary_over(axes, *runs)
+    table = onset_table(summary)
+    assert list(table.columns[:4]) == [
+        "model",
+        "incidence_deg",
+        "k_star_stable",
+        "k_star_unstable",
+    ]
+    brackets = table[["incidence_deg", "k_star_unstable", "k_star_stable"]].to_numpy().tolist()
+    assert brackets == [[2.5, 5.0, 6.0], [5.0, 6.0, 8.0]]
+    assert [point.name for point in next_points(summary, 0.01, 1)] == ["a2.5_k5.5", "a5_k7"]

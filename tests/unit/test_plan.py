@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 from equisection.analysis.onset import OnsetBracket, refinement_points
 from equisection.config import Config, load_config
 from equisection.study import plan
+from equisection.study.axes import K_STAR, RIGID_PATTERN, SWEEP_PATTERN, Point
 
 k_stars = st.floats(min_value=1e-3, max_value=1e6).map(lambda value: float(f"{value:.6g}"))
 angles = st.floats(min_value=-89, max_value=89).map(lambda value: float(f"{value:.6g}"))
@@ -23,27 +24,26 @@ def config(**sweep: object) -> Config:
 
 @given(k_stars)
 def test_name_of_a_case_says_its_k_star(k_star: float) -> None:
-    name = plan.case_name(k_star)
-    assert plan.k_star_of(name) == k_star
-    assert re.fullmatch(plan.CASE_PATTERN, name)
-    assert re.fullmatch(plan.CASE_PATTERN, name)
+    name = Point.at({K_STAR: k_star}).name
+    assert Point.named(name)[K_STAR] == k_star
+    assert re.fullmatch(SWEEP_PATTERN, name)
 
 
 @given(words, angles)
 def test_name_of_a_steady_case_says_resolution_and_incidence(word: str, angle: float) -> None:
-    name = plan.angle_name(word, angle)
-    assert plan.angle_of(name) == (word, angle)
-    assert re.fullmatch(plan.ANGLE_PATTERN, name)
+    name = plan.rigid_case(word, angle)
+    assert plan.rigid_point(name) == (word, angle)
+    assert re.fullmatch(RIGID_PATTERN, name)
 
 
 @pytest.mark.parametrize("name", ["", "k", "7", "sweep", "round1", "k6/../k7", "K6"])
 def test_other_names_are_no_cases(name: str) -> None:
-    assert not re.fullmatch(plan.CASE_PATTERN, name)
+    assert not re.fullmatch(SWEEP_PATTERN, name)
 
 
 @given(k_stars)
 def test_names_of_cases_and_of_batches_are_never_the_same(k_star: float) -> None:
-    assert not re.fullmatch(plan.BATCH_PATTERN, plan.case_name(k_star))
+    assert not re.fullmatch(plan.BATCH_PATTERN, K_STAR.part(k_star))
 
 
 @pytest.mark.parametrize(
@@ -137,8 +137,8 @@ def test_planned_rounds_are_enough_wherever_the_onset_is(
 def test_round_of_refinement_is_read_as_written(k_star: list[float]) -> None:
     with TemporaryDirectory() as folder:
         path = Path(folder) / "2d_round1.json"
-        plan.write_refinement(path, k_star)
-        assert [plan.k_star_of(name) for name in plan.read_refinement(path)] == k_star
+        plan.write_refinement(path, [Point.at({K_STAR: value}) for value in k_star])
+        assert [Point.named(name)[K_STAR] for name in plan.read_refinement(path)] == k_star
 
 
 @pytest.mark.parametrize(

@@ -12,20 +12,29 @@ import numpy as np
 import pandas as pd
 import pytest
 import yaml
+from rich.console import Console
 from tests.conftest import ROOT
 from tests.sample_cases import STEADY, STEADY_PLATE
 
+from equisection.analysis.onset import onset_table
+from equisection.analysis.summary import summary_of
 from equisection.cases import SteadyCase, case_hash, read_cases, write_cases
 from equisection.config import load_config, resolve_config
 from equisection.config.groups import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
+from equisection.figures.response import draw, read_response
+from equisection.figures.style import drawing_style
 from equisection.results.netcdf import read_dataset
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
+from equisection.run.listing import cases_of_run
 from equisection.run.script import logged
+from equisection.run.status import run_status
+from equisection.run.status_text import print_status
 from equisection.store.index import read_index, write_index
 from equisection.store.kept import kept_results
 from equisection.study import plan
+from equisection.study.axes import Point, onset_axis
 
 SCRIPTS = sorted(path.stem for path in (ROOT / "scripts").glob("*.py"))
 LoadScript = Callable[[str], ModuleType]
@@ -140,6 +149,53 @@ def test_modes_feel_less_of_the_beams_lift_than_its_mean(chain: Path) -> None:
     for factor in ("lift_factor", "moment_factor"):
         assert (modal[factor] > 1.02 * mean[factor]).all()
         assert (modal[factor] < 1.5 * mean[factor]).all()
+
+
+@pytest.mark.parametrize(
+    "names",
+    [["a1_k0.5", "a1_k21", "a2.5_k0.5", "a2.5_k21"], ["v20", "v100"]],
+    ids=["incidence and k*", "speed"],
+)
+def test_study_over_other_axes_runs_by_the_names_of_its_cases(
+    chain: Path, load_script: LoadScript, tmp_path: Path, names: list[str]
+) -> None:
+    """A thin plate diverges below k* = pi/2, which the beam as given has at 72 m/s."""
+    raw = resolve_config(load_config(RAW))
+    cases, index = tmp_path / "cases/unsteady/2d/sweep.json", tmp_path / "unsteady/2d/sweep.json"
+    made_from = {"equivalent": chain / "equivalent.nc"}
+    load_script("unsteady_cases").main(raw, "2d", made_from, names, cases)
+    load_script("run_cases").main(cases, index, tmp_path / ".store", tmp_path / "progress.json")
+    assert [listed.name for listed in cases_of_run(tmp_path)] == names
+    points = [Point.named(name) for name in names]
+    axes, along = points[0].axes, onset_axis(points[0].axes)
+    load_script("summary").main([index], tmp_path / "summary.csv")
+    summary = pd.read_csv(tmp_path / "summary.csv")
+    columns = [axis.name for axis in axes]
+    assert list(summary.columns[: len(columns) + 1]) == ["model", *columns]
+    assert summary[columns].to_dict("records") == [point.columns for point in points]
+    table = onset_table(summary)
+    for side, chosen in (("stable", max), ("unstable", min)):
+        expected = chosen((point[along] for point in points), key=along.stability)
+        assert set(table[f"{along.name}_{side}"]) == {expected}
+    assert len(table) == len({point.columns.get("incidence_deg") for point in points})
+    printed = Console(record=True, width=120)
+    print_status(printed, run_status(tmp_path))
+    assert ", ".join(axis.heading for axis in axes) in printed.export_text()
+
+
+def test_response_over_speed_is_drawn_over_speed(chain: Path, load_script: LoadScript) -> None:
+    raw, made_from = resolve_config(load_config(RAW)), {"equivalent": chain / "equivalent.nc"}
+    cases, index = chain / "speeds.json", chain / "speeds" / "2d" / "sweep.json"
+    load_script("unsteady_cases").main(raw, "2d", made_from, ["v20", "v100"], cases)
+    load_script("run_cases").main(cases, index, chain / "store", chain / "progress.json")
+    summary = summary_of([index])
+    results = [index.parent / f"{name}.nc" for name in ("v20", "v100")]
+    response = read_response(summary, onset_table(summary), results, 6.7)
+    assert [case.value for case in response.cases["2d"]] == [100.0, 20.0, 20.0]
+    with drawing_style(ROOT / "envs/equisection.mplstyle"):
+        figure = draw(response)
+    assert figure.axes[0].get_xlabel() == "$V$ (m/s)"
+    assert "$V$ = 100 m/s" in figure.axes[2].get_title(loc="left")
 
 
 @pytest.mark.parametrize("kind", ["steady", "unsteady"])

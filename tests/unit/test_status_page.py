@@ -13,7 +13,7 @@ from tests.conftest import ROOT
 from tests.run_by_hand import GONE, Run
 from tests.sample_cases import UNSTEADY
 
-from equisection.cases import Case, SolverBlock, UnsteadyCase, history_hash, write_cases
+from equisection.cases import FREE, Case, SolverBlock, UnsteadyCase, history_hash, write_cases
 from equisection.config import load_config, resolve_config
 from equisection.run import cost
 from equisection.run.command_line import main
@@ -76,7 +76,7 @@ def test_cost_of_what_is_done_and_by_the_model_of_what_is_not(
         write_case(run, name, one_by_one(k_star))
     status = run_status(run.folder)
     model = cost.read_cost_model(ROOT / "workflow/profiles/cost.yaml")
-    one = cost.seconds(cost.unsteady_work(config, "2d"), model.of("openfoam", "2d"))
+    one = cost.seconds(cost.work_of(config, FREE, "2d", "coarse"), model.of("openfoam", "2d"))
     assert status.core_seconds_to_come() == pytest.approx(2 * one)
     assert status.core_seconds_used() == 0.0
 
@@ -126,7 +126,7 @@ def test_an_index_spares_the_opening_of_results(run: Run, monkeypatch: pytest.Mo
     write_index(run.folder / "unsteady/2d/sweep.json", attributes)
     opened: list[Path] = []
     monkeypatch.setattr("equisection.run.status.read_attributes", opened.append)
-    assert run_status(run.folder).count(steady=False) == {State.DONE: 2}
+    assert run_status(run.folder).count(FREE) == {State.DONE: 2}
     assert opened == []
 
 

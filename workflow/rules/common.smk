@@ -23,6 +23,7 @@ from equisection.provenance import (
     config_hash,
 )
 from equisection.store.mend import mend
+from equisection.study.axes import RIGID_PATTERN, SWEEP_PATTERN
 from equisection.study.given_polars import check_polars
 from equisection.solvers.registry import SOLVERS, Capability, check_provided
 
@@ -51,7 +52,7 @@ IN_ONE_JOB = Capability.BATCH in PROVIDES or not CONFIG.compute
 DIMENSIONS = plan.steady_dimensions(CONFIG)
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
-MESH_CASE = plan.angle_name(CONFIG.steady.resolution, CONFIG.flow.incidence_deg)
+MESH_CASE = plan.rigid_case(CONFIG.steady.resolution, CONFIG.flow.incidence_deg)
 
 # Jobs inherit what tells them where the solver is on this machine.
 for name, value in CONFIG.solver_section.environment().items():
@@ -71,14 +72,15 @@ if workflow.is_main_process:
 wildcard_constraints:
     dimension=plan.DIMENSION_PATTERN,
     model=plan.MODEL_PATTERN,
-    angle=plan.ANGLE_PATTERN,
-    case=plan.CASE_PATTERN,
+    angle=RIGID_PATTERN,
+    case=SWEEP_PATTERN,
     batch=plan.BATCH_PATTERN,
 
 
 # Modules that decide what stands in a case file.
 CASES_MADE_OF = (
     "study/assemble.py",
+    "study/axes.py",
     "study/plan.py",
     "aerodynamics",
     "cases",

@@ -54,7 +54,7 @@ rule summary:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code("analysis/summary.py", "results"),
+        code=code("analysis/summary.py", "results", "study/axes.py"),
         models=list(CONFIG.sweep.shown),
     message:
         "summary"
@@ -111,7 +111,7 @@ rule onset:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("analysis/onset.py", *LINEAR_THEORY),
+        code=code("analysis/onset.py", "study/axes.py", *LINEAR_THEORY),
         resolution=CONFIG.steady.resolution,
         incidence_deg=CONFIG.flow.incidence_deg,
         speed=CONFIG.flow.speed,

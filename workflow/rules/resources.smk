@@ -3,6 +3,7 @@
 Like everything that the graph is built from, they come from the configuration alone.
 """
 
+from equisection.cases import kinds
 from equisection.run import jobs
 from equisection.run import cost
 from equisection.solvers.protocol import MPIRUN
@@ -37,13 +38,13 @@ def work_of(wildcards):
     """Return the work of a job."""
     dimension = dimension_of(wildcards)
     if "angle" in wildcards.keys():
-        resolution, _ = plan.angle_of(wildcards.angle)
-        return cost.steady_work(CONFIG, dimension, resolution)
+        resolution, _ = plan.rigid_point(wildcards.angle)
+        return cost.work_of(CONFIG, kinds.STEADY, dimension, resolution)
     if "case" in wildcards.keys():
-        return cost.unsteady_work(CONFIG, dimension)
+        return cost.work_of(CONFIG, kinds.FREE, dimension, CONFIG.steady.resolution)
     if "batch" in wildcards.keys():
-        return jobs.unsteady_batch_work(CONFIG, dimension)
-    return jobs.steady_batch_work(CONFIG, dimension)
+        return jobs.batch_work(CONFIG, kinds.FREE, wildcards.model)
+    return jobs.batch_work(CONFIG, kinds.STEADY, dimension)
 
 
 def memory(wildcards, attempt):
@@ -54,7 +55,7 @@ def memory(wildcards, attempt):
 
 def memory_of_plate_mesh(wildcards, attempt):
     """Return the memory of a job that makes the mesh of the beam (MB), on one rank."""
-    work = cost.steady_work(CONFIG, "3d", CONFIG.steady.resolution)
+    work = cost.work_of(CONFIG, kinds.STEADY, "3d", CONFIG.steady.resolution)
     return attempt * cost.megabytes(work, COSTS.of(CONFIG.solver, "3d"), 1)
 
 

@@ -148,7 +148,7 @@ checkpoint refine_onset:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("analysis/onset.py", "analysis/summary.py"),
+        code=code("analysis/onset.py", "analysis/summary.py", "study/axes.py"),
         tolerance=CONFIG.sweep.onset_tolerance,
         points=CONFIG.sweep.onset_points,
     message:

@@ -1,11 +1,11 @@
-"""Where a sweep over k* goes unstable, and which k* to run next to know it better.
+"""Onset of the instability in a sweep, and the points to run next to know it better.
 
-A section is unstable below the onset and stable above it: k* is a stiffness over a dynamic
-pressure. The onset that matters to whoever comes from high k* (from low speed) is the *first*
-one met, so the bracket is
+A section is unstable below an onset over k* and stable above it: k* is a stiffness over a dynamic
+pressure. Over speed it is the other way round. The onset that matters to whoever comes from the
+stable side is the *first* one met, so the bracket over k* is
 
-    k_unstable = the highest k* that is unstable,
-    k_stable   = the lowest stable k* above it.
+    unstable = the highest k* that is unstable,
+    stable   = the lowest stable k* above it.
 
 Every k* above the bracket is then stable (or failed). A sequence that is not monotone, say
 unstable, stable, unstable, stable, gives the bracket of its upper change; stable k* further
@@ -13,52 +13,54 @@ down are islands and do not count.
 
 A failed run says neither: it is left out, and when it lies inside the bracket it is named
 there, since only repeating it can narrow that bracket.
+
+With further axes (the incidence) there is a bracket for each of their values.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
-#: Columns of :func:`onset_table`, in order.
-COLUMNS = ("model", "k_star_stable", "k_star_unstable", "failed_inside", "stable_below")
+from equisection.study.axes import K_STAR, Axis, Point, axes_among, onset_axis, onset_axis_among
+
 _SIGNIFICANT_DIGITS = 4
 
 
 @dataclass(frozen=True)
 class OnsetBracket:
-    """Bracket of the onset of instability.
+    """Bracket of the onset of instability along an axis.
 
     Attributes
     ----------
-    k_stable : float
-        Lowest k* known to be stable above the onset; NaN if no run above it is stable.
-    k_unstable : float
-        Highest k* known to be unstable; NaN if none is.
+    stable : float
+        Value nearest to the onset on its stable side; NaN if no run there is stable.
+    unstable : float
+        Unstable value nearest to the stable side; NaN if no run is unstable.
     failed : tuple of float
-        k* of failed runs inside the bracket (or beyond its known side if it is open).
+        Values of failed runs inside the bracket (or beyond its known side if it is open).
     islands : tuple of float
-        Stable k* below ``k_unstable``: the sequence is not monotone.
+        Stable values beyond ``unstable``: the sequence is not monotone.
     """
 
-    k_stable: float
-    k_unstable: float
+    stable: float
+    unstable: float
     failed: tuple[float, ...] = ()
     islands: tuple[float, ...] = ()
 
     @property
     def closed(self) -> bool:
         """Whether both sides are known."""
-        return not (math.isnan(self.k_stable) or math.isnan(self.k_unstable))
+        return not (math.isnan(self.stable) or math.isnan(self.unstable))
 
     @property
     def relative_width(self) -> float:
-        """(k_stable - k_unstable)/k_unstable; NaN if open."""
-        return (self.k_stable - self.k_unstable) / self.k_unstable
+        """abs(stable - unstable)/unstable; NaN if open."""
+        return abs(self.stable - self.unstable) / self.unstable
 
 
 def is_unstable(regime: str, twist_amplitude_deg: float, threshold_deg: float) -> bool | None:
@@ -87,53 +89,58 @@ def is_unstable(regime: str, twist_amplitude_deg: float, threshold_deg: float) -
 
 
 def onset_bracket(
-    k_star: Sequence[float],
+    values: Sequence[float],
     regimes: Sequence[str],
     twist_amplitude_deg: Sequence[float] | None = None,
     threshold_deg: float = 0.5,
+    axis: Axis = K_STAR,
 ) -> OnsetBracket:
     """Bracket the onset of one model.
 
     Parameters
     ----------
-    k_star : sequence of float, shape (n,)
-        k* of the runs (-), in any order. Of a k* that was run twice the unstable run counts.
+    values : sequence of float, shape (n,)
+        Values of the runs on the axis, in any order. Of one that was run twice the unstable run
+        counts.
     regimes : sequence of str, shape (n,)
         Their regimes, see `is_unstable`.
     twist_amplitude_deg : sequence of float, shape (n,), optional
         Their twist amplitudes (deg); without them every limit cycle is unstable.
     threshold_deg : float
         Amplitude (deg) above which a limit cycle is unstable.
+    axis : Axis
+        Axis, which says on what side of the onset a beam is stable.
     """
-    amplitudes = [math.nan] * len(k_star) if twist_amplitude_deg is None else twist_amplitude_deg
+    amplitudes = [math.nan] * len(values) if twist_amplitude_deg is None else twist_amplitude_deg
     states = [
-        (float(k), is_unstable(regime, amplitude, threshold_deg))
-        for k, regime, amplitude in zip(k_star, regimes, amplitudes, strict=True)
+        (float(value), is_unstable(regime, amplitude, threshold_deg))
+        for value, regime, amplitude in zip(values, regimes, amplitudes, strict=True)
     ]
-    unstable = {k for k, state in states if state is True}
-    stable = {k for k, state in states if state is False} - unstable
-    k_unstable = max(unstable, default=math.nan)
-    above = stable if not unstable else {k for k in stable if k > k_unstable}
-    k_stable = min(above, default=math.nan)
-    low = -math.inf if math.isnan(k_unstable) else k_unstable
-    high = math.inf if math.isnan(k_stable) else k_stable
-    failed = {k for k, state in states if state is None} - unstable - stable
+    towards = axis.stability
+    unstable = {value for value, state in states if state is True}
+    stable = {value for value, state in states if state is False} - unstable
+    last = max(unstable, key=towards, default=math.nan)
+    above = stable if not unstable else {v for v in stable if towards(v) > towards(last)}
+    first = min(above, key=towards, default=math.nan)
+    low = -math.inf if math.isnan(last) else towards(last)
+    high = math.inf if math.isnan(first) else towards(first)
+    failed = {value for value, state in states if state is None} - unstable - stable
     return OnsetBracket(
-        k_stable=k_stable,
-        k_unstable=k_unstable,
-        failed=tuple(sorted(k for k in failed if low < k < high)),
+        stable=first,
+        unstable=last,
+        failed=tuple(sorted(value for value in failed if low < towards(value) < high)),
         islands=tuple(sorted(stable - above)),
     )
 
 
 def refinement_points(bracket: OnsetBracket, tolerance: float, count: int = 1) -> list[float]:
-    """Give the k* to run next: ``count`` values that divide the bracket evenly.
+    """Give the values to run next: ``count`` values that divide the bracket evenly.
 
     Parameters
     ----------
     bracket : OnsetBracket
     tolerance : float
-        Relative width (k_stable - k_unstable)/k_unstable that is narrow enough (-).
+        Relative width abs(stable - unstable)/unstable that is narrow enough (-).
     count : int
         Runs that go side by side.
 
@@ -145,15 +152,16 @@ def refinement_points(bracket: OnsetBracket, tolerance: float, count: int = 1) -
     """
     if not bracket.closed or bracket.relative_width <= tolerance:
         return []
-    middle = 0.5 * (bracket.k_unstable + bracket.k_stable)
+    low, high = sorted((bracket.unstable, bracket.stable))
+    middle = 0.5 * (low + high)
     # Each failed run may be in the way of one division; the next finer one goes around it.
     for parts in range(count + 1, count + 2 + len(bracket.failed)):
-        step = (bracket.k_stable - bracket.k_unstable) / parts
-        points = {_rounded(bracket.k_unstable + i * step) for i in range(1, parts)}
+        step = (high - low) / parts
+        points = {_rounded(low + i * step) for i in range(1, parts)}
         points -= set(bracket.failed)
-        inside = [k for k in points if bracket.k_unstable < k < bracket.k_stable]
+        inside = [value for value in points if low < value < high]
         if inside:
-            return sorted(sorted(inside, key=lambda k: abs(k - middle))[:count])
+            return sorted(sorted(inside, key=lambda value: abs(value - middle))[:count])
     return []
 
 
@@ -163,35 +171,75 @@ def _rounded(value: float) -> float:
 
 
 def bracket_of(summary: pd.DataFrame) -> OnsetBracket:
-    """Bracket the onset of the one model of a summary."""
+    """Bracket the onset of the one model of a summary, at one value on each further axis."""
+    axis = onset_axis_among(summary.columns)
     return onset_bracket(
-        summary["k_star"].tolist(),
+        summary[axis.name].tolist(),
         summary["regime"].tolist(),
         summary["twist_amplitude_deg"].tolist(),
+        axis=axis,
     )
 
 
+def next_points(summary: pd.DataFrame, tolerance: float, count: int) -> list[Point]:
+    """Return the points to run next of the one model of a summary, inside each bracket.
+
+    Parameters
+    ----------
+    summary
+        ``comparison/summary.csv``.
+    tolerance, count
+        As of :func:`refinement_points`.
+    """
+    axis = onset_axis_among(summary.columns)
+    return [
+        Point.at({**fixed, axis: value})
+        for _, fixed, runs in _sweeps(summary)
+        for value in refinement_points(bracket_of(runs), tolerance, count)
+    ]
+
+
 def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
-    """Return ``comparison/onset.csv``: the bracket of each model of a summary; none of no run."""
+    """Return ``comparison/onset.csv``: the bracket of each model of a summary; none of no run.
+
+    Its columns are the model, the values on the further axes of the study, the sides of the bracket
+    (``k_star_stable``, ``k_star_unstable``), ``failed_inside`` and ``stable_below``.
+    """
+    axes = axes_among(summary.columns)
+    axis = onset_axis(axes)
     rows = []
-    for model, runs in summary.groupby("model", sort=False):
+    for model, fixed, runs in _sweeps(summary):
         bracket = bracket_of(runs)
         rows.append(
             {
                 "model": model,
-                "k_star_stable": bracket.k_stable,
-                "k_star_unstable": bracket.k_unstable,
-                "failed_inside": " ".join(f"{k:g}" for k in bracket.failed),
-                "stable_below": " ".join(f"{k:g}" for k in bracket.islands),
+                **{further.name: value for further, value in fixed.items()},
+                f"{axis.name}_stable": bracket.stable,
+                f"{axis.name}_unstable": bracket.unstable,
+                "failed_inside": " ".join(f"{value:g}" for value in bracket.failed),
+                "stable_below": " ".join(f"{value:g}" for value in bracket.islands),
             }
         )
-    return pd.DataFrame(rows, columns=list(COLUMNS))
+    further = (one.name for one in axes if one is not axis)
+    sides = (f"{axis.name}_stable", f"{axis.name}_unstable")
+    names = ["model", *further, *sides, "failed_inside", "stable_below"]
+    return pd.DataFrame(rows, columns=names)
+
+
+def _sweeps(summary: pd.DataFrame) -> Iterator[tuple[str, dict[Axis, float], pd.DataFrame]]:
+    """Give model, values on the further axes, and runs of each sweep along the onset's axis."""
+    axes = axes_among(summary.columns)
+    further = [axis for axis in axes if axis is not onset_axis(axes)]
+    by = ["model", *(axis.name for axis in further)]
+    for key, runs in summary.groupby(by, sort=False):
+        model, *values = key
+        yield str(model), dict(zip(further, map(float, values), strict=True)), runs
 
 
 def with_speeds(onset: pd.DataFrame, k_star_given: float, speed: float) -> pd.DataFrame:
-    """Return the brackets with the speeds at which the beam as given has these k*.
+    """Return the brackets over k* with their speeds, or those over speed with their k*.
 
-    k* is a stiffness over a dynamic pressure, so the beam has the k* of the onset at
+    k* is a stiffness over a dynamic pressure, so the beam as given has the k* of the onset at
     V sqrt(k*_given/k*). The polar is taken to be the same at that speed, whose Reynolds number is
     another.
 
@@ -204,8 +252,10 @@ def with_speeds(onset: pd.DataFrame, k_star_given: float, speed: float) -> pd.Da
     speed
         V (m/s).
     """
-    return onset.assign(
-        k_star_given=k_star_given,
-        speed_stable=speed * np.sqrt(k_star_given / onset["k_star_stable"]),
-        speed_unstable=speed * np.sqrt(k_star_given / onset["k_star_unstable"]),
-    )
+    added = {}
+    for side in ("stable", "unstable"):
+        if f"k_star_{side}" in onset:
+            added[f"speed_{side}"] = speed * np.sqrt(k_star_given / onset[f"k_star_{side}"])
+        else:
+            added[f"k_star_{side}"] = k_star_given * (speed / onset[f"speed_{side}"]) ** 2
+    return onset.assign(k_star_given=k_star_given, **added)

@@ -1,16 +1,21 @@
-"""One line for each run: what it turned out to be, and what it cost."""
+"""Summary of the runs of a sweep: the verdict on each, and its cost."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-#: Columns of ``comparison/summary.csv``, in order; the attributes of a result they come from.
-COLUMNS = (
-    "model",
-    "k_star",
+from equisection.errors import ResultFileError
+from equisection.store.index import read_index
+from equisection.study.axes import K_STAR, Axis, Point, axes_of
+
+#: Columns of ``comparison/summary.csv`` after the model and the axes of the study: attributes of a
+#: result.
+QUANTITIES = (
     "regime",
     "mean_twist_deg",
     "mean_deflection_chords",
@@ -27,24 +32,65 @@ COLUMNS = (
 )
 
 
-def summarise(rows: Iterable[tuple[str, Mapping[str, Any]]]) -> pd.DataFrame:
-    """Return the summary, by model in the order given and k* ascending.
+def columns(axes: Sequence[Axis] = (K_STAR,)) -> tuple[str, ...]:
+    """Return the columns of ``comparison/summary.csv`` of a study over some axes, in order."""
+    return ("model", *(axis.name for axis in axes), *QUANTITIES)
+
+
+def summary_of(indices: Iterable[Path]) -> pd.DataFrame:
+    """Return the summary of the runs that some indices of results name.
+
+    Parameters
+    ----------
+    indices
+        Indices as a run has them: ``unsteady/<model>/<batch>.json``. The axes of the study are
+        those of the names of its cases.
+
+    Raises
+    ------
+    ResultFileError
+        An index cannot be read, or names what is no case.
+    """
+    runs = [
+        (index.parent.name, _point(index, name), attributes)
+        for index in indices
+        for name, attributes in read_index(index).items()
+    ]
+    rows = [(model, point.columns | attributes) for model, point, attributes in runs]
+    return summarise(rows, axes_of(point for _, point, _ in runs))
+
+
+def _point(index: Path, name: str) -> Point:
+    try:
+        return Point.named(name)
+    except ValueError as error:
+        raise ResultFileError(f"{index}: {error}; delete it and run again") from None
+
+
+def summarise(
+    rows: Iterable[tuple[str, Mapping[str, Any]]], axes: Sequence[Axis] = (K_STAR,)
+) -> pd.DataFrame:
+    """Return the summary, by model in the order given, then by ascending values on the axes.
 
     Parameters
     ----------
     rows
         Model and attributes of each result.
+    axes
+        Axes of the study.
     """
     frame = pd.DataFrame(
         [
-            {"model": model, **{name: _of(attributes, name) for name in COLUMNS[1:]}}
+            {"model": model}
+            | {axis.name: attributes.get(axis.name, math.nan) for axis in axes}
+            | {name: _of(attributes, name) for name in QUANTITIES}
             for model, attributes in rows
         ],
-        columns=list(COLUMNS),
+        columns=list(columns(axes)),
     )
     order = {model: number for number, model in enumerate(dict.fromkeys(frame["model"]))}
     return frame.sort_values(
-        ["model", "k_star"],
+        ["model", *(axis.name for axis in axes)],
         key=lambda column: column.map(order) if column.name == "model" else column,
     ).reset_index(drop=True)
 

@@ -32,7 +32,6 @@ from pydantic import (
     model_serializer,
     model_validator,
 )
-from scipy.linalg import eigh
 
 from equisection.conventions import dynamic_pressure
 from equisection.errors import EquisectionError, ReductionError
@@ -219,8 +218,8 @@ class Section(BaseModel):
 
         Those of det(K - omega^2 M) = 0: coupled where S is not 0.
         """
-        squares = eigh(self.stiffness_matrix, self.mass_matrix, eigvals_only=True)
-        return np.asarray(np.sqrt(squares), dtype=np.float64)
+        squares = np.linalg.eigvals(np.linalg.solve(self.mass_matrix, self.stiffness_matrix))
+        return np.asarray(np.sqrt(np.sort(squares.real)), dtype=np.float64)
 
     def require_in_flow(self) -> None:
         """Refuse a section in SI units where one without units is wanted.

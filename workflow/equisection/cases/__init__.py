@@ -11,7 +11,6 @@ from equisection.cases.case import (
     UnsteadyCase,
 )
 from equisection.cases.case_file import (
-    ENDS,
     are_alike,
     canonical,
     case_hash,
@@ -19,13 +18,17 @@ from equisection.cases.case_file import (
     read_cases,
     write_cases,
 )
+from equisection.cases.kinds import FREE, KINDS, STEADY, Kind, kind_of, point_of
 
 __all__ = [
-    "ENDS",
+    "FREE",
+    "KINDS",
+    "STEADY",
     "BeamModes",
     "Case",
     "EndCriteria",
     "Geometry",
+    "Kind",
     "Medium",
     "SolverBlock",
     "SteadyCase",
@@ -34,6 +37,8 @@ __all__ = [
     "canonical",
     "case_hash",
     "history_hash",
+    "kind_of",
+    "point_of",
     "read_cases",
     "write_cases",
 ]

@@ -50,10 +50,14 @@ class Medium(Block):
     dynamic_viscosity: float  # Pa s
 
 
-class SteadyCase(Block):
-    """Rigid section or beam at one incidence."""
+class Case(Block):
+    """Base of the cases of every kind.
 
-    kind: Literal["steady"] = "steady"
+    ``kind`` is a word of its own in each class, by which a case file is read
+    (:mod:`equisection.cases.kinds`).
+    """
+
+    kind: str
     schema_version: int = SCHEMA_VERSION
     dimension: Literal["2d", "3d"]
     incidence_deg: float
@@ -61,6 +65,22 @@ class SteadyCase(Block):
     geometry: Geometry
     medium: Medium
     solver: SolverBlock
+
+    @property
+    def longest(self) -> float | None:
+        """Longest time that its history may take (c/V); None of a case without one."""
+        return None
+
+    @property
+    def not_run(self) -> str:
+        """Reason for which no solver runs it; empty for a case that is run."""
+        return ""
+
+
+class SteadyCase(Case):
+    """Rigid section or beam at one incidence."""
+
+    kind: Literal["steady"] = "steady"
 
 
 class BeamModes(Block):
@@ -94,26 +114,29 @@ class EndCriteria(Block):
     periods: int
 
 
-class UnsteadyCase(Block):
+class UnsteadyCase(Case):
     """Free section (`2d`) or free beam (`3d`), released from the rigid steady state."""
 
     kind: Literal["unsteady"] = "unsteady"
-    schema_version: int = SCHEMA_VERSION
-    dimension: Literal["2d", "3d"]
     k_star: float  # structural, uncorrected
-    incidence_deg: float
-    resolution: str
-    geometry: Geometry
-    medium: Medium
     section: Section | None = None  # in its flow; the corrected one in `2d-corrected`
     beam: BeamModes | None = None
     duration: float  # c/V
     time_step: float  # c/V
     output_interval: float  # c/V
     criteria: EndCriteria
-    solver: SolverBlock
     refusal: str = ""  # why there is no structure to move; such a case is not run
     diverges: bool = False  # the refusal is a static divergence, which is an instability
+
+    @property
+    def longest(self) -> float:
+        """Longest time that its history may take (c/V)."""
+        return self.duration
+
+    @property
+    def not_run(self) -> str:
+        """Reason for which there is no structure to move; empty for a case that is run."""
+        return self.refusal
 
     @model_validator(mode="after")
     def _one_structure(self) -> UnsteadyCase:
@@ -123,6 +146,3 @@ class UnsteadyCase(Block):
         if getattr(self, wanted) is None or (self.section is None) == (self.beam is None):
             raise ValueError(f"a case of dimension {self.dimension} holds '{wanted}' alone")
         return self
-
-
-Case = SteadyCase | UnsteadyCase

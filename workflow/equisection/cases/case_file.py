@@ -13,11 +13,12 @@ import math
 from collections.abc import Mapping
 from functools import reduce
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-from pydantic import Field, TypeAdapter, ValidationError
+from pydantic import ValidationError
 
-from equisection.cases.case import SCHEMA_VERSION, Case, UnsteadyCase
+from equisection.cases.case import SCHEMA_VERSION, Case
+from equisection.cases.kinds import kind_named, kind_of
 from equisection.errors import CaseFileError
 from equisection.files import require_plain_names, write_text
 
@@ -27,10 +28,6 @@ SIGNIFICANT_DIGITS = 8
 #: Relative difference of two numbers up to which they ask for the same: a fifth of what the loads
 #: of a converged steady run, and with them the factors of a correction, are known to.
 ALIKE = 1e-4
-#: What decides the end of an unsteady case, and nothing before it.
-ENDS = {"criteria", "duration"}
-
-_CASE: TypeAdapter[Case] = TypeAdapter(Annotated[Case, Field(discriminator="kind")])
 
 
 def canonical(case: Case) -> str:
@@ -43,13 +40,13 @@ def case_hash(case: Case) -> str:
     return hashlib.sha256(canonical(case).encode()).hexdigest()
 
 
-def history_hash(case: UnsteadyCase) -> str:
+def history_hash(case: Case) -> str:
     """Return the SHA-256 of what decides the history of a case: all but when it is to end.
 
-    Cases that differ in their criteria and in the longest duration alone have the same history,
-    one of them more of it than the other.
+    Cases that differ in what ends them alone have the same history, one of them more of it than
+    the other.
     """
-    values = _rounded(case.model_dump(mode="json", exclude=ENDS))
+    values = _rounded(case.model_dump(mode="json", exclude=set(kind_of(case).ends)))
     return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()
 
 
@@ -114,7 +111,7 @@ def read_cases(path: Path) -> dict[str, Case]:
     try:
         shared, entries = document["shared"], document["cases"]
         require_plain_names(entries)
-        return {name: _CASE.validate_python(_merged(shared, entries[name])) for name in entries}
+        return {name: _case(_merged(shared, entries[name])) for name in entries}
     except (KeyError, TypeError, AttributeError):
         raise CaseFileError(
             f"{path}: 'shared' and 'cases' with a case under each name are needed. "
@@ -124,8 +121,12 @@ def read_cases(path: Path) -> dict[str, Case]:
         problem = error.errors()[0]
         where = ".".join(str(part) for part in problem["loc"])
         raise CaseFileError(f"{path}: {where}: {problem['msg']}; delete it and run again") from None
-    except ValueError as error:
+    except (CaseFileError, ValueError) as error:
         raise CaseFileError(f"{path}: {error}; delete it and run again") from None
+
+
+def _case(values: dict[str, Any]) -> Case:
+    return kind_named(values["kind"]).case.model_validate(values)
 
 
 def _common(first: dict[str, Any], second: dict[str, Any]) -> dict[str, Any]:

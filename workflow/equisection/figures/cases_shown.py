@@ -15,13 +15,10 @@ from pathlib import Path
 import pandas as pd
 
 from equisection.errors import ResultFileError
-from equisection.study.plan import case_name, k_star_of
+from equisection.study.axes import K_STAR, Axis, Point, onset_axis, onset_axis_among
 
 SECTION_LETTERS = ("A", "B", "C")
 BEAM_LETTERS = ("D", "E", "F")
-
-#: Relative difference of k* below which a name and a number mean the same case.
-_SAME = 1e-5
 
 
 @dataclass(frozen=True)
@@ -32,24 +29,27 @@ class ShownCase:
     ----------
     letter : str
         ``A`` to ``F``.
-    k_star : float
-        NaN if there is no such case.
+    value : float
+        Its value on the axis of the onset; NaN if there is no such case.
     regime : str
         Its regime, or why there is no such case.
     mean_twist_deg, mean_deflection_chords : float
         Its means (NaN if there is none).
+    axis : Axis
+        Axis of the onset.
     """
 
     letter: str
-    k_star: float
+    value: float
     regime: str
     mean_twist_deg: float = math.nan
     mean_deflection_chords: float = math.nan
+    axis: Axis = K_STAR
 
     @property
     def exists(self) -> bool:
         """Whether there is such a case."""
-        return not math.isnan(self.k_star)
+        return not math.isnan(self.value)
 
     @property
     def has_mean(self) -> bool:
@@ -73,51 +73,53 @@ def cases_shown(
     """
     runs = summary[(summary["model"] == model) & (summary["regime"] != "failed")]
     bracket = onset[onset["model"] == model]
-    unstable = float(bracket["k_star_unstable"].iloc[0]) if len(bracket) else math.nan
-    stable = float(bracket["k_star_stable"].iloc[0]) if len(bracket) else math.nan
-    stiffest = float(runs["k_star"].max()) if len(runs) else math.nan
+    axis = onset_axis_among(summary.columns)
+    unstable, stable = (
+        float(bracket[f"{axis.name}_{side}"].iloc[0]) if len(bracket) else math.nan
+        for side in ("unstable", "stable")
+    )
+    stiffest = max(map(float, runs[axis.name]), key=axis.stability, default=math.nan)
     nothing = "every run failed" if runs.empty else ""
     return [
-        _case(runs, letters[0], unstable, nothing or "no run is unstable"),
-        _case(runs, letters[1], stable, nothing or "no run above the onset is stable"),
-        _case(runs, letters[2], stiffest, nothing),
+        _case(runs, axis, letters[0], unstable, nothing or "no run is unstable"),
+        _case(runs, axis, letters[1], stable, nothing or "no run above the onset is stable"),
+        _case(runs, axis, letters[2], stiffest, nothing),
     ]
 
 
-def _case(runs: pd.DataFrame, letter: str, k_star: float, otherwise: str) -> ShownCase:
-    found = runs[(runs["k_star"] - k_star).abs() <= _SAME * abs(k_star)]
+def _case(runs: pd.DataFrame, axis: Axis, letter: str, value: float, otherwise: str) -> ShownCase:
+    found = runs[axis.same(runs[axis.name], value)]
     if found.empty:
-        return ShownCase(letter, math.nan, otherwise)
+        return ShownCase(letter, math.nan, otherwise, axis=axis)
     run = found.iloc[0]
     return ShownCase(
         letter,
-        float(run["k_star"]),
+        float(run[axis.name]),
         str(run["regime"]),
         float(run["mean_twist_deg"]),
         float(run["mean_deflection_chords"]),
+        axis,
     )
 
 
 def results_of(paths: Sequence[Path], model: str) -> dict[float, Path]:
-    """Return the result files of a model (in the folder of its name) by their k*."""
-    return {k_star_of(path.stem): path for path in paths if path.parent.name == model}
+    """Return the result files of a model (in the folder of its name) along the onset's axis."""
+    points = {Point.named(path.stem): path for path in paths if path.parent.name == model}
+    return {point[onset_axis(point.axes)]: path for point, path in points.items()}
 
 
-def result_at(results: Mapping[float, Path], k_star: float) -> Path:
-    """Return the result file of a k*.
+def result_at(results: Mapping[float, Path], value: float, axis: Axis = K_STAR) -> Path:
+    """Return the result file of a value on the onset's axis.
 
     Raises
     ------
     ResultFileError
-        No result is named by this k*.
+        No result is named by this value.
     """
-    named = results.get(k_star_of(case_name(k_star)))
-    if named is not None:
-        return named
-    nearest = min(results, key=lambda k: abs(k - k_star), default=math.nan)
-    if not abs(nearest - k_star) <= _SAME * k_star:
+    nearest = min(results, key=lambda known: abs(known - value), default=math.nan)
+    if not axis.same(nearest, value):
         raise ResultFileError(
-            f"no result for k* = {k_star:g} among the {len(results)} given; summary.csv is not of "
-            "this sweep: delete it and run again"
+            f"no result for {axis.symbol} = {value:g} among the {len(results)} given; summary.csv "
+            "is not of this sweep: delete it and run again"
         )
     return results[nearest]

@@ -63,7 +63,6 @@ def read_history(path: Path, i_star: float) -> History:
 class Extent:
     """Least and largest twist (deg) and deflection (chords) of the tip in the verdict's window."""
 
-    k_star: float
     twist_deg: tuple[float, float]
     deflection_chords: tuple[float, float]
 
@@ -75,7 +74,6 @@ def extent_from_dataset(run: xr.Dataset) -> Extent:
     twist = np.degrees(run["tip_twist"].values[window])
     deflection = run["tip_deflection"].values[window] / float(run.attrs["chord"])
     return Extent(
-        float(run.attrs["k_star"]),
         (float(twist.min()), float(twist.max())),
         (float(deflection.min()), float(deflection.max())),
     )

@@ -11,6 +11,7 @@ from equisection.figures.models import LOOKS
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.panels import letter, say
 from equisection.figures.style import DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.study.axes import Axis, onset_axis_among
 
 #: Symbols and units of the panels, by the columns of both tables.
 _QUANTITIES = {
@@ -35,10 +36,11 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, *, is_paper_case: bool) ->
     """
     figure = Figure(figsize=(PAGE_WIDTH, 3.4))
     panels = figure.subplots(1, 2)
+    along = onset_axis_among(summary.columns)
     for axes, place, (name, (title, label)) in zip(panels, "ab", _QUANTITIES.items(), strict=True):
-        axes.set(xlabel="$k^*$", ylabel=label)
+        axes.set(xlabel=along.label, ylabel=label)
         letter(axes, place, title)
-        _over_k_star(axes, summary, linear, name)
+        _over_study(axes, summary, linear, name, along)
         if is_paper_case:
             axes.axvline(_PAPER_ONSET, color=GREY, linewidth=0.8, linestyle=":")
     entries = {
@@ -56,7 +58,9 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, *, is_paper_case: bool) ->
     return figure
 
 
-def _over_k_star(axes: Axes, summary: pd.DataFrame, linear: pd.DataFrame, name: str) -> None:
+def _over_study(
+    axes: Axes, summary: pd.DataFrame, linear: pd.DataFrame, name: str, along: Axis
+) -> None:
     known = summary[np.isfinite(summary[name].astype(float)) & (summary["regime"] != "failed")]
     if known.empty and linear.empty:
         say(axes, f"No run has a {_QUANTITIES[name][0]}.")
@@ -65,7 +69,7 @@ def _over_k_star(axes: Axes, summary: pd.DataFrame, linear: pd.DataFrame, name: 
     for model, runs in known.groupby("model", sort=False):
         look = LOOKS[str(model)]
         axes.plot(
-            runs["k_star"],
+            runs[along.name],
             runs[name],
             color=look.colour,
             linestyle=look.line,
@@ -76,7 +80,7 @@ def _over_k_star(axes: Axes, summary: pd.DataFrame, linear: pd.DataFrame, name: 
         linear.groupby(["reduction", "motion"], sort=False), start=1
     ):
         axes.plot(
-            rows["k_star"],
+            rows[along.name],
             rows[name],
             color=GREY,
             linestyle=DASHES[number],

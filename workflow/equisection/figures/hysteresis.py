@@ -56,7 +56,7 @@ def read_loops(
     cases = cases_shown(summary, onset, model, SECTION_LETTERS)[:2]
     files = results_of(results, model)
     histories = {
-        case.letter: read_history(result_at(files, case.k_star), i_star)
+        case.letter: read_history(result_at(files, case.value, case.axis), i_star)
         for case in cases
         if case.exists
     }
@@ -74,7 +74,7 @@ def draw(loops: Loops) -> Figure:
         title = name
         if case and case.exists and loops.model:
             label = LOOKS[loops.model].label
-            title = f"{name}: {label}, $k^*$ = {case.k_star:g}, {in_words(case.regime)}"
+            title = f"{name}: {label}, {case.axis.on_paper(case.value)}, {in_words(case.regime)}"
         letter(top, "ab"[column], title)
         letter(bottom, "cd"[column], f"{name}, phase portrait")
         if case is None or history is None or history.time.size < 3:

@@ -14,6 +14,7 @@ from equisection.figures.origin import add_provenance
 from equisection.figures.panels import letter
 from equisection.figures.style import GREY, PAGE_WIDTH
 from equisection.motion.release_judgement import ReleaseJudgement
+from equisection.study.axes import K_STAR
 
 #: Quantities of the panels, with symbol and unit.
 _QUANTITIES = {
@@ -50,7 +51,7 @@ def draw(
     models = list(dict.fromkeys(_model(judgement) for _, judgement in judgements))
     for axes, place, name in zip(panels, "abcde", _QUANTITIES, strict=False):
         letter(axes, place)
-        axes.set(xlabel="$k^*$", ylabel=_QUANTITIES[name])
+        axes.set(xlabel=K_STAR.label, ylabel=_QUANTITIES[name])
         for number, model in enumerate(models):
             chosen = [(use, j) for use, j in judgements if _model(j) == model]
             _releases(axes, chosen, name, number, fitted_to)

@@ -30,6 +30,7 @@ from equisection.figures.models_shown import beam_model, section_model
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.panels import in_words, letter, say
 from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.study.axes import Axis, onset_axis_among
 
 #: Where twist and deflection are: where the first mode of each is largest, at a free tip or inside.
 AT_THE_TIP, WHERE_LARGEST = "of the tip", "where it is largest"
@@ -70,7 +71,7 @@ class Response:
     histories
         Histories by the letters of the cases.
     extents
-        Between what values the section moves, at each k* at which its motion is bounded.
+        Range of the section's motion by the value on the axis of the onset, where it is bounded.
     place
         Where along the beam twist and deflection are, in words.
     reduction
@@ -81,7 +82,7 @@ class Response:
     onset: pd.DataFrame
     cases: Mapping[str, Sequence[ShownCase]] = field(default_factory=dict)
     histories: Mapping[str, History] = field(default_factory=dict)
-    extents: Sequence[Extent] = ()
+    extents: Mapping[float, Extent] = field(default_factory=dict)
     place: str = AT_THE_TIP
     reduction: str = "consistent"
 
@@ -103,7 +104,7 @@ def read_response(
     models = list(dict.fromkeys(summary["model"]))
     cases: dict[str, list[ShownCase]] = {}
     histories: dict[str, History] = {}
-    extents: list[Extent] = []
+    extents: dict[float, Extent] = {}
     section, beam = section_model(models), beam_model(models)
     for model, letters in ((section, SECTION_LETTERS), (beam, BEAM_LETTERS)):
         if model is None:
@@ -111,15 +112,16 @@ def read_response(
         files = results_of(results, model)
         cases[model] = cases_shown(summary, onset, model, letters)
         histories |= {
-            case.letter: read_history(result_at(files, case.k_star), i_star)
+            case.letter: read_history(result_at(files, case.value, case.axis), i_star)
             for case in cases[model]
             if case.exists
         }
         if model == section:
             bounded = summary[(summary["model"] == model) & summary["regime"].isin(_BOUNDED)]
             apart = -(-len(bounded) // MOST_EXTENTS) or 1
-            k_stars = bounded["k_star"].sort_values().iloc[::apart]
-            extents = [read_extent(result_at(files, k_star)) for k_star in k_stars]
+            axis = onset_axis_among(summary.columns)
+            values = bounded[axis.name].sort_values().iloc[::apart]
+            extents = {value: read_extent(result_at(files, value, axis)) for value in values}
     return Response(summary, onset, cases, histories, extents, place, reduction)
 
 
@@ -154,7 +156,8 @@ def draw(response: Response) -> Figure:
 def _means(axes: Axes, response: Response, name: str) -> None:
     """Draw the mean of one quantity over k*, with the bracket of the onset."""
     summary = response.summary
-    axes.set(xlabel="$k^*$", ylabel=_QUANTITIES[name].replace("{place}", response.place))
+    along = onset_axis_among(summary.columns)
+    axes.set(xlabel=along.label, ylabel=_QUANTITIES[name].replace("{place}", response.place))
     if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
         say(axes, "No run of the sweep has a mean: every one failed or diverged.")
         return
@@ -165,10 +168,10 @@ def _means(axes: Axes, response: Response, name: str) -> None:
         look = LOOKS[str(model)]
         there = runs[runs[name].notna() & (runs["regime"] != "failed")]
         bounded = there["mean_known"] == 1
-        axes.plot(there["k_star"], there[name], color=look.colour, linestyle=look.line)
+        axes.plot(there[along.name], there[name], color=look.colour, linestyle=look.line)
         for chosen, filled in ((there[bounded], True), (there[~bounded], False)):
             axes.plot(
-                chosen["k_star"],
+                chosen[along.name],
                 chosen[name],
                 color=look.colour,
                 linestyle="none",
@@ -176,7 +179,7 @@ def _means(axes: Axes, response: Response, name: str) -> None:
                 markevery=1 + len(there) // _MOST_MARKERS,
                 markerfacecolor=look.colour if filled else "white",
             )
-        for marker, without in _without_mean(runs).items():
+        for marker, without in _without_mean(runs, along).items():
             axes.plot(
                 without,
                 np.zeros(len(without)),
@@ -201,34 +204,37 @@ def _brackets(response: Response) -> list[tuple[Look, float, float, str]]:
     Those of the section and of the beam, as far as both sides are known; one for both if they
     are the same.
     """
-    closed = response.onset.dropna(subset=["k_star_stable", "k_star_unstable"])
+    axis = onset_axis_among(response.summary.columns)
+    sides = [f"{axis.name}_unstable", f"{axis.name}_stable"]
+    closed = response.onset.dropna(subset=sides)
     found = []
     for model, grey in zip(response.cases, (FAINT_GREY, LIGHT_GREY), strict=False):
-        for row in closed[closed["model"] == model].itertuples():
-            found.append((LOOKS[model], float(row.k_star_unstable), float(row.k_star_stable), grey))
+        for unstable, stable in closed.loc[closed["model"] == model, sides].values:
+            found.append((LOOKS[model], float(unstable), float(stable), grey))
     if len(found) == 2 and found[0][1:3] == found[1][1:3]:
         label = f"{found[0][0].label} and {found[1][0].label}"
         return [(replace(found[1][0], label=label), *found[1][1:])]
     return found
 
 
-def _without_mean(runs: pd.DataFrame) -> dict[str, list[float]]:
-    """Return the k* of runs that have no mean, by the mark that stands for them on the axis."""
+def _without_mean(runs: pd.DataFrame, along: Axis) -> dict[str, list[float]]:
+    """Return the places of runs that have no mean, by their mark on the axis."""
     failed = runs["regime"] == "failed"
     diverged = ~failed & runs["mean_twist_deg"].isna()
-    marks = {_FAILED: runs.loc[failed, "k_star"], _DIVERGED: runs.loc[diverged, "k_star"]}
-    return {mark: list(k_star) for mark, k_star in marks.items() if len(k_star)}
+    marks = {_FAILED: runs.loc[failed, along.name], _DIVERGED: runs.loc[diverged, along.name]}
+    return {mark: list(places) for mark, places in marks.items() if len(places)}
 
 
 def _extent(axes: Axes, response: Response, name: str) -> None:
     """Shade between what values the section moves."""
     if len(response.extents) < 2:
         return
-    extents = sorted(response.extents, key=lambda extent: extent.k_star)
+    values = sorted(response.extents)
+    extents = [response.extents[value] for value in values]
     ranges = [e.twist_deg if name == "mean_twist_deg" else e.deflection_chords for e in extents]
     low, high = zip(*ranges, strict=True)
     axes.fill_between(
-        [extent.k_star for extent in extents],
+        values,
         low,
         high,
         **_EXTENT,
@@ -239,8 +245,8 @@ def _letters(axes: Axes, cases: Sequence[ShownCase], name: str) -> None:
     """Mark the cases whose histories are shown; those too close to tell apart share a mark."""
     low, high = axes.get_xlim()
     groups: list[list[ShownCase]] = []
-    for case in sorted((c for c in cases if c.has_mean), key=lambda c: c.k_star):
-        if groups and case.k_star - groups[-1][0].k_star < _TOO_CLOSE * (high - low):
+    for case in sorted((c for c in cases if c.has_mean), key=lambda c: c.value):
+        if groups and case.value - groups[-1][0].value < _TOO_CLOSE * (high - low):
             groups[-1].append(case)
         else:
             groups.append([case])
@@ -248,7 +254,7 @@ def _letters(axes: Axes, cases: Sequence[ShownCase], name: str) -> None:
         above = same[0].letter in SECTION_LETTERS
         axes.annotate(
             ", ".join(sorted(case.letter for case in same)),
-            (same[0].k_star, getattr(same[0], name)),
+            (same[0].value, getattr(same[0], name)),
             xytext=(4, 15) if above else (-5, -15),
             textcoords="offset points",
             ha="center",
@@ -266,7 +272,7 @@ def _history(axes: Axes, place: str, case: ShownCase, history: History | None, l
         letter(axes, place, f"{case.letter}: {look.label}")
         say(axes, f"No case {case.letter}: {case.regime}.", 24)
         return
-    outcome = f"$k^*$ = {case.k_star:g}, {in_words(case.regime)}"
+    outcome = f"{case.axis.on_paper(case.value)}, {in_words(case.regime)}"
     letter(axes, place, f"{case.letter}: {look.label}\n{outcome}")
     if history.time.size == 0:
         say(axes, "The run left no history: it diverged.", 24)
@@ -288,7 +294,8 @@ def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
     if words:
         handles.append(_mark("o", f"still {' or '.join(words)}"))
     labels = {_FAILED: "failed", _DIVERGED: "diverged, no mean"}
-    handles += [_mark(mark, labels[mark]) for mark in _without_mean(response.summary)]
+    along = onset_axis_among(response.summary.columns)
+    handles += [_mark(mark, labels[mark]) for mark in _without_mean(response.summary, along)]
     handles += [
         Patch(color=grey, linewidth=0, label=f"onset bracket, {look.label}")
         for look, _, _, grey in _brackets(response)

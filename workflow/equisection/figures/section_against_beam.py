@@ -12,6 +12,7 @@ from equisection.figures.models import LOOKS
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.style import GREY, PAGE_WIDTH
+from equisection.study.axes import Axis, onset_axis_among
 
 #: Titles and axes of the panels, with the factor to what the axis shows.
 _QUANTITIES = {
@@ -40,8 +41,9 @@ def draw(table: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     for axes, place, name in zip(panels.flat, "abcd", _QUANTITIES, strict=True):
         title, label, factor = _QUANTITIES[name]
         letter(axes, place, title)
-        axes.set(xlabel="$k^*$", ylabel=label)
-        _over_k_star(axes, table, name, factor)
+        along = onset_axis_among(table.columns)
+        axes.set(xlabel=along.label, ylabel=label)
+        _over_study(axes, table, name, factor, along)
         _root_mean_squares(axes, over_all[name] * factor, _UNITS[name])
     legend_above(figure, panels.flat[0], columns=2)
     sources = summary[["solver", "resolution"]].drop_duplicates().values
@@ -49,16 +51,16 @@ def draw(table: pd.DataFrame, summary: pd.DataFrame) -> Figure:
     return figure
 
 
-def _over_k_star(axes: Axes, table: pd.DataFrame, name: str, factor: float) -> None:
+def _over_study(axes: Axes, table: pd.DataFrame, name: str, factor: float, along: Axis) -> None:
     known = table[np.isfinite(table[name].astype(float))]
     if known.empty:
-        say(axes, "No section and beam were run at one k*.")
+        say(axes, f"No section and beam were run at one {along.symbol}.")
         return
     axes.axhline(0.0, color=GREY, linewidth=0.8)
     for model, rows in known.groupby("model", sort=False):
         look = LOOKS[str(model)]
         axes.plot(
-            rows["k_star"],
+            rows[along.name],
             factor * rows[name],
             color=look.colour,
             linestyle=look.line,

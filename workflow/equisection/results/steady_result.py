@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -12,6 +13,9 @@ from equisection.results.plate_surface import PlateSurface
 from equisection.results.spent import Spent
 from equisection.results.surface import SectionSurface
 from equisection.results.tip_flow import TipFlow
+
+if TYPE_CHECKING:
+    from equisection.cases import SteadyCase
 
 
 @dataclass(frozen=True)
@@ -49,6 +53,11 @@ class SteadyResult:
     surface: SectionSurface | PlateSurface | None = None
     tip_flow: TipFlow | None = None
     spent: Spent | None = None
+
+    def of_case(self, case: SteadyCase) -> xr.Dataset:
+        """Return the data set that is written to the file of a case."""
+        del case
+        return self.to_dataset()
 
     def to_dataset(self) -> xr.Dataset:
         """Return the data set that is written to file."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
@@ -11,6 +12,9 @@ from numpy.typing import NDArray
 
 from equisection.results.spent import Spent
 from equisection.results.tip_flow import TipFlow
+
+if TYPE_CHECKING:
+    from equisection.cases import UnsteadyCase
 
 
 class Regime(StrEnum):
@@ -81,6 +85,10 @@ class UnsteadyResult:
     bending_loads: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     tip_flow: TipFlow | None = None
     spent: Spent | None = None
+
+    def of_case(self, case: UnsteadyCase) -> xr.Dataset:
+        """Return the data set that is written to the file of a case."""
+        return self.to_dataset(case.geometry.chord)
 
     def to_dataset(self, chord: float) -> xr.Dataset:
         """Return the data set that is written to file, lengths in metres of a chord ``chord``."""

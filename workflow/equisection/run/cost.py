@@ -16,17 +16,18 @@ from __future__ import annotations
 import math
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, cast
+from typing import Annotated
 
 import yaml
 from pydantic import Field, RootModel, ValidationError
 
+from equisection.cases import Kind
 from equisection.config import Config
 from equisection.config.groups import KeyGroup
 from equisection.errors import ConfigError
 from equisection.keys.values import NotNegative
 from equisection.solvers.registry import SOLVERS
-from equisection.solvers.work import Estimate, Work
+from equisection.solvers.work import Work
 
 #: The cost model of a clone, as seen from where the workflow is started.
 COST_MODEL = Path("workflow") / "profiles" / "cost.yaml"
@@ -107,16 +108,26 @@ def megabytes(work: Work, cost: CellCost, ranks: int) -> int:
     return math.ceil(PYTHON + RANK * ranks + MARGIN * work.cells * cost.memory_kb / 1024)
 
 
-def estimate(solver: str) -> Estimate:
-    """Return what tells the work of a solver's jobs."""
-    return cast(Estimate, import_module(SOLVERS[solver].work))
+def work_of(config: Config, kind: Kind, dimension: str, resolution: str, cases: int = 1) -> Work:
+    """Return the work of a job of the configured solver.
 
+    Parameters
+    ----------
+    config
+        The configuration.
+    kind, dimension, resolution, cases
+        Kind, dimension, resolution and number of the cases of the job.
 
-def steady_work(config: Config, dimension: str, resolution: str, cases: int = 1) -> Work:
-    """Return the work of a job of rigid cases of the configured solver."""
-    return estimate(config.solver).steady_work(config, dimension, resolution, cases)
-
-
-def unsteady_work(config: Config, dimension: str, cases: int = 1) -> Work:
-    """Return the work of a job of free cases of the configured solver."""
-    return estimate(config.solver).unsteady_work(config, dimension, cases)
+    Raises
+    ------
+    ConfigError
+        The solver does not tell the work of such cases.
+    """
+    estimate = getattr(import_module(SOLVERS[config.solver].work), kind.work_function, None)
+    if estimate is None:
+        raise ConfigError(
+            f"solver: '{config.solver}' does not tell the work of {kind.name} cases; "
+            f"{kind.work_function} is to be in {SOLVERS[config.solver].work}"
+        )
+    work: Work = estimate(config, dimension, resolution, cases)
+    return work

@@ -12,6 +12,7 @@ from typing import Any
 
 import yaml
 
+from equisection.cases.kinds import kind_named
 from equisection.errors import ResultFileError
 from equisection.files import write_text
 from equisection.results.failures import failure_of
@@ -92,7 +93,7 @@ def _measured(attributes: dict[str, Any]) -> tuple[tuple[str, str, str], float] 
     work, spent = work_done(case, attributes), float(attributes["cpu_seconds"])
     if work is None or spent <= 0:
         return None
-    term = "iteration" if case["kind"] == "steady" else "step"
+    term = kind_named(case["kind"]).cost_term
     amount = work.cells * (work.iterations + work.steps)
     return ("openfoam", case["dimension"], term), spent / amount
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from rich import box
 from rich.table import Table
 
+from equisection.cases import Kind
 from equisection.config import Config
 from equisection.run import cost
 from equisection.run.cost import CostModel
@@ -76,20 +77,18 @@ def solver_jobs(config: Config, model: CostModel) -> list[Jobs]:
     return found
 
 
-def steady_batch_work(config: Config, dimension: str) -> Work:
-    """Return the work of the job that runs all rigid cases of a dimension, or looks them up."""
+def batch_work(config: Config, kind: Kind, model: str) -> Work:
+    """Return the work of the job that runs a batch of a kind and model, or looks it up.
+
+    A batch is all rigid cases of a dimension, or the sweep of a model or a round of its refinement.
+    """
     if not config.compute:
         return LOOKING_UP
-    cases = len(plan.steady_cases(config))
-    return cost.steady_work(config, dimension, config.steady.resolution, cases)
-
-
-def unsteady_batch_work(config: Config, dimension: str) -> Work:
-    """Return the work of the job that runs the sweep of a model, or a round of refinement."""
-    if not config.compute:
-        return LOOKING_UP
-    cases = max(len(plan.sweep_cases(config)), config.sweep.onset_points)
-    return cost.unsteady_work(config, dimension, cases)
+    chosen = [one for one in plan.planned_cases(config) if (one.kind, one.model) == (kind, model)]
+    number = sum(len(one.names) for one in chosen)
+    most = max(number, config.sweep.onset_points) if kind.of_sweep else number
+    dimension = chosen[0].dimension
+    return cost.work_of(config, kind, dimension, config.steady.resolution, most)
 
 
 def table(jobs: list[Jobs]) -> Table:
@@ -112,22 +111,16 @@ def _hours(value: float) -> str:
 
 def _one_by_one(config: Config) -> Iterator[tuple[str, str, int, Work]]:
     """Give name, dimension, number and work of jobs of one case each."""
-    for dimension in plan.steady_dimensions(config):
-        for resolution in plan.resolutions(config):
-            number = len(plan.incidences(config, resolution))
-            work = cost.steady_work(config, dimension, resolution)
-            yield f"rigid {dimension}, {resolution}", dimension, number, work
-    refined = plan.refinement_rounds(config) * config.sweep.onset_points
-    for name in config.sweep.models:
-        dimension = plan.model(name, config.reduction).dimension
-        number = len(plan.sweep_cases(config)) + refined
-        yield name, dimension, number, cost.unsteady_work(config, dimension)
+    for one in plan.planned_cases(config):
+        work = cost.work_of(config, one.kind, one.dimension, one.resolution)
+        name = one.kind.model_of(one.model)
+        name = name if one.kind.of_sweep else f"{name}, {one.resolution}"
+        yield name, one.dimension, len(one.names) + one.refined, work
 
 
 def _batches(config: Config) -> Iterator[tuple[str, str, int, Work]]:
     """Give name, dimension, number and work of jobs of many cases each."""
-    for dimension in plan.steady_dimensions(config):
-        yield f"rigid {dimension}", dimension, 1, steady_batch_work(config, dimension)
-    for name in config.sweep.models:
-        dimension = plan.model(name, config.reduction).dimension
-        yield name, dimension, len(plan.batches(config)), unsteady_batch_work(config, dimension)
+    groups = {(one.kind, one.model): one.dimension for one in plan.planned_cases(config)}
+    for (kind, model), dimension in groups.items():
+        number = len(plan.batches(config)) if kind.of_sweep else 1
+        yield kind.model_of(model), dimension, number, batch_work(config, kind, model)

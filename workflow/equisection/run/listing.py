@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import yaml
 
-from equisection.cases import Case, case_hash, read_cases
+from equisection.cases import KINDS, Case, Kind, case_hash, read_cases
 from equisection.config import Config, load_config
 from equisection.errors import CaseFileError, ConfigError
 from equisection.study import plan
+from equisection.study.axes import Point
 
 
 @dataclass(frozen=True)
@@ -21,14 +21,17 @@ class Listed:
 
     Attributes
     ----------
+    kind
+        Kind of the case.
     model
-        Model of the sweep, or ``steady 2d`` and ``steady 3d``.
+        Model of the sweep, or kind and dimension, as in ``steady 2d``.
     place
         Folder of its result in that of the run.
     hash
         Hash of the case, computed from the file.
     """
 
+    kind: Kind
     model: str
     place: str
     file: Path
@@ -44,18 +47,17 @@ class Listed:
 
 
 def cases_of_run(run: Path) -> Iterator[Listed]:
-    """List the cases of a run, steady ones by resolution and incidence, then by model and k*.
+    """List the cases of a run: kind by kind, then by model, and along the axes of the study.
 
     A case that stands in several files, of a batch and of its own, is listed once; one that an
     earlier sweep of the run has left behind is not.
     """
-    for dimension in ("2d", "3d"):
-        yield from _cases_in(run, f"steady {dimension}", f"steady/{dimension}", _by_angle)
     earlier = _earlier_sweep(run)
-    for folder in sorted((run / "cases" / "unsteady").glob("*/")):
-        for listed in _cases_in(run, folder.name, f"unsteady/{folder.name}", _by_k_star):
-            if not earlier(listed):
-                yield listed
+    for kind in KINDS.values():
+        for folder in sorted((run / "cases" / kind.folder).glob("*/")):
+            for listed in _cases_in(run, kind, folder.name):
+                if not (kind.of_sweep and earlier(listed)):
+                    yield listed
 
 
 def config_of_run(run: Path) -> Config | None:
@@ -85,31 +87,23 @@ def _earlier_sweep(run: Path) -> Callable[[Listed], bool]:
     return lambda listed: listed.name not in wanted and listed.file.stat().st_mtime < written
 
 
-def _cases_in(
-    run: Path, model: str, place: str, order: Callable[[str], tuple[str, float]]
-) -> list[Listed]:
-    """Return the cases of the case files of a folder."""
+def _cases_in(run: Path, kind: Kind, part: str) -> list[Listed]:
+    """Return the cases of the case files of a folder, those of an unreadable name at the end."""
     found: dict[str, Listed] = {}
+    model, place = kind.model_of(part), f"{kind.folder}/{part}"
     for file in sorted((run / "cases" / place).glob("*.json")):
         if file.name.startswith("."):
             continue
         try:
             for name, case in read_cases(file).items():
-                found[name] = Listed(model, place, file, name, case_hash(case), case)
+                found[name] = Listed(kind, model, place, file, name, case_hash(case), case)
         except CaseFileError as problem:
-            found[file.stem] = Listed(model, place, file, file.stem, problem=str(problem))
-    return [found[name] for name in sorted(found, key=order)]
+            found[file.stem] = Listed(kind, model, place, file, file.stem, problem=str(problem))
+    return [found[name] for name in sorted(found, key=_order)]
 
 
-def _by_k_star(name: str) -> tuple[str, float]:
+def _order(name: str) -> tuple[bool, str, tuple[float, ...]]:
     try:
-        return "", plan.k_star_of(name)
+        return False, *Point.named(name).order
     except ValueError:
-        return name, math.inf
-
-
-def _by_angle(name: str) -> tuple[str, float]:
-    try:
-        return plan.angle_of(name)
-    except ValueError:
-        return name, math.inf
+        return True, name, ()

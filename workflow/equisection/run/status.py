@@ -1,4 +1,4 @@
-"""How far the sweep of a run is, read from the files that it leaves behind.
+"""Progress of the cases of a run, read from the files that it leaves behind.
 
 Nothing is asked of the workflow: cases, results, progress files and logs say it all, so it can
 be read while a sweep runs, after a crash, and on a copy of the folder.
@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from equisection.cases import UnsteadyCase
+from equisection.cases import Kind
 from equisection.errors import EquisectionError, ResultFileError
 from equisection.results.failures import failure_of
 from equisection.results.netcdf import read_attributes
@@ -22,7 +22,7 @@ from equisection.results.whole import is_whole
 from equisection.run.listing import Listed, cases_of_run, config_of_run
 from equisection.run.status_cost import CostOfRun
 from equisection.run.status_logs import LINES, JobsOfRun, last_lines, printable
-from equisection.store.index import read_index
+from equisection.store.index import indices_of_run, read_index
 from equisection.store.lock import Owner, living_owner
 from equisection.store.progress import Snapshot
 from equisection.store.result_store import ResultStore, runs_batches, task_of
@@ -50,12 +50,14 @@ class CaseStatus:
 
     Attributes
     ----------
+    kind
+        Kind of the case.
     model
-        Model of the sweep, or ``steady 2d`` and ``steady 3d``.
+        Model of the sweep, or kind and dimension, as in ``steady 2d``.
     case
         Name of the case, for instance ``k6.44``.
     regime
-        What a finished unsteady run turned out to be.
+        Verdict on a finished run, where its kind has one.
     job
         Progress of the job that runs it, or ran it last.
     owner
@@ -65,12 +67,13 @@ class CaseStatus:
     last_lines
         The last lines of the log of what failed or stopped.
     simulated, duration
-        How long its history is, and the longest that it may be (c/V); none of a steady case.
+        How long its history is, and the longest that it may be (c/V); none of a case without one.
     core_seconds_used, core_seconds_to_come
         What it took of all its processors, and what the cost model expects of the rest at most;
         none where nobody knows.
     """
 
+    kind: Kind
     model: str
     case: str
     state: State
@@ -84,11 +87,6 @@ class CaseStatus:
     core_seconds_used: float | None = None
     core_seconds_to_come: float | None = None
 
-    @property
-    def steady(self) -> bool:
-        """Whether it is a steady case."""
-        return self.model.startswith("steady")
-
 
 @dataclass(frozen=True)
 class RunStatus:
@@ -98,9 +96,9 @@ class RunStatus:
     entries: tuple[CaseStatus, ...]
     troubles: tuple[str, ...] = ()
 
-    def count(self, *, steady: bool) -> Counter[State]:
-        """Return how many cases are in each state."""
-        return Counter(entry.state for entry in self.entries if entry.steady is steady)
+    def count(self, kind: Kind) -> Counter[State]:
+        """Return how many cases of a kind are in each state."""
+        return Counter(entry.state for entry in self.entries if entry.kind == kind)
 
     def core_seconds_used(self) -> float:
         """Return what the results have taken, over all processors (s)."""
@@ -143,7 +141,7 @@ class _Indices:
     def __init__(self, run: Path) -> None:
         self._run = run
         self._of: dict[str, tuple[dict[str, Any], int]] = {}
-        for index in [*run.glob("steady/*/*.json"), *run.glob("unsteady/*/*.json")]:
+        for index in indices_of_run(run):
             try:
                 written, entries = index.stat().st_mtime_ns, read_index(index)
             except (OSError, ResultFileError):
@@ -179,11 +177,12 @@ class _Reader:
     def entry(self, listed: Listed) -> CaseStatus:
         """Return how far one case is."""
         error, log = self.jobs.error(listed.place, listed.file)
-        entry = CaseStatus(listed.model, listed.name, State.BROKEN, text=printable(listed.problem))
+        entry = CaseStatus(
+            listed.kind, listed.model, listed.name, State.BROKEN, text=printable(listed.problem)
+        )
         if listed.case is None:
             return entry
-        duration = listed.case.duration if isinstance(listed.case, UnsteadyCase) else None
-        entry = replace(entry, duration=duration)
+        entry = replace(entry, duration=listed.case.longest)
         fault = State.BROKEN, ""
         if (self._run / listed.result).exists():
             try:
@@ -237,7 +236,7 @@ class _Reader:
 
 
 def _finished(entry: CaseStatus, attributes: dict[str, Any]) -> CaseStatus:
-    """Return the entry of a result; a steady one has no regime, only perhaps a failure."""
+    """Return the entry of a result; one without a verdict has perhaps a failure."""
     failure = failure_of(attributes)
     reason = failure or str(attributes.get("reason", ""))
     return replace(

@@ -1,15 +1,15 @@
-"""What is to come of a run's cases, by the cost model, and what a job has taken so far."""
+"""Cost of the cases of a run that are to come, by the cost model."""
 
 from __future__ import annotations
 
 from functools import cache
 from pathlib import Path
 
+from equisection.cases import Kind
 from equisection.config import Config
 from equisection.errors import ConfigError
 from equisection.run import cost
 from equisection.run.listing import Listed
-from equisection.study.plan import angle_of
 
 
 class CostOfRun:
@@ -35,20 +35,15 @@ class CostOfRun:
         """Return what a whole case takes at most; none if configuration or model do not tell."""
         if listed.case is None:
             return None
-        steady = listed.case.kind == "steady"
-        resolution = angle_of(listed.name)[0] if steady else ""
-        return self._seconds(listed.case.solver.name, listed.case.dimension, resolution)
+        case = listed.case
+        return self._seconds(case.solver.name, listed.kind, case.dimension, case.resolution)
 
-    def _expected(self, solver: str, dimension: str, resolution: str) -> float | None:
+    def _expected(self, solver: str, kind: Kind, dimension: str, resolution: str) -> float | None:
         config = self._config
         if config is None or self._model is None or config.solver != solver:
             return None
         try:
-            work = (
-                cost.steady_work(config, dimension, resolution)
-                if resolution
-                else cost.unsteady_work(config, dimension)
-            )
+            work = cost.work_of(config, kind, dimension, resolution)
             return cost.seconds(work, self._model.of(solver, dimension))
         except (ConfigError, KeyError):  # no entry, or a resolution of an earlier configuration
             return None

@@ -12,6 +12,7 @@ from rich.table import Table
 
 from equisection.run.status import CaseStatus, RunStatus, State
 from equisection.run.status_words import remarks_of, simulated_of, state_of, summary, where_of
+from equisection.study.axes import Point
 
 #: Columns of the plain form.
 PLAIN_COLUMNS = (
@@ -61,7 +62,7 @@ def plain_lines(runs: Iterable[RunStatus]) -> list[str]:
 
 def print_status(console: Console, run: RunStatus) -> None:
     """Print the table of a run, what went wrong beside it, and its summary."""
-    shown = [entry for entry in run.entries if not entry.steady or entry.state != State.DONE]
+    shown = [e for e in run.entries if e.kind.has_history or e.state != State.DONE]
     if len(shown) > LONGEST_TABLE:
         of_no_note = (State.DONE, State.WAITING)
         listed = [entry for entry in shown if entry.state not in of_no_note]
@@ -93,7 +94,7 @@ def _print_logs(console: Console, entries: list[CaseStatus]) -> None:
 def _table(title: str, entries: list[CaseStatus]) -> Table:
     table = Table(title=title, title_justify="left", title_style="bold", box=box.SIMPLE_HEAD)
     table.add_column("model", no_wrap=True)
-    table.add_column("k*", justify="right", no_wrap=True)
+    table.add_column(_heading(entries), justify="right", no_wrap=True)
     table.add_column("state", no_wrap=True)
     table.add_column("c/V", justify="right", no_wrap=True)
     table.add_column("remarks", overflow="fold")
@@ -104,13 +105,33 @@ def _table(title: str, entries: list[CaseStatus]) -> Table:
         style = "magenta" if entry.regime == "growing" else _STYLES[entry.state]
         table.add_row(
             entry.model if entry.model != before else "",
-            entry.case.removeprefix("k"),
+            _place(entry),
             f"[{style}]{state_of(entry)}[/{style}]",
             simulated_of(entry),
             escape(remarks_of(entry)),
         )
         before = entry.model
     return table
+
+
+def _heading(entries: Iterable[CaseStatus]) -> str:
+    """Return the axes along which the cases of the sweep are, the heading of their column."""
+    axes = [axis for entry in entries if (point := _point(entry)) for axis in point.axes]
+    return ", ".join(axis.heading for axis in dict.fromkeys(axes)) or "case"
+
+
+def _place(entry: CaseStatus) -> str:
+    """Return where a case of the sweep is along these axes, or the name of another case."""
+    point = _point(entry)
+    return ", ".join(f"{value:g}" for _, value in point.values) if point else entry.case
+
+
+def _point(entry: CaseStatus) -> Point | None:
+    """Return the point of a case of the sweep; none of a name that is none of it."""
+    try:
+        return Point.named(entry.case) if entry.kind.of_sweep else None
+    except ValueError:
+        return None
 
 
 def _iso(seconds: float | None) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 
+from equisection.cases.kinds import TIME
 from equisection.run.status import CaseStatus, RunStatus, State
 from equisection.store.progress import clock
 
@@ -69,13 +70,12 @@ def summary(run: RunStatus) -> str:
     if not run.entries:
         return f"{run.name}: no case has been written yet"
     parts = []
-    steady, sweep = run.count(steady=True), run.count(steady=False)
-    if steady:
-        parts.append(f"steady {_counts(steady)}")
-    if sweep:
-        regimes = Counter(e.regime for e in run.entries if e.state == State.DONE and e.regime)
+    for kind in dict.fromkeys(entry.kind for entry in run.entries):
+        of_kind = [entry for entry in run.entries if entry.kind == kind]
+        regimes = Counter(e.regime for e in of_kind if e.state == State.DONE and e.regime)
         details = ", ".join(f"{number} {regime}" for regime, number in regimes.items())
-        parts.append(f"sweep {_counts(sweep)}" + (f" ({details})" if details else ""))
+        counts = _counts(run.count(kind))
+        parts.append(f"{kind.title} {counts}" + (f" ({details})" if details else ""))
     parts.append(costs_of(run))
     end = end_of_what_runs(run)
     if end is not None:
@@ -102,12 +102,12 @@ def estimated_end(run: RunStatus) -> float | None:
     jobs = {
         entry.job.process: entry.job
         for entry in run.entries
-        if entry.state == State.RUNNING and entry.job and not entry.steady
+        if entry.state == State.RUNNING and entry.job and entry.kind.has_history
     }
     rates = [
         (job.done - job.first_done) / (job.updated - job.first_time)
         for job in jobs.values()
-        if job.unit == "c/V" and job.done > job.first_done and job.updated > job.first_time
+        if job.unit == TIME and job.done > job.first_done and job.updated > job.first_time
     ]
     if not waiting or not rates:
         return None

@@ -15,12 +15,13 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
+from equisection.cases import KINDS
 from equisection.errors import ResultFileError
 from equisection.provenance import file_hash
 from equisection.results.netcdf import read_attributes
 from equisection.run.listing import Listed, cases_of_run
 from equisection.run.status import find_runs
-from equisection.store.index import is_index, read_index
+from equisection.store.index import indices_of_run, read_index
 from equisection.store.made_from import FOLDER, ProvenanceRecord, read_record
 
 
@@ -68,7 +69,7 @@ class Verified:
 _CASE_CHANGED = "its case has changed since it was made; run again"
 #: What a run's figures and tables are, and what they are made of, apart from results of cases.
 _MADE = (
-    *("structure/*.nc", "steady/*.nc", "steady/*/*.json", "unsteady/*/*.json"),
+    *("structure/*.nc", "steady/*.nc"),
     *("comparison/*.csv", "tables/*.csv", "figures/*", "cases/*/*/*.json"),
 )
 
@@ -128,7 +129,8 @@ def verify_run(run: Path) -> Verified:
     for record in records:
         _check_inputs(record, found, seen)
     _spread(records, found)
-    there = {path.relative_to(run).as_posix() for part in _MADE for path in run.glob(part)}
+    kept = [*indices_of_run(run), *(path for part in _MADE for path in run.glob(part))]
+    there = {path.relative_to(run).as_posix() for path in kept}
     found.unrecorded = sorted(there - set(made))
     found.checked = len({name for name in {*seen, *there} if seen.get(name, True)})
     for record in records:
@@ -176,8 +178,9 @@ def _now(run: Path, name: str) -> str:
 
 def _left_behind(run: Path, record: ProvenanceRecord, listed: Mapping[str, Listed]) -> bool:
     """Tell whether a record is of a case of an earlier sweep whose files are gone."""
+    swept = tuple(f"{kind.folder}/" for kind in KINDS.values() if kind.of_sweep)
     return bool(record.outputs) and all(
-        name.startswith(("unsteady/", "cases/unsteady/"))
+        name.removeprefix("cases/").startswith(swept)
         and f"{name.removeprefix('cases/').rpartition('.')[0]}.nc" not in listed
         and not (run / name).exists()
         for name in record.outputs
@@ -193,9 +196,8 @@ def _check_cases(
 ) -> None:
     """Check each result against its case file, and each index against both."""
     indexed: dict[str, str] = {}
-    for pattern in ("steady/*/*.json", "unsteady/*/*.json"):
-        for path in sorted(run.glob(pattern)):
-            indexed |= _check_index(run, path, listed, found)
+    for path in indices_of_run(run):
+        indexed |= _check_index(run, path, listed, found)
     for name, case in listed.items():
         if case.problem:
             found.find(case.file.relative_to(run).as_posix(), Fault.BROKEN, case.problem)
@@ -215,8 +217,6 @@ def _check_index(
 ) -> dict[str, str]:
     """Check an index against the case files; return the hash of each case by result file."""
     index = path.relative_to(run)
-    if not is_index(index):
-        return {}
     try:
         entries = read_index(path)
     except ResultFileError as error:

@@ -14,7 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.cases import UnsteadyCase
+from equisection.cases import Case, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady_result import Regime, UnsteadyResult
 from equisection.verdict import Criteria, Verdict, assess, heave_grows, swings_grow
@@ -99,8 +99,9 @@ def judge(case: UnsteadyCase, tip: TipMotion, failure: str = "") -> dict[str, An
     }
 
 
-def refused(case: UnsteadyCase) -> UnsteadyResult:
+def refused(case: Case) -> UnsteadyResult:
     """Return the result of a case that has no structure to move: a regime without a history."""
+    assert isinstance(case, UnsteadyCase), "no other kind has cases that are not run"
     regime = Regime.GROWING if case.diverges else Regime.FAILED
     nothing = np.empty(0)
     return UnsteadyResult(
@@ -112,7 +113,7 @@ def refused(case: UnsteadyCase) -> UnsteadyResult:
         lift=nothing,
         moment=nothing,
         incidence=nothing,
-        verdict=_without_numbers(regime, case.refusal),
+        verdict=_without_numbers(regime, case.not_run),
     )
 
 

@@ -1,4 +1,4 @@
-"""How much a job has to do at most, by which memory and time are asked for.
+"""Upper bound on the work of a job, by which memory and time are asked for.
 
 A solver says it from the configuration alone, so that the graph is built on a fresh clone.
 """
@@ -31,12 +31,12 @@ class Work:
 
 
 class Estimate(Protocol):
-    """What a solver's module of its work offers."""
+    """Functions of a solver's module of its work, one for each kind of case that it runs."""
 
     def steady_work(self, config: Config, dimension: str, resolution: str, cases: int) -> Work:
         """Return the work of a job of rigid cases at a resolution."""
         ...
 
-    def unsteady_work(self, config: Config, dimension: str, cases: int) -> Work:
-        """Return the work of a job of free cases."""
+    def unsteady_work(self, config: Config, dimension: str, resolution: str, cases: int) -> Work:
+        """Return the work of a job of free cases at a resolution."""
         ...

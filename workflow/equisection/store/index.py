@@ -101,9 +101,20 @@ def result_files(indices: Sequence[Path]) -> list[Path]:
     return [result_file(index, name) for index in indices for name in read_index(index)]
 
 
+def indices_of_run(run: Path) -> list[Path]:
+    """Return the indices of results in the folder of a run, kind by kind."""
+    from equisection.cases import KINDS  # noqa: PLC0415, costly for the jobs that make no index
+
+    return [index for kind in KINDS for index in sorted((run / kind).glob("*/*.json"))]
+
+
 def is_index(path: Path) -> bool:
     """Tell whether a file, by its place in the folder of a run, is an index of results."""
-    return path.suffix == ".json" and path.parts[0] in ("steady", "unsteady")
+    if path.suffix != ".json" or len(path.parts) != 3:
+        return False
+    from equisection.cases import KINDS  # noqa: PLC0415, costly for the jobs that make no index
+
+    return path.parts[0] in KINDS
 
 
 def _plain(value: Any) -> Any:

@@ -11,11 +11,10 @@ from typing import Any
 
 import xarray as xr
 
-from equisection.cases import Case, SteadyCase, UnsteadyCase
+from equisection.cases import Case, kind_of, point_of
 from equisection.errors import SolverError
+from equisection.results.case_result import CaseResult
 from equisection.results.spent import Spent, cpu_seconds_so_far
-from equisection.results.steady_result import SteadyResult
-from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Solver
 from equisection.solvers.registry import solver_from_case
 from equisection.solvers.verdicts import refused
@@ -58,7 +57,8 @@ def run_cases(
     Returns
     -------
     dict
-        The attributes of each result by name: verdict, hash, provenance and cost.
+        The attributes of each result by name: its point in the study, verdict, hash, provenance
+        and cost.
 
     Raises
     ------
@@ -81,7 +81,7 @@ def run_cases(
         known |= _compute(group, results, progress_file, allocation)
     for name, task in tasks.items():
         publish(results.result(task), folder / f"{name}.nc")
-    return {name: known[task.hash] or {} for name, task in tasks.items()}
+    return {name: point_of(task.case) | (known[task.hash] or {}) for name, task in tasks.items()}
 
 
 def _alike(tasks: list[Task]) -> list[list[Task]]:
@@ -115,21 +115,17 @@ def _results(
     """Run cases of one solver; return the result of each by hash."""
     solver = solver_from_case(tasks[0].case.solver, allocation)
     wall, cpu = time.perf_counter(), cpu_seconds_so_far()
-    unit = "cases" if isinstance(tasks[0].case, SteadyCase) else "c/V"
     hashes = [task.hash for task in tasks]
     description = solver.describe(tasks[0].case.dimension)
-    with JobProgress(progress_file, hashes, description, unit) as progress:
+    with JobProgress(progress_file, hashes, description, kind_of(tasks[0].case).unit) as progress:
         results = _run(solver, [task.case for task in tasks], work, progress)
-    if len(results) != len(tasks):
-        raise SolverError(
-            f"solver '{solver.name}' returned {len(results)} results for {len(tasks)} cases"
-        )
     shared = Spent(
         cpu_seconds=(cpu_seconds_so_far() - cpu) / len(tasks),
         wall_seconds=(time.perf_counter() - wall) / len(tasks),
     )
     return {
-        task.hash: _dataset(task.case, result).assign_attrs(
+        task.hash: result.of_case(task.case).assign_attrs(
+            point_of(task.case),
             solver=solver.name,
             solver_version=solver.version,
             solver_description=solver.describe(task.case.dimension),
@@ -142,22 +138,22 @@ def _results(
 
 
 def _run(
-    solver: Solver, cases: list[Case], work: Path, progress: JobProgress
-) -> Sequence[SteadyResult | UnsteadyResult]:
-    steady = [case for case in cases if isinstance(case, SteadyCase)]
-    unsteady = [case for case in cases if isinstance(case, UnsteadyCase)]
-    if steady and unsteady:
-        raise SolverError("a job holds steady and unsteady cases; one kind is allowed")
-    if steady:
-        return solver.run_steady(steady, work, progress.update)
-    possible = [case for case in unsteady if not case.refusal]
-    ran = iter(solver.run_unsteady(possible, work, progress.update) if possible else [])
-    return [refused(case) if case.refusal else next(ran) for case in unsteady]
-
-
-def _dataset(case: Case, result: SteadyResult | UnsteadyResult) -> xr.Dataset:
-    if isinstance(result, SteadyResult):
-        return result.to_dataset().assign_attrs(incidence_deg=case.incidence_deg)
-    return result.to_dataset(case.geometry.chord).assign_attrs(
-        k_star=getattr(case, "k_star", float("nan"))
-    )
+    solver: Solver, cases: Sequence[Case], work: Path, progress: JobProgress
+) -> list[CaseResult]:
+    """Run cases of one kind, but for those that no solver runs."""
+    kinds = sorted({case.kind for case in cases})
+    if len(kinds) > 1:
+        raise SolverError(f"a job holds {' and '.join(kinds)} cases; one kind is allowed")
+    run = getattr(solver, kind_of(cases[0]).run_method, None)
+    if run is None:
+        raise SolverError(
+            f"solver '{solver.name}' runs no {kinds[0]} cases; take a solver that does"
+        )
+    possible = [case for case in cases if not case.not_run]
+    results = run(possible, work, progress.update) if possible else []
+    if len(results) != len(possible):
+        raise SolverError(
+            f"solver '{solver.name}' returned {len(results)} results for {len(possible)} cases"
+        )
+    ran = iter(results)
+    return [refused(case) if case.not_run else next(ran) for case in cases]

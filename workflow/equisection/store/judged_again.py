@@ -6,14 +6,14 @@ import math
 
 import xarray as xr
 
-from equisection.cases import UnsteadyCase
+from equisection.cases import Case, UnsteadyCase
 from equisection.solvers.verdicts import TipMotion, decided_at, is_decided, judge
 
 #: Costs of a run, which grow with its length.
 _COSTS = ("wall_seconds", "cpu_seconds")
 
 
-def judged_again(case: UnsteadyCase, known: xr.Dataset) -> xr.Dataset | None:
+def judged_again(case: Case, known: xr.Dataset) -> xr.Dataset | None:
     """Return the result of a case from a result with the same history.
 
     The history ends where the run would have ended: at the first look that finds a verdict, or at
@@ -29,8 +29,10 @@ def judged_again(case: UnsteadyCase, known: xr.Dataset) -> xr.Dataset | None:
     Returns
     -------
     Dataset or None
-        None where the known history is too short to tell.
+        None where the known history is too short to tell, or the case asks for no verdict.
     """
+    if not isinstance(case, UnsteadyCase):
+        return None
     time = known["time"].values
     last = float(time[-1]) if time.size else 0.0
     end = decided_at(case, tip_motion(known))

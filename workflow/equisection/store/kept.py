@@ -13,16 +13,16 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from equisection.cases import ENDS, Case, UnsteadyCase, are_alike, canonical
+from equisection.cases import KINDS, STEADY, Case, are_alike, canonical
+from equisection.cases.kinds import ends_of
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
 from equisection.results.failures import failure_of
 from equisection.results.netcdf import read_attributes
 
-#: Where a run has the results of its cases.
-_KINDS = ("steady", "unsteady")
-#: Where a run has the meshes of section and plate, which are results of no case.
-SECTION_MESH, PLATE_MESH = Path("steady/section_mesh.nc"), Path("steady/plate_mesh.nc")
+#: Meshes of section and plate in the folder of a run, which are results of no case.
+SECTION_MESH = Path(STEADY.folder, "section_mesh.nc")
+PLATE_MESH = Path(STEADY.folder, "plate_mesh.nc")
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class Kept:
 
     @property
     def end_time(self) -> float:
-        """Length of the history (c/V); 0 of a steady case."""
+        """Length of the history (c/V); 0 of a case without one."""
         return float(self.attributes.get("end_time", 0.0))
 
     @cached_property
@@ -47,13 +47,13 @@ class Kept:
         """Tell whether the case that it is of differs from this one by what is not known alone."""
         return are_alike(self.case, json.loads(canonical(case)))
 
-    def has_history_of(self, case: UnsteadyCase) -> bool:
+    def has_history_of(self, case: Case) -> bool:
         """Tell whether it differs from a case by that and by what ends it alone."""
         return are_alike(_without_end(self.case), _without_end(json.loads(canonical(case))))
 
 
 def _without_end(case: dict[str, Any]) -> dict[str, Any]:
-    return {key: value for key, value in case.items() if key not in ENDS}
+    return {key: value for key, value in case.items() if key not in ends_of(case)}
 
 
 def kept_results(folder: Path) -> list[Kept]:
@@ -80,7 +80,7 @@ def keep_results(run: Path, folder: Path) -> list[Path]:
         The run has no result of a case.
     """
     copies = []
-    for kind in _KINDS:
+    for kind in KINDS:
         for path in sorted((run / kind).rglob("*.nc")):
             attributes = _attributes(path)
             is_mesh = path in (run / SECTION_MESH, run / PLATE_MESH)

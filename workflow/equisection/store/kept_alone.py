@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from equisection.cases import ENDS, Case, UnsteadyCase, are_alike, canonical
+from equisection.cases import Case, are_alike, canonical, kind_of, point_of
+from equisection.cases.kinds import ends_of
 from equisection.store.kept import Kept, kept_results
 from equisection.store.result_store import ResultStore, publish, task_of
 
@@ -56,7 +57,7 @@ def answer_from_kept(cases: Mapping[str, Case], folder: Path, store: Path, reuse
             found = results.take(task, kept)
             found = found or results.judge_again(task, kept, kept_alone=True)
             if found is not None:
-                answers.found[name] = found
+                answers.found[name] = point_of(case) | found
                 publish(results.result(task), output)
                 break
         else:
@@ -67,7 +68,7 @@ def answer_from_kept(cases: Mapping[str, Case], folder: Path, store: Path, reuse
 
 def _shorter(case: Case, kept: Sequence[Kept]) -> list[Case]:
     """Return the case as it would be if it could take no longer than its longest history."""
-    if not isinstance(case, UnsteadyCase) or case.refusal:
+    if "duration" not in kind_of(case).ends or case.not_run:
         return []
     lengths = [one.end_time for one in kept if one.has_history_of(case)]
     return [case.model_copy(update={"duration": max(lengths)})] if lengths else []
@@ -76,7 +77,7 @@ def _shorter(case: Case, kept: Sequence[Kept]) -> list[Case]:
 def _why(case: Case, kept: Sequence[Kept], reuse: Path) -> str:
     """Return why nothing that is kept answers a case: in what the nearest of them differs."""
     wanted = json.loads(canonical(case))
-    same = ("kind", "dimension", "incidence_deg", "k_star")
+    same = ("kind", "dimension", *kind_of(case).point)
     near = [
         one
         for one in kept
@@ -95,7 +96,7 @@ def _differences(kept: Any, wanted: Any, key: str = "") -> list[str]:
         return [
             line
             for part in sorted(kept.keys() | wanted.keys())
-            if key or part not in ENDS
+            if key or part not in ends_of(wanted)
             for line in _differences(kept.get(part), wanted.get(part), f"{key}.{part}".strip("."))
         ]
     if are_alike(kept, wanted):

@@ -11,7 +11,7 @@ from pathlib import Path
 from equisection.errors import ResultFileError
 from equisection.files import TEMPORARY
 from equisection.results.whole import is_whole
-from equisection.store.index import read_index, result_file
+from equisection.store.index import indices_of_run, read_index, result_file
 
 
 def mend(run: Path) -> list[str]:
@@ -32,7 +32,7 @@ def mend(run: Path) -> list[str]:
     for path in run.glob("**/*.nc"):
         if not path.name.startswith(TEMPORARY) and not is_whole(path):
             done.append(_set_aside(path, "truncated or not NetCDF-4"))
-    for index in [*run.glob("steady/*/*.json"), *run.glob("unsteady/*/*.json")]:
+    for index in indices_of_run(run):
         done += _mend_results(index)
     return done
 

@@ -1,11 +1,11 @@
-"""Where results are under the hash of their case, for all runs.
+"""Results by the hash of their case, for all runs.
 
 Each is in ``<store>/<hash>/result.nc``. It is no declared output of a rule, so it survives a kill
 and a change of the sweep: a case that was ever finished is not computed again, but one that has
 failed is. Whatever the store holds is validated before it is used.
 
 A solver that runs its cases one by one has its working directory in ``<store>/<hash>`` too, that of
-an unsteady case under the hash of its history, with the longest result so far as ``history.nc``.
+a case with a history under the hash of that, with the longest result so far as ``history.nc``.
 Other criteria, or another duration, are answered from there if it is long enough.
 """
 
@@ -21,7 +21,7 @@ from typing import Any
 
 import xarray as xr
 
-from equisection.cases import Case, UnsteadyCase, canonical, case_hash, history_hash
+from equisection.cases import Case, canonical, case_hash, history_hash, kind_of
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
 from equisection.provenance import made_by
@@ -56,7 +56,7 @@ class Task:
 
 def task_of(case: Case) -> Task:
     """Return a case under its hashes."""
-    if isinstance(case, UnsteadyCase) and not case.refusal and not runs_batches(case):
+    if kind_of(case).ends and not case.not_run and not runs_batches(case):
         return Task(case, case_hash(case), history_hash(case))
     return Task(case, case_hash(case))
 
@@ -147,15 +147,14 @@ class ResultStore:
 
         ``kept_alone`` leaves out the history that the store has from before.
         """
-        case = task.case
-        if not task.history or not isinstance(case, UnsteadyCase):
+        if not task.history:
             return None
         own = self._history(task)
         histories = [own] if not kept_alone and _length(own) else []
-        histories += [one.path for one in kept if one.has_history_of(case)]
+        histories += [one.path for one in kept if one.has_history_of(task.case)]
         for path in histories:
             history = read_dataset(path)
-            result = judged_again(case, history)
+            result = judged_again(task.case, history)
             if result is not None:
                 logger.info("judged again by the history in %s", path)
                 return self._put_known(task, result, history.attrs)

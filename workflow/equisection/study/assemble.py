@@ -26,9 +26,10 @@ from equisection.reduction.correction import corrected_equilibrium
 from equisection.reduction.reduce import Reduction
 from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
-from equisection.results.section_dataset import nominal_k_star, section_from_dataset
+from equisection.results.section_dataset import section_from_dataset
 from equisection.solvers.protocol import Solver
 from equisection.solvers.verdicts import pitch_frequency
+from equisection.study.axes import K_STAR, Point
 from equisection.study.plan import Model
 
 #: Of the twist, below which its extrema are not where they seem to be.
@@ -47,6 +48,20 @@ def steady_case(
         medium=_medium(config),
         solver=_solver_block(solver, dimension),
     )
+
+
+def case_at(
+    config: Config, model: Model, point: Point, data: Mapping[str, xr.Dataset], solver: Solver
+) -> UnsteadyCase:
+    """Return the case of a model at a point of the sweep.
+
+    Incidence and speed of the point take the place of the configuration's. Without a k* the beam is
+    as given, and has the k* of its speed. Parameters and errors are those of
+    :func:`unsteady_case`.
+    """
+    there = point.of_config(config)
+    k_star = point.columns.get(K_STAR.name) or k_star_as_given(there, data["equivalent"])
+    return unsteady_case(there, model, k_star, data, solver)
 
 
 def unsteady_case(
@@ -77,7 +92,7 @@ def unsteady_case(
     ConfigError
         The history would be written too seldom to tell an oscillation.
     """
-    stiffness_scale = k_star / nominal_k_star(data["equivalent"])
+    stiffness_scale = k_star / k_star_as_given(config, data["equivalent"])
     section, beam, refusal, diverges = None, None, "", False
     if model.dimension == "3d":
         beam = _beam_modes(config, data["modes"], stiffness_scale)
@@ -143,6 +158,16 @@ def _medium(config: Config) -> Medium:
 def _solver_block(solver: Solver, dimension: str) -> SolverBlock:
     settings = solver.settings(dimension)
     return SolverBlock(name=solver.name, version=solver.version, settings=settings)
+
+
+def k_star_as_given(config: Config, equivalent: xr.Dataset) -> float:
+    """Return k* of the beam as configured at the configuration's speed (-).
+
+    It is that of Eq. 17 in the paper's form, the axis of every comparison: both reductions and the
+    beam stand at the same k* when they have the same Young's modulus.
+    """
+    flow = config.flow
+    return section_from_dataset(equivalent, "paper").k_star(flow.density, flow.speed)
 
 
 def _section(

@@ -1,7 +1,8 @@
 """The plan of a run: which cases there are, what they are called and where their files go.
 
 Everything comes from the validated configuration, nothing from a result, so that the graph
-can be built on a fresh clone. Names of cases are made and read here and nowhere else.
+can be built on a fresh clone. Names of cases come from the axes of the study
+(:mod:`equisection.study.axes`).
 """
 
 from __future__ import annotations
@@ -9,20 +10,20 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from equisection.cases import FREE, STEADY, Kind
 from equisection.config import Config
 from equisection.files import require_plain_names, write_text
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
+from equisection.study.axes import INCIDENCE, Point, onset_axis, sweep_points, varied
 
 #: Patterns of the wildcards of the rules.
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
-CASE_PATTERN = r"k[0-9][0-9.e+-]*"
 DIMENSION_PATTERN = r"[23]d"
-ANGLE_PATTERN = r"[A-Za-z0-9][A-Za-z0-9_.-]*_a-?[0-9][0-9.e+-]*"
 #: A batch is what one job of a solver that takes many cases runs: the sweep, or a round of the
 #: refinement of the onset.
 BATCH_PATTERN = r"sweep|round[1-9][0-9]*"
@@ -46,33 +47,38 @@ def model(name: str, default_reduction: str) -> Model:
     return Model(name, parts[0], "corrected" in parts, reduction)
 
 
-def case_name(k_star: float) -> str:
-    """Return the name of the unsteady case of a k*, for instance ``k6.44``."""
-    return f"k{k_star:.6g}"
-
-
-def k_star_of(name: str) -> float:
-    """Return the k* that a case's name stands for."""
-    return float(name.removeprefix("k"))
-
-
 def sweep_cases(config: Config) -> list[str]:
-    """Return the names of the cases of the sweep, by ascending k*."""
-    return [case_name(k_star) for k_star in config.sweep.values()]
-
-
-def angle_name(resolution: str, incidence_deg: float) -> str:
-    """Return the name of a steady case, for instance ``coarse_a2.5``."""
-    return f"{resolution}_a{incidence_deg:.6g}"
+    """Return the names of the cases of the sweep, by ascending values."""
+    return [point.name for point in sweep_points(config)]
 
 
 def steady_cases(config: Config) -> list[str]:
     """Return the names of the steady cases of either dimension, resolution by resolution."""
-    return [
-        angle_name(resolution, angle)
-        for resolution in resolutions(config)
-        for angle in incidences(config, resolution)
-    ]
+    return [name for resolution in resolutions(config) for name in rigid_cases(config, resolution)]
+
+
+def rigid_cases(config: Config, resolution: str) -> list[str]:
+    """Return the names of the steady cases of either dimension at a resolution."""
+    return [rigid_case(resolution, angle) for angle in incidences(config, resolution)]
+
+
+def rigid_case(resolution: str, incidence_deg: float) -> str:
+    """Return the name of a steady case, for instance ``coarse_a2.5``."""
+    return Point.at({INCIDENCE: incidence_deg}, resolution).name
+
+
+def rigid_point(name: str) -> tuple[str, float]:
+    """Return resolution and incidence (deg) of a steady case.
+
+    Raises
+    ------
+    ValueError
+        It is the name of no steady case.
+    """
+    point = Point.named(name)
+    if not point.resolution:
+        raise ValueError(f"{name!r} is no name of a steady case, such as 'coarse_a2.5'")
+    return point.resolution, point[INCIDENCE]
 
 
 def incidences(config: Config, resolution: str) -> tuple[float, ...]:
@@ -87,12 +93,6 @@ def resolutions(config: Config) -> tuple[str, ...]:
     return (config.steady.resolution, *config.steady.study)
 
 
-def angle_of(name: str) -> tuple[str, float]:
-    """Return resolution and incidence (deg) of a steady case."""
-    resolution, _, angle = name.rpartition("_a")
-    return resolution, float(angle)
-
-
 def refinement_rounds(config: Config) -> int:
     """Return how many rounds narrow the widest bracket of the sweep to the tolerance.
 
@@ -100,8 +100,9 @@ def refinement_rounds(config: Config) -> int:
     """
     if config.sweep.onset != "refine":
         return 0
-    values = config.sweep.values()
-    widest = max(((b - a) / a for a, b in itertools.pairwise(values)), default=0.0)
+    values = varied(config)
+    along = values[onset_axis(values)]
+    widest = max(((b - a) / a for a, b in itertools.pairwise(along)), default=0.0)
     if widest <= config.sweep.onset_tolerance:
         return 0
     parts = config.sweep.onset_points + 1
@@ -118,9 +119,50 @@ def batches_before(batch: str) -> list[str]:
     return [SWEEP_BATCH, *(f"round{n}" for n in range(1, int(batch.removeprefix("round"))))]
 
 
-def write_refinement(path: Path, k_star: Sequence[float]) -> None:
-    """Write the k* that a round of refinement chose."""
-    write_text(path, json.dumps({"cases": [case_name(value) for value in k_star]}) + "\n")
+@dataclass(frozen=True)
+class PlannedCases:
+    """Cases of a kind that a configuration asks for: of one model, at one resolution.
+
+    Attributes
+    ----------
+    kind
+        Their kind.
+    model
+        Model of the sweep, or dimension of rigid cases: the folder of their files.
+    dimension
+        Dimension, ``2d`` or ``3d``.
+    resolution
+        Resolution.
+    names
+        Names of the cases.
+    refined
+        Further cases, at most, that the refinement of the onset asks for.
+    """
+
+    kind: Kind
+    model: str
+    dimension: str
+    resolution: str
+    names: tuple[str, ...]
+    refined: int = 0
+
+
+def planned_cases(config: Config) -> Iterator[PlannedCases]:
+    """Yield the cases that a configuration asks for, kind by kind in the order of a run."""
+    for dimension in steady_dimensions(config):
+        for resolution in resolutions(config):
+            names = tuple(rigid_cases(config, resolution))
+            yield PlannedCases(STEADY, dimension, dimension, resolution, names)
+    refined = refinement_rounds(config) * config.sweep.onset_points
+    of_sweep = tuple(sweep_cases(config))
+    for name in config.sweep.models:
+        dimension = model(name, config.reduction).dimension
+        yield PlannedCases(FREE, name, dimension, config.steady.resolution, of_sweep, refined)
+
+
+def write_refinement(path: Path, points: Sequence[Point]) -> None:
+    """Write the points that a round of refinement chose, by the names of their cases."""
+    write_text(path, json.dumps({"cases": [point.name for point in points]}) + "\n")
 
 
 def read_refinement(path: Path) -> list[str]:
@@ -214,5 +256,11 @@ def has_grid_study(config: Config) -> bool:
 
 
 def stiffest_case(names: Iterable[str]) -> str | None:
-    """Return the case of the largest k*, the paper's reference plate (k* = 21) by default."""
-    return max(names, key=k_star_of, default=None)
+    """Return the case whose beam is stiffest beside the flow: of the largest k*, or least speed."""
+
+    def stiffness(name: str) -> float:
+        point = Point.named(name)
+        axis = onset_axis(point.axes)
+        return axis.stability(point[axis])
+
+    return max(names, key=stiffness, default=None)

@@ -15,6 +15,7 @@ from equisection.analysis.missing import missing_table
 from equisection.errors import ResultFileError
 from equisection.paper.claims_page.kept_runs import kept_runs
 from equisection.results.netcdf import read_dataset
+from equisection.store.index import indices_of_run
 
 
 @dataclass(frozen=True)
@@ -97,10 +98,7 @@ def read_evidence(figures: Path, plate: Path, reductions: Path, reference: Path)
         onset=_table(comparison / "onset.csv"),
         linear=_table(comparison / "linear_theory.csv"),
         missing=missing_table(
-            index
-            for run in (figures, plate, reductions)
-            for kind in ("steady", "unsteady")
-            for index in sorted((run / kind).glob("*/*.json"))
+            index for run in (figures, plate, reductions) for index in indices_of_run(run)
         ),
         bubble=_table(figures / "tables" / "bubble.csv"),
         grid_study=_table(figures / "tables" / "grid_study.csv"),

@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-from equisection.cases import UnsteadyCase
+from equisection.cases import FREE, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.verdicts import judge
@@ -50,7 +50,7 @@ def kept_runs(folder: Path) -> pd.DataFrame:
     """
     rows = []
     for kept in kept_results(folder):
-        if kept.case.get("kind") == "unsteady":
+        if kept.case.get("kind") == FREE.folder:
             solver = kept.case["solver"]
             row: dict[str, Any] = {name: kept.attributes.get(name) for name in COLUMNS}
             row |= {

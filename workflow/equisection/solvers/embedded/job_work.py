@@ -12,8 +12,9 @@ def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> 
     return Work(_sections(config, dimension) * cases, iterations=1)
 
 
-def unsteady_work(config: Config, dimension: str, cases: int) -> Work:
+def unsteady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
     """Return the work of a job of free cases."""
+    del resolution
     steps = config.unsteady.duration / config.unsteady.time_step
     return Work(_sections(config, dimension) * cases, steps=steps)
 

@@ -23,15 +23,14 @@ def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> 
     return Work(cells_of(config.openfoam.meshes[resolution], dimension) * cases, MOST, steps)
 
 
-def unsteady_work(config: Config, dimension: str, cases: int) -> Work:
+def unsteady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
     """Return the work of a free case: the steady flow that it starts from, and all of its steps."""
     section = config.openfoam
     steps = config.unsteady.duration / config.unsteady.time_step
     steps *= iterations_of(section.outer_correctors)
     if dimension == "2d" and section.mesh_motion != MORPH:
         steps *= OVERSET
-    mesh = section.meshes[config.steady.resolution]
-    return Work(cells_of(mesh, dimension) * cases, MOST, steps)
+    return Work(cells_of(section.meshes[resolution], dimension) * cases, MOST, steps)
 
 
 def iterations_of(outer_correctors: int) -> int:

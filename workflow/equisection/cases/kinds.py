@@ -1,0 +1,128 @@
+"""Registry of the kinds of case: everything in which a run differs from one kind to another.
+
+The store, the kept results, the status, the verification and the cost of a run go through
+:data:`KINDS`, and name no kind. A new kind takes
+
+- a class of cases, beside those in :mod:`equisection.cases.case`;
+- an entry in :data:`KINDS`;
+- a class of results, which fulfils :class:`equisection.results.case_result.CaseResult`;
+- the method ``run_<folder>`` of the solvers that run it, and ``<folder>_work`` of their work;
+- its rules, which write its case files and run them.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from equisection.cases.case import Case, SteadyCase, UnsteadyCase
+from equisection.errors import CaseFileError
+
+
+@dataclass(frozen=True)
+class Kind:
+    """Kind of case.
+
+    Attributes
+    ----------
+    name
+        Name.
+    case
+        Class of its cases. The word by which this calls itself names the folders of a run, too.
+    point
+        Fields of a case that tell it from others of its study; its result has them as attributes.
+    has_history
+        Whether its results are histories over time.
+    ends
+        Fields that decide when a history ends, and nothing before its end. Cases that differ in
+        these alone share a history.
+    of_sweep
+        Whether its cases are those of the sweep's models; the others are named after a dimension.
+    title
+        Title of its cases in a summary, and before the model in a list; a model of the sweep is
+        listed by its own name.
+    """
+
+    name: str
+    case: type[Case]
+    point: tuple[str, ...]
+    has_history: bool
+    ends: frozenset[str] = frozenset()
+    of_sweep: bool = False
+    title: str = ""
+
+    @property
+    def folder(self) -> str:
+        """Folder of its case files and results in a run, and ``kind`` of its cases."""
+        return str(self.case.model_fields["kind"].default)
+
+    @property
+    def unit(self) -> str:
+        """Unit of the progress of a job."""
+        return TIME if self.has_history else "cases"
+
+    @property
+    def cost_term(self) -> str:
+        """Coefficient of the cost model that its cases are the measure of."""
+        return "step" if self.has_history else "iteration"
+
+    @property
+    def run_method(self) -> str:
+        """Method of a solver that runs its cases."""
+        return f"run_{self.folder}"
+
+    @property
+    def work_function(self) -> str:
+        """Function of a solver's module of work that tells the work of a job."""
+        return f"{self.folder}_work"
+
+    def model_of(self, part: str) -> str:
+        """Return the model of the cases in a folder ``<kind>/<part>``, as lists have it."""
+        return part if self.of_sweep else f"{self.title} {part}"
+
+
+#: Unit of the progress of a job whose cases have histories.
+TIME = "c/V"
+
+STEADY = Kind("steady", SteadyCase, ("incidence_deg",), has_history=False, title="steady")
+FREE = Kind(
+    "free",
+    UnsteadyCase,
+    ("k_star", "incidence_deg"),
+    has_history=True,
+    ends=frozenset({"criteria", "duration"}),
+    of_sweep=True,
+    title="sweep",
+)
+
+#: Kinds by their folders, in the order in which a run's cases are listed.
+KINDS: dict[str, Kind] = {kind.folder: kind for kind in (STEADY, FREE)}
+
+
+def kind_of(case: Case) -> Kind:
+    """Return the kind of a case."""
+    return KINDS[case.kind]
+
+
+def kind_named(word: Any) -> Kind:
+    """Return the kind whose cases call themselves by a word.
+
+    Raises
+    ------
+    CaseFileError
+        There is no such kind.
+    """
+    if word not in KINDS:
+        raise CaseFileError(f"kind: {word!r} is not known; allowed are {', '.join(KINDS)}")
+    return KINDS[word]
+
+
+def point_of(case: Case) -> dict[str, float]:
+    """Return where in its study a case is: the values of its kind's ``point`` by their names."""
+    return {name: getattr(case, name) for name in kind_of(case).point}
+
+
+def ends_of(case: dict[str, Any]) -> frozenset[str]:
+    """Return what ends the history of a case, as JSON holds it, and decides nothing of it."""
+    kind = KINDS.get(case.get("kind", ""))
+    return kind.ends if kind else frozenset()
