@@ -11,6 +11,13 @@ import yaml
 import equisection
 
 ROOT = Path(__file__).parents[2]
+#: Pages that send a reader to places of the project.
+GUIDES = ("README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/index.md")
+PLACES = "config|docs|envs|scripts|tests|workflow|results/reference"
+#: A path from the project's root, in code or in a command; a module; a file of rules.
+PATH = re.compile(rf"(?<![\w/.-])(?:{PLACES})/[\w./-]*|(?<=`)[\w/]+\.(?:py|smk)(?=`)")
+#: Folders that such a path may start from.
+STARTS = (ROOT, ROOT / "workflow" / "equisection", ROOT / "workflow" / "rules")
 
 
 def test_citation_is_of_this_version() -> None:
@@ -42,3 +49,29 @@ def test_the_drawing_is_what_its_script_draws(tmp_path: Path) -> None:
     assert [float(part) for part in parts[1::2]] == pytest.approx(
         [float(part) for part in kept_parts[1::2]], abs=0.01
     ), "make drawing draws it anew"
+
+
+@pytest.mark.parametrize("guide", GUIDES)
+def test_every_place_that_a_guide_names_is_there(guide: str) -> None:
+    text = re.sub(r"\]\([^)]*\)", "]", (ROOT / guide).read_text())  # Sphinx follows the links
+    named = {path.rstrip(".") for path in PATH.findall(text)}
+    assert (
+        sorted(path for path in named if not any((start / path).exists() for start in STARTS)) == []
+    )
+
+
+@pytest.mark.parametrize("guide", GUIDES)
+def test_every_make_target_that_a_guide_names_is_there(guide: str) -> None:
+    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(), flags=re.MULTILINE))
+    text = (ROOT / guide).read_text()
+    named = set(re.findall(r"(?:^|`)make ([a-z-]+)", text, flags=re.MULTILINE))
+    assert named <= targets
+
+
+def test_every_room_is_in_the_table_of_rooms() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text()
+    table = page.partition("\n## Rooms")[2].partition("\n## ")[0]
+    package = Path(equisection.__file__).parent
+    rooms = {path.name + "/" for path in package.iterdir() if (path / "__init__.py").exists()}
+    rooms |= {path.name for path in package.glob("*.py")} - {"__init__.py"}
+    assert rooms <= set(re.findall(r"`([\w.]+/?)`", table))
