@@ -19,7 +19,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run report paper cost identification cost-model status verify test lint docs bench openfoam slurm clean
+.PHONY: run report paper cost identification cost-model status verify test lint docs drawing bench openfoam slurm clean
 
 run: $(ENV)/run
 	@$(BIN)/equisection folder $(CONFIG) > /dev/null
@@ -77,6 +77,7 @@ lint: $(ENV)/lint
 	$(BIN)/snakefmt --check Snakefile workflow
 	$(BIN)/mypy
 	$(BIN)/mypy --disable-error-code name-defined scripts
+	$(BIN)/mypy docs/drawings/*.py
 	$(BIN)/python -m equisection.config --check
 	$(BIN)/snakemake --lint
 
@@ -84,6 +85,9 @@ docs: $(ENV)/docs
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --nitpicky \
 		--conf-dir docs --doctree-dir .sphinx . site
 	@echo "site: site/docs/index.html"
+
+drawing: $(ENV)/run
+	$(BIN)/python docs/drawings/beam_and_section.py docs/beam-and-section.svg
 
 bench: $(ENV)/test
 	$(BIN)/python -m tests.benchmarks

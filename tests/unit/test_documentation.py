@@ -1,13 +1,23 @@
-"""What the documentation says of the project, beside the project."""
+"""The documentation agrees with the project."""
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
+import pytest
 import yaml
 
 import equisection
 
 ROOT = Path(__file__).parents[2]
+#: Pages that send a reader to places of the project.
+GUIDES = ("README.md", "CONTRIBUTING.md", "docs/architecture.md", "docs/index.md")
+PLACES = "config|docs|envs|scripts|tests|workflow|results/reference"
+#: A path from the project's root, in code or in a command; a module; a file of rules.
+PATH = re.compile(rf"(?<![\w/.-])(?:{PLACES})/[\w./-]*|(?<=`)[\w/]+\.(?:py|smk)(?=`)")
+#: Folders that such a path may start from.
+STARTS = (ROOT, ROOT / "workflow" / "equisection", ROOT / "workflow" / "rules")
 
 
 def test_citation_is_of_this_version() -> None:
@@ -22,3 +32,46 @@ def test_every_page_is_in_the_site() -> None:
     listed = set(re.findall(r"^([\w-]+)$", index, flags=re.MULTILINE))
     assert pages <= listed
     assert pages <= set(re.findall(r"\]\(([\w-]+)\.md", index))
+
+
+#: A number that is no part of a name or a colour.
+NUMBER = re.compile(r"(?<![\w#.-])(-?\d+(?:\.\d+)?)(?![\w.])")
+
+
+def test_the_drawing_is_what_its_script_draws(tmp_path: Path) -> None:
+    """Lines, colours and words are the same, places to a hundredth of a point."""
+    script = ROOT / "docs" / "drawings" / "beam_and_section.py"
+    drawn = tmp_path / "beam-and-section.svg"
+    subprocess.run([sys.executable, script, drawn], check=True)
+    kept = (ROOT / "docs" / "beam-and-section.svg").read_text()
+    parts, kept_parts = NUMBER.split(drawn.read_text()), NUMBER.split(kept)
+    assert parts[::2] == kept_parts[::2], "make drawing draws it anew"
+    assert [float(part) for part in parts[1::2]] == pytest.approx(
+        [float(part) for part in kept_parts[1::2]], abs=0.01
+    ), "make drawing draws it anew"
+
+
+@pytest.mark.parametrize("guide", GUIDES)
+def test_every_place_that_a_guide_names_is_there(guide: str) -> None:
+    text = re.sub(r"\]\([^)]*\)", "]", (ROOT / guide).read_text())  # Sphinx follows the links
+    named = {path.rstrip(".") for path in PATH.findall(text)}
+    assert (
+        sorted(path for path in named if not any((start / path).exists() for start in STARTS)) == []
+    )
+
+
+@pytest.mark.parametrize("guide", GUIDES)
+def test_every_make_target_that_a_guide_names_is_there(guide: str) -> None:
+    targets = set(re.findall(r"^([\w-]+):", (ROOT / "Makefile").read_text(), flags=re.MULTILINE))
+    text = (ROOT / guide).read_text()
+    named = set(re.findall(r"(?:^|`)make ([a-z-]+)", text, flags=re.MULTILINE))
+    assert named <= targets
+
+
+def test_every_room_is_in_the_table_of_rooms() -> None:
+    page = (ROOT / "docs" / "architecture.md").read_text()
+    table = page.partition("\n## Rooms")[2].partition("\n## ")[0]
+    package = Path(equisection.__file__).parent
+    rooms = {path.name + "/" for path in package.iterdir() if (path / "__init__.py").exists()}
+    rooms |= {path.name for path in package.glob("*.py")} - {"__init__.py"}
+    assert rooms <= set(re.findall(r"`([\w.]+/?)`", table))
