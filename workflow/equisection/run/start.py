@@ -1,0 +1,147 @@
+"""Look at what a run starts from, before the workflow builds its graph.
+
+Here are the folders that a run may be started from, and what is said once at the start: files of
+the future, a folder that the solver cannot work in, a clone that git does not trust. It runs at
+every start of the workflow, so it must be cheap.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+import equisection
+from equisection.config import Config
+from equisection.errors import ConfigError
+from equisection.provenance import COMMAND_VARIABLE, CONFIG_VARIABLE, refused_by_git
+
+#: The configuration that is read first.
+CONFIG_FILE = Path("config") / "config.yaml"
+#: How far ahead of the clock a file may be (s); clocks of file servers are that much off.
+_AHEAD = 10.0
+#: Folders of a run that nothing is made from.
+_ASIDE = {"logs", "provenance"}
+#: Hashes of the configurations of this process, and what it has said: both are per process, for a
+#: workflow may use this one as a module several times.
+_CONFIGS: set[str] = set()
+_SAID: set[str] = set()
+
+
+def project_of_package() -> Path | None:
+    """Return the clone that the package is in; none if it is installed without one."""
+    project = Path(equisection.__file__).resolve().parents[2]
+    return project if (project / "workflow" / "Snakefile").is_file() else None
+
+
+def here_or_in_project(path: Path, project: Path | None) -> Path:
+    """Return a path as seen from the working directory or, if it is not there, from the project."""
+    return path if path.exists() or project is None else project / path
+
+
+def config_files(first: Path, given: Iterable[Path]) -> list[Path]:
+    """Return the files of the configuration in the order in which they add up.
+
+    The first may be missing where others are given.
+    """
+    others = [Path(path) for path in given]
+    return [first, *others] if first.exists() or not others else others
+
+
+def check_project(project: Path) -> None:
+    """Refuse a project in a folder whose name Snakemake takes for a wildcard.
+
+    Raises
+    ------
+    ConfigError
+        The path has braces.
+    """
+    if {"{", "}"} & set(str(project)):
+        raise ConfigError(
+            f"the project is in {project}: Snakemake takes what is in braces for a wildcard; give "
+            "the folder another name"
+        )
+
+
+def tell_jobs(command: str, config: str) -> None:
+    """Tell jobs, by the environment, the command and the hash of the configuration of their run.
+
+    A workflow that uses this one as a module more than once has several configurations, and its
+    jobs are told none: nothing is said rather than what is wrong.
+    """
+    _CONFIGS.add(config)
+    os.environ[COMMAND_VARIABLE] = command
+    os.environ[CONFIG_VARIABLE] = config if len(_CONFIGS) == 1 else ""
+
+
+def say(lines: Iterable[str]) -> None:
+    """Print lines to the person at the terminal, each once, however often it is said."""
+    for line in lines:
+        if line not in _SAID:
+            print(line, file=sys.stderr)
+        _SAID.add(line)
+
+
+def notices(config: Config, store: Path, run: Path, files: Iterable[str]) -> Iterator[str]:
+    """Give what a person should know before the jobs start, in a line each.
+
+    Parameters
+    ----------
+    config
+        The configuration.
+    store
+        Where cases are computed.
+    run
+        Folder of the run's results.
+    files
+        What the run reads from outside.
+    """
+    if config.compute:
+        refusal = config.solver_section.refuses_folder(store)
+        if refusal:
+            yield f"warning: {refusal}; until then a case that is not kept cannot be computed"
+    ahead = _of_the_future([*map(Path, files), *_files(run)], time.time())
+    if ahead:
+        yield ahead
+    distrusted = refused_by_git(Path(equisection.__file__).parent)
+    if distrusted:
+        yield f"warning: {distrusted}"
+
+
+def _of_the_future(paths: Iterable[Path], now: float) -> str:
+    """Return a line on the files that are newer than the clock says; empty if none is."""
+    ahead = {path: modified - now for path in paths if (modified := _modified(path)) > now + _AHEAD}
+    if not ahead:
+        return ""
+    furthest = max(ahead, key=lambda path: ahead[path])
+    others = f" ({len(ahead) - 1} more are from the future)" if len(ahead) > 1 else ""
+    return (
+        f"warning: {furthest} is {_duration(ahead[furthest])} ahead of this machine's clock"
+        f"{others}: what is made from such a file may be made again at every start, and a change "
+        "of what it was made from may pass unseen; set the clock, or 'touch' the files"
+    )
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Give the files of a run that something is made from."""
+    for place, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if name not in _ASIDE]
+        for name in names:
+            yield Path(place, name)
+
+
+def _modified(path: Path) -> float:
+    try:
+        return path.stat().st_mtime
+    except (OSError, ValueError):
+        return 0.0
+
+
+def _duration(seconds: float) -> str:
+    """Return a duration in its largest unit."""
+    for size, unit in ((86400, "d"), (3600, "h"), (60, "min")):
+        if seconds >= size:
+            return f"{seconds / size:.1f} {unit}"
+    return f"{seconds:.0f} s"
