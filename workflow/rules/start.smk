@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-PROJECT = Path(workflow.current_basedir).parent.parent
+FOLDER = str(workflow.current_basedir)
 
 try:
     from equisection.config import check_config_files
@@ -14,7 +14,7 @@ except ModuleNotFoundError as error:
         raise
     print(
         f"equisection is not installed in {sys.prefix}: 'pip install -c envs/constraints.txt -e .' "
-        f"in {PROJECT}, or 'make run' there",
+        f"in the clone of the project, or 'make run' there",
         file=sys.stderr,
     )
     sys.exit(1)
@@ -22,11 +22,11 @@ except ImportError as error:
     print(error, file=sys.stderr)
     sys.exit(1)
 
-# The working directory's, or that which comes with the project.
-CONFIG_FILE = start.here_or_in_project(start.CONFIG_FILE, PROJECT)
-
 try:
-    start.check_project(PROJECT)
+    # Polars, the style of figures and more come with the clone, even if the rules are fetched.
+    PROJECT = start.project_of(Path(FOLDER))
+    # The working directory's, or that which comes with the project.
+    CONFIG_FILE = start.here_or_in_project(start.CONFIG_FILE, PROJECT)
     if workflow.is_main_process:
         check_config_files(start.config_files(CONFIG_FILE, workflow.configfiles))
 except ConfigError as error:

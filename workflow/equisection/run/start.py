@@ -50,19 +50,30 @@ def config_files(first: Path, given: Iterable[Path]) -> list[Path]:
     return [first, *others] if first.exists() or not others else others
 
 
-def check_project(project: Path) -> None:
-    """Refuse a project in a folder whose name Snakemake takes for a wildcard.
+def project_of(rules: Path) -> Path:
+    """Return the folder of the project, whose rules are in ``rules``.
+
+    Rules that Snakemake fetches, as those of a module may be, are in no folder; then it is the
+    clone that the package is in.
 
     Raises
     ------
     ConfigError
-        The path has braces.
+        There is none, or its path has braces.
     """
+    project = rules.parents[1] if rules.is_dir() else project_of_package()
+    if project is None:
+        raise ConfigError(
+            f"{rules}: the rules are fetched, and the package is in no clone of the project, which "
+            "has the polars and more; clone it and name its Snakefile, or install the package from "
+            "the clone ('pip install -c envs/constraints.txt -e .')"
+        )
     if {"{", "}"} & set(str(project)):
         raise ConfigError(
             f"the project is in {project}: Snakemake takes what is in braces for a wildcard; give "
             "the folder another name"
         )
+    return project
 
 
 def tell_jobs(command: str, config: str) -> None:
