@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-FOLDER = str(workflow.current_basedir)
+RULES = Path(str(workflow.current_basedir))
 
 try:
     from equisection.config import check_config_files
@@ -14,7 +14,7 @@ except ModuleNotFoundError as error:
         raise
     print(
         f"equisection is not installed in {sys.prefix}: 'pip install -c envs/constraints.txt -e .' "
-        f"in the clone of the project, or 'make run' there",
+        f"in {RULES.parents[1]}, or 'make run' there",
         file=sys.stderr,
     )
     sys.exit(1)
@@ -24,11 +24,11 @@ except ImportError as error:
 
 try:
     # Polars, the style of figures and more come with the clone, even if the rules are fetched.
-    PROJECT = start.project_of(Path(FOLDER))
+    PROJECT = start.project_of(RULES)
     # The working directory's, or that which comes with the project.
-    CONFIG_FILE = start.here_or_in_project(start.CONFIG_FILE, PROJECT)
+    CONFIG_FILE = str(start.here_or_in_project(start.CONFIG_FILE, PROJECT))
     if workflow.is_main_process:
-        check_config_files(start.config_files(CONFIG_FILE, workflow.configfiles))
+        check_config_files(start.config_files(Path(CONFIG_FILE), workflow.configfiles))
 except ConfigError as error:
     print(error, file=sys.stderr)
     sys.exit(1)
