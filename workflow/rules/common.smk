@@ -5,28 +5,19 @@ import os
 
 import equisection
 from equisection.study import plan
-from equisection.config import (
-    check_files,
-    find_files,
-    load_config,
-    named_files,
-    resolve_config,
-)
+from equisection.config import resolve_config
 from equisection.config.groups import FLAT_PLATE
 from equisection.figures.models_shown import beam_model, section_model
 from equisection.provenance import command_line, config_hash
 from equisection.store.mend import mend
-from equisection.study.given_polars import check_polars
-from equisection.solvers.registry import SOLVERS, Capability, check_provided
+from equisection.solvers.registry import SOLVERS, Capability
+
+# The folder of results, as rules name it and, in a module with a prefix, as it is on the disk.
+PLACE = workflow.pathvars.apply("<results>")
+PLACE_ON_DISK = Path(workflow.modifier.modify_path(PLACE))
 
 try:
-    CONFIG = find_files(load_config(config), PROJECT)
-    # The folder of results, as rules name it and, in a module with a prefix, as it is on the disk.
-    PLACE = workflow.pathvars.apply("<results>")
-    PLACE_ON_DISK = str(workflow.modifier.modify_path(PLACE))
-    check_files(CONFIG, project=PROJECT, results=Path(PLACE_ON_DISK))
-    check_polars(CONFIG)
-    check_provided(CONFIG)
+    CONFIG = start.checked_config(config, PROJECT, PLACE_ON_DISK)
 except ConfigError as error:
     print(error, file=sys.stderr)
     sys.exit(1)
@@ -34,9 +25,9 @@ except ConfigError as error:
 RESOLVED = resolve_config(CONFIG)
 RESULTS = f"{PLACE}/{CONFIG.run}"
 LOGS = f"{RESULTS}/logs"
-STORE = f"{PLACE_ON_DISK}/.store"
+STORE = str(PLACE_ON_DISK / start.STORE)
 # Results that are only looked up, so that a later run that computes does not find them.
-KEPT_STORE = f"{PLACE_ON_DISK}/{CONFIG.run}/.kept"
+KEPT_STORE = str(PLACE_ON_DISK / CONFIG.run / ".kept")
 ENVIRONMENT = "../../envs/environment.yaml"
 PROVIDES = SOLVERS[CONFIG.solver].provides
 # Whether all cases of a batch go to one job: the solver takes many, or they are only looked up.
@@ -54,9 +45,8 @@ if workflow.is_main_process:
     # They inherit, too, what the files that they make say of where they come from.
     start.tell_jobs(command_line(sys.argv), config_hash(RESOLVED))
     # What was cut short by a crash, lost or exchanged must not pass for a finished result.
-    run = Path(PLACE_ON_DISK, CONFIG.run)
-    start.say(mend(run))
-    start.say(start.notices(CONFIG, Path(STORE), run, named_files(CONFIG).values()))
+    start.say(mend(PLACE_ON_DISK / CONFIG.run))
+    start.say(start.notices(CONFIG, PLACE_ON_DISK))
 
 
 wildcard_constraints:

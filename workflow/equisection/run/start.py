@@ -10,14 +10,20 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import equisection
-from equisection.config import Config
+from equisection.config import Config, check_files, find_files, load_config, named_files
 from equisection.errors import ConfigError
 from equisection.provenance import COMMAND_VARIABLE, CONFIG_VARIABLE, refused_by_git
+from equisection.solvers.registry import check_provided
+from equisection.study.given_polars import check_polars
 
+#: Where the folders of runs are, and in it the store of all results by their hash.
+RESULTS = Path("results")
+STORE = ".store"
 #: The configuration that is read first.
 CONFIG_FILE = Path("config") / "config.yaml"
 #: How far ahead of the clock a file may be (s); clocks of file servers are that much off.
@@ -76,6 +82,30 @@ def project_of(rules: Path) -> Path:
     return project
 
 
+def checked_config(raw: Mapping[str, Any], project: Path, results: Path = RESULTS) -> Config:
+    """Return the configuration of a run, whose files are there and which its solver can run.
+
+    Parameters
+    ----------
+    raw
+        The keys of all files and of the command line.
+    project
+        The clone, which files are taken from that are not in the working directory.
+    results
+        Where the folders of runs are.
+
+    Raises
+    ------
+    ConfigError
+        With one line for each problem.
+    """
+    config = find_files(load_config(raw), project)
+    check_files(config, project=project, results=results)
+    check_polars(config)
+    check_provided(config)
+    return config
+
+
 def tell_jobs(command: str, config: str) -> None:
     """Tell jobs, by the environment, the command and the hash of the configuration of their run.
 
@@ -95,25 +125,22 @@ def say(lines: Iterable[str]) -> None:
         _SAID.add(line)
 
 
-def notices(config: Config, store: Path, run: Path, files: Iterable[str]) -> Iterator[str]:
+def notices(config: Config, results: Path = RESULTS) -> Iterator[str]:
     """Give what a person should know before the jobs start, in a line each.
 
     Parameters
     ----------
     config
         The configuration.
-    store
-        Where cases are computed.
-    run
-        Folder of the run's results.
-    files
-        What the run reads from outside.
+    results
+        Where the folders of runs and the store are.
     """
     if config.compute:
-        refusal = config.solver_section.refuses_folder(store)
+        refusal = config.solver_section.refuses_folder(results / STORE)
         if refusal:
             yield f"warning: {refusal}; until then a case that is not kept cannot be computed"
-    ahead = _of_the_future([*map(Path, files), *_files(run)], time.time())
+    files = [*map(Path, named_files(config).values()), *_files(results / config.run)]
+    ahead = _of_the_future(files, time.time())
     if ahead:
         yield ahead
     distrusted = refused_by_git(Path(equisection.__file__).parent)
