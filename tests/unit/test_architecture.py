@@ -14,6 +14,7 @@ PACKAGE = Path(equisection.__file__).parent
 
 #: Rooms of the package from the bottom up: each may import from those before it.
 ROOMS = (
+    "needs",
     "conventions",
     "errors",
     "files",

@@ -229,6 +229,17 @@ def test_command_tells_what_jobs_ask_for(
     own.write_text("solver: nothing\n")
     assert main(["cost", str(own)]) == 1
     assert "solver" in capsys.readouterr().err
+    own.unlink()
+    assert main(["cost", str(own)]) == 1
+    assert f"{own}: no such file" in capsys.readouterr().err
+
+
+def test_command_tells_it_from_another_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(ROOT)
+    assert main(["cost"]) == 0
+    here = capsys.readouterr().out
     monkeypatch.chdir(tmp_path)
-    assert main(["cost"]) == 1
-    assert "config/config.yaml: cannot be read" in capsys.readouterr().err
+    assert main(["cost"]) == 0
+    assert capsys.readouterr().out == here

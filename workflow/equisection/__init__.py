@@ -12,4 +12,8 @@ The package holds everything that the workflow's scripts call. Imports point one
 are stated once, in :mod:`equisection.conventions`.
 """
 
+from equisection.needs import require
+
+require()
+
 __version__ = "0.1.0"

@@ -64,6 +64,34 @@ def commit_of(package: Path) -> str:
     return f"{commit}-modified" if changed else commit
 
 
+def refused_by_git(package: Path) -> str:
+    """Return why git does not tell the commit of the clone that the package is in, and what helps.
+
+    Empty without a clone, and where git tells it. Git is asked only if the clone belongs to another
+    user, which is when it refuses.
+    """
+    clone = package.parents[1]
+    try:
+        owners = {clone.stat().st_uid, (clone / ".git").stat().st_uid}
+    except OSError:
+        return ""
+    if owners == {os.geteuid()}:
+        return ""
+    try:
+        _git(clone, "rev-parse", "HEAD")
+    except OSError:
+        return ""
+    except subprocess.SubprocessError as error:
+        if "ownership" not in (getattr(error, "stderr", "") or ""):
+            return ""
+        return (
+            f"{clone} belongs to another user and git does not trust it, so no file will say which "
+            f"commit made it; 'git config --global --add safe.directory {shlex.quote(str(clone))}' "
+            "says that you do"
+        )
+    return ""
+
+
 def command_line(words: Sequence[str]) -> str:
     """Return a command as it can be given to a shell, its program without the way to it."""
     if not words:
@@ -94,4 +122,7 @@ def file_hash(path: Path) -> str:
 
 def _git(folder: Path, *arguments: str) -> str:
     command = ["git", "--no-optional-locks", "-C", str(folder), *arguments]
-    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=10).stdout
+    environment = {**os.environ, "LC_ALL": "C"}
+    return subprocess.run(
+        command, capture_output=True, text=True, check=True, timeout=10, env=environment
+    ).stdout

@@ -2,50 +2,34 @@
 
 import hashlib
 import os
-import sys
-from pathlib import Path
 
 import equisection
 from equisection.study import plan
-from equisection.config import (
-    check_files,
-    check_repeated_keys,
-    load_config,
-    resolve_config,
-)
+from equisection.config import resolve_config
 from equisection.config.groups import FLAT_PLATE
-from equisection.errors import ConfigError
 from equisection.figures.models_shown import beam_model, section_model
-from equisection.provenance import (
-    COMMAND_VARIABLE,
-    CONFIG_VARIABLE,
-    command_line,
-    config_hash,
-)
+from equisection.provenance import command_line, config_hash
 from equisection.store.mend import mend
 from equisection.study.axes import RIGID_PATTERN, SWEEP_PATTERN
-from equisection.study.given_polars import check_polars
-from equisection.solvers.registry import SOLVERS, Capability, check_provided
+from equisection.solvers.registry import SOLVERS, Capability
+
+# The folder of results, as rules name it and, in a module with a prefix, as it is on the disk.
+PLACE = workflow.pathvars.apply("<results>")
+PLACE_ON_DISK = Path(workflow.modifier.modify_path(PLACE))
 
 try:
-    if workflow.is_main_process:
-        check_repeated_keys(map(Path, workflow.configfiles))
-    CONFIG = load_config(config)
-    check_files(CONFIG)
-    check_polars(CONFIG)
-    check_provided(CONFIG)
+    CONFIG = start.checked_config(config, PROJECT, PLACE_ON_DISK)
 except ConfigError as error:
     print(error, file=sys.stderr)
     sys.exit(1)
 
 RESOLVED = resolve_config(CONFIG)
-RESULTS = f"results/{CONFIG.run}"
+RESULTS = f"{PLACE}/{CONFIG.run}"
 LOGS = f"{RESULTS}/logs"
-STORE = "results/.store"
+STORE = str(PLACE_ON_DISK / start.STORE)
 # Results that are only looked up, so that a later run that computes does not find them.
-KEPT_STORE = f"{RESULTS}/.kept"
+KEPT_STORE = str(PLACE_ON_DISK / CONFIG.run / ".kept")
 ENVIRONMENT = "../../envs/environment.yaml"
-PROJECT = Path(workflow.current_basedir).parent.parent
 PROVIDES = SOLVERS[CONFIG.solver].provides
 # Whether all cases of a batch go to one job: the solver takes many, or they are only looked up.
 IN_ONE_JOB = Capability.BATCH in PROVIDES or not CONFIG.compute
@@ -58,15 +42,12 @@ MESH_CASE = plan.rigid_case(CONFIG.steady.resolution, CONFIG.flow.incidence_deg)
 for name, value in CONFIG.solver_section.environment().items():
     os.environ.setdefault(name, value)
 
-# They inherit, too, what the files that they make say of where they come from.
 if workflow.is_main_process:
-    os.environ[COMMAND_VARIABLE] = command_line(sys.argv)
-    os.environ[CONFIG_VARIABLE] = config_hash(RESOLVED)
-
-# What was cut short by a crash, lost or exchanged must not pass for a finished result.
-if workflow.is_main_process:
-    for line in mend(Path(RESULTS)):
-        print(line, file=sys.stderr)
+    # They inherit, too, what the files that they make say of where they come from.
+    start.tell_jobs(command_line(sys.argv), config_hash(RESOLVED))
+    # What was cut short by a crash, lost or exchanged must not pass for a finished result.
+    start.say(mend(PLACE_ON_DISK / CONFIG.run))
+    start.say(start.notices(CONFIG, PLACE_ON_DISK))
 
 
 wildcard_constraints:
@@ -92,11 +73,16 @@ CASES_MADE_OF = (
 )
 
 
+def given(paths):
+    """Return files that no rule makes: the prefix of a module is not put before them."""
+    return [local(path) for path in paths]
+
+
 def of_project(pattern):
     """Return files of the project by relative paths, so that a project that was moved has nothing
     to do; they are found from another working directory too.
     """
-    return [os.path.relpath(path) for path in sorted(PROJECT.glob(pattern))]
+    return given(os.path.relpath(path) for path in sorted(PROJECT.glob(pattern)))
 
 
 def code(*parts):
@@ -114,19 +100,19 @@ def code(*parts):
 
 def solver_input_files():
     """Return the files that the configured solver reads, for instance section polars."""
-    return CONFIG.solver_section.input_files()
+    return given(CONFIG.solver_section.input_files())
 
 
 def kept_files():
     """Return the results that are taken, where none is computed: new ones are looked at."""
     found = Path(CONFIG.reuse).rglob("*.nc") if not CONFIG.compute else []
-    return sorted(map(str, found))
+    return given(sorted(map(str, found)))
 
 
 def section_polar():
     """Return the file of the section polar of the run's resolution, if it is one."""
     path = CONFIG.embedded.polars.get(CONFIG.steady.resolution, FLAT_PLATE)
-    return [] if path == FLAT_PLATE else path
+    return given([] if path == FLAT_PLATE else [path])
 
 
 def structure_of_model(wildcards):
@@ -158,7 +144,7 @@ def indices_of_sweep(wildcards):
 def indices_of_model(model):
     """Return the indices of a model's results, of this run or of the one they are taken from."""
     if model in CONFIG.sweep.taken:
-        return [CONFIG.sweep.taken[model]]
+        return given([CONFIG.sweep.taken[model]])
     return [
         f"{RESULTS}/unsteady/{model}/{batch}.json" for batch in plan.batches(CONFIG)
     ]

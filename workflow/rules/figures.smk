@@ -226,9 +226,7 @@ rule fig08_courant_number:
         mem_mb=1000,
         runtime=5,
     params:
-        code=code(
-            *DRAWING, "figures/courant_number.py", "results/section_mesh.py"
-        ),
+        code=code(*DRAWING, "figures/courant_number.py", "results/section_mesh.py"),
     message:
         "Fig. 8, Courant number"
     script:

@@ -5,8 +5,8 @@ rule identification:
     """Fit the lags to some releases and judge the model on others."""
     input:
         polar=section_polar(),
-        fitted_to=list(CONFIG.embedded.identification.fitted_to),
-        judged_on=list(CONFIG.embedded.identification.judged_on),
+        fitted_to=given(CONFIG.embedded.identification.fitted_to),
+        judged_on=given(CONFIG.embedded.identification.judged_on),
         style=STYLE,
     output:
         lags=f"{RESULTS}/identification/lags.yaml",

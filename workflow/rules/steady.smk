@@ -148,7 +148,7 @@ if CONFIG.steady.beam_polar:
     rule given_beam_polar:
         """Take the polar of the rigid beam from the file that the configuration names."""
         input:
-            CONFIG.steady.beam_polar,
+            given([CONFIG.steady.beam_polar]),
         output:
             f"{RESULTS}/steady/polar_3d.nc",
         log:

@@ -1,8 +1,14 @@
-"""Whether the files that a configuration names are there, looked at before any job starts."""
+"""Files that a configuration names: found, and looked at, before any job starts.
+
+A relative path is seen from the working directory first. What is not there is taken from the
+project, with which polars and kept results come.
+"""
 
 from __future__ import annotations
 
 import difflib
+import os
+from collections.abc import Sequence
 from pathlib import Path
 
 from equisection.config.groups import FLAT_PLATE
@@ -14,11 +20,73 @@ from equisection.keys.checks import Problem
 _USUAL_REUSE = Config.model_fields["reuse"].default
 
 
-def check_files(config: Config, directory: Path | None = None) -> None:
+def find_files(config: Config, project: Path, directory: Path | None = None) -> Config:
+    """Return the configuration with the project's files in the place of those that are not there.
+
+    Their paths are relative to ``directory`` (by default the working one), so that both may move
+    together. Of what the configuration names the project has polars and kept results; an index of
+    another run's results (``sweep.taken``) is always the working directory's. In the project's own
+    folder nothing changes.
+    """
+    directory = directory or Path.cwd()
+    if _is_same(project, directory):
+        return config
+
+    def found(path: str) -> str:
+        if not path or _is_there(directory / path) or not _is_there(project / path):
+            return path
+        return os.path.relpath(project / path, directory)
+
+    def all_found(paths: Sequence[str]) -> tuple[str, ...]:
+        return tuple(found(path) for path in paths)
+
+    lags = config.embedded.identification
+    polars = {
+        name: path if path == FLAT_PLATE else found(path)
+        for name, path in config.embedded.polars.items()
+    }
+    embedded = {
+        "polars": polars,
+        "identification": lags.model_copy(
+            update={
+                "fitted_to": all_found(lags.fitted_to),
+                "judged_on": all_found(lags.judged_on),
+            }
+        ),
+    }
+    return config.model_copy(
+        update={
+            "reuse": found(config.reuse),
+            "steady": config.steady.model_copy(
+                update={"beam_polar": found(config.steady.beam_polar)}
+            ),
+            "embedded": config.embedded.model_copy(update=embedded),
+        }
+    )
+
+
+def named_files(config: Config) -> dict[str, str]:
+    """Return the polars that a configuration names, by their keys."""
+    named = {}
+    if config.solver == "embedded":
+        named = {f"embedded.polars.{name}": path for name, path in config.embedded.polars.items()}
+    if config.steady.beam_polar:
+        named["steady.beam_polar"] = config.steady.beam_polar
+    return named
+
+
+def check_files(
+    config: Config,
+    directory: Path | None = None,
+    *,
+    project: Path | None = None,
+    results: Path = Path("results"),
+) -> None:
     """Refuse what is named and not there, seen from ``directory`` (by default the working one).
 
     These are polars, the folder that results come from, and the indices of other runs' results. An
-    index of this run is no other's: its rules make it.
+    index of this run, in ``results``, is no other's: its rules make it. ``project`` is where
+    :func:`find_files` has looked as well.
 
     Braces in a path are Snakemake's, which would take what is in them for a wildcard.
 
@@ -28,13 +96,11 @@ def check_files(config: Config, directory: Path | None = None) -> None:
         With one line for each missing file, and each path with braces.
     """
     directory = directory or Path.cwd()
-    named = {}
-    if config.solver == "embedded":
-        named = {f"embedded.polars.{name}": path for name, path in config.embedded.polars.items()}
-    if config.steady.beam_polar:
-        named["steady.beam_polar"] = config.steady.beam_polar
+    elsewhere = project is not None and not _is_same(project, directory)
+    seen = f"{directory} or {project}" if elsewhere else str(directory)
+    named = named_files(config)
     problems = [
-        Problem(key, path, _advice(path, directory, built_in=key != "steady.beam_polar"))
+        Problem(key, path, _advice(path, directory, seen, key))
         for key, path in named.items()
         if not (path == FLAT_PLATE and key != "steady.beam_polar")
         and not _is_file(directory / path)
@@ -46,11 +112,11 @@ def check_files(config: Config, directory: Path | None = None) -> None:
                 Problem(
                     "reuse",
                     config.reuse,
-                    f"no such folder, seen from {directory}; allowed is a folder with results, "
+                    f"no such folder, seen from {seen}; allowed is a folder with results, "
                     f"{otherwise}",
                 )
             )
-    own = directory / "results" / config.run
+    own = directory / results / config.run
     problems += [
         Problem(
             f"sweep.taken.{model}",
@@ -70,6 +136,17 @@ def check_files(config: Config, directory: Path | None = None) -> None:
         raise ConfigError("\n".join(problem.line for problem in problems))
 
 
+def _is_same(one: Path, other: Path) -> bool:
+    try:
+        return one.samefile(other)
+    except OSError:
+        return False
+
+
+def _is_there(path: Path) -> bool:
+    return _is_file(path) or _is_folder(path)
+
+
 def _is_file(path: Path) -> bool:
     try:
         return path.is_file()
@@ -84,11 +161,12 @@ def _is_folder(path: Path) -> bool:
         return False
 
 
-def _advice(polar: str, directory: Path, *, built_in: bool) -> str:
+def _advice(polar: str, directory: Path, seen: str, key: str) -> str:
     place = directory / polar
+    built_in = key != "steady.beam_polar"
     what = "a folder" if "\0" not in polar and place.is_dir() else "no such file"
     allowed = f"a CSV file or {FLAT_PLATE}" if built_in else "a CSV file"
-    answer = f"{what}, seen from {directory}; allowed is {allowed}"
+    answer = f"{what}, seen from {seen}; allowed is {allowed}"
     if polar == FLAT_PLATE:
         return f"{answer}; {FLAT_PLATE} is a polar of the section, in embedded.polars"
     candidates = {FLAT_PLATE: FLAT_PLATE} if built_in else {}

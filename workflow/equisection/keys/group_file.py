@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
-import yaml
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from equisection.errors import ConfigError
+from equisection.keys.config_file import read_config_file
 from equisection.keys.group import KeyGroup
-from equisection.keys.repeated_keys import check_repeated_keys
 from equisection.keys.shown import shown
 
 Group = TypeVar("Group", bound=KeyGroup)
@@ -38,35 +36,18 @@ def read_group(path: Path, name: str, group: type[Group]) -> Group:
         The file cannot be read, is no YAML in UTF-8 or has no such section; or, with one line for
         each problem, a key of the section is not allowed.
     """
-    values = _section(path, name)
-    check_repeated_keys([path])
+    raw = read_config_file(path)
+    if name not in raw:
+        there = ", ".join(str(key) for key in raw) or "nothing"
+        raise ConfigError(
+            f"{path}: has no section '{name}' (there is {there}); give a configuration file with a "
+            f"section '{name}', as config/config.yaml is"
+        )
     try:
-        return group.model_validate(values)
+        return group.model_validate(raw[name])
     except ValidationError as error:
         lines = [_line(problem, name, group) for problem in error.errors(include_url=False)]
     raise ConfigError("\n".join(f"{path}: {line}" for line in lines))
-
-
-def _section(path: Path, name: str) -> Any:
-    """Return the values of a section as YAML has them."""
-    wanted = f"give a configuration file with a section '{name}', as config/config.yaml is"
-    try:
-        raw = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise ConfigError(f"{path}: cannot be read ({error.strerror}); {wanted}") from None
-    except UnicodeDecodeError as error:
-        raise ConfigError(
-            f"{path}: is no text in UTF-8 (byte {error.start}); save it as UTF-8"
-        ) from None
-    except yaml.YAMLError as error:
-        why = " ".join(str(error).split())
-        raise ConfigError(f"{path}: is no YAML ({why}); {wanted}") from None
-    if not isinstance(raw, Mapping):
-        raise ConfigError(f"{path}: {shown(raw)}: is no file of sections; {wanted}")
-    if name not in raw:
-        there = ", ".join(str(key) for key in raw) or "nothing"
-        raise ConfigError(f"{path}: has no section '{name}' (there is {there}); {wanted}")
-    return raw[name]
 
 
 def _line(problem: ErrorDetails, name: str, group: type[KeyGroup]) -> str:

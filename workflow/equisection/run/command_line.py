@@ -10,10 +10,10 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import equisection
-from equisection.errors import ConfigError, EquisectionError
+from equisection.errors import EquisectionError
 
 if TYPE_CHECKING:  # what a command needs is imported there, so that --help comes at once
     from equisection.config import Config
@@ -25,6 +25,7 @@ examples:
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
   equisection status --html status.html  the same as a page for a browser
+  equisection check my-wing.yaml         whether it can be run; else what is wrong, in a line each
   equisection cost my-wing.yaml          what its jobs will ask for, and the core hours
   equisection verify                     whether results, figures and tables are what they say
   equisection cost-model                 what a cell of a mesh costs, by the results
@@ -42,6 +43,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         if options.command == "folder":
             print(Path("results") / _config(options.configfile).run)
+        elif options.command == "check":
+            _check(options.configfile)
         elif options.command == "cost":
             _cost(options.configfile)
         elif options.command == "polar":
@@ -120,6 +123,14 @@ def _parser() -> argparse.ArgumentParser:
         "configure, as 'snakemake --configfile' reads them.",
     )
     folder.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
+    check = commands.add_parser(
+        "check",
+        help="whether a configuration can be run",
+        description="Check config/config.yaml and the files given, as 'snakemake --configfile' "
+        "reads them, and the files that they name: what is wrong is said in one line each, with "
+        "file, line and column, or key and value.",
+    )
+    check.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
     cost = commands.add_parser(
         "cost",
         help="what a configuration's jobs ask for: memory, time, core hours",
@@ -214,8 +225,10 @@ def _cost(files: Sequence[Path]) -> None:
 
     from equisection.run.cost import COST_MODEL, read_cost_model  # noqa: PLC0415
     from equisection.run.jobs import solver_jobs, table  # noqa: PLC0415
+    from equisection.run.start import here_or_in_project, project_of_package  # noqa: PLC0415
 
-    jobs = solver_jobs(_config(files), read_cost_model(COST_MODEL))
+    model = here_or_in_project(COST_MODEL, project_of_package())
+    jobs = solver_jobs(_config(files), read_cost_model(model))
     if jobs:
         Console(highlight=False).print(table(jobs))
     else:
@@ -231,19 +244,36 @@ def _config(files: Sequence[Path]) -> Config:
         A file cannot be read, or the configuration is not valid.
     """
     # Imported here, so that --help and --version come at once.
-    import yaml  # noqa: PLC0415
+    from equisection.config import load_config  # noqa: PLC0415
+
+    return load_config(_keys(files))
+
+
+def _keys(files: Sequence[Path]) -> dict[str, Any]:
+    """Return the keys of the default configuration and of the files on top of it."""
+    # Imported here, so that --help and --version come at once.
     from snakemake.utils import update_config  # noqa: PLC0415
 
-    from equisection.config import check_repeated_keys, load_config  # noqa: PLC0415
+    from equisection.config import check_config_files, read_config_file  # noqa: PLC0415
+    from equisection.run import start  # noqa: PLC0415
 
-    check_repeated_keys(files)
-    raw: dict[str, object] = {}
-    for path in (Path("config/config.yaml"), *files):
-        try:
-            update_config(raw, yaml.safe_load(path.read_text(encoding="utf-8")) or {})
-        except (OSError, yaml.YAMLError, AttributeError) as error:
-            raise ConfigError(f"{path}: cannot be read as a configuration ({error})") from None
-    return load_config(raw)
+    first = start.here_or_in_project(start.CONFIG_FILE, start.project_of_package())
+    paths = start.config_files(first, files)
+    check_config_files(paths)
+    raw: dict[str, Any] = {}
+    for path in paths:
+        update_config(raw, read_config_file(path))
+    return raw
+
+
+def _check(files: Sequence[Path]) -> None:
+    """Look at the configuration and at the files that it names, as the workflow does first."""
+    # Imported here, so that --help and --version come at once.
+    from equisection.run import start  # noqa: PLC0415
+
+    config = start.checked_config(_keys(files), start.project_of_package() or Path.cwd())
+    start.say(start.notices(config))
+    print(f"the configuration is valid; its results go to {start.RESULTS / config.run}")
 
 
 def _status(folders: Sequence[Path], plain: bool, page: Path | None) -> None:

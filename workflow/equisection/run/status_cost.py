@@ -10,6 +10,7 @@ from equisection.config import Config
 from equisection.errors import ConfigError
 from equisection.run import cost
 from equisection.run.listing import Listed
+from equisection.run.start import here_or_in_project, project_of_package
 
 
 class CostOfRun:
@@ -20,11 +21,12 @@ class CostOfRun:
     config
         Configuration of the run.
     model
-        File of the cost model.
+        File of the cost model (by default the working directory's or that of the clone).
     """
 
-    def __init__(self, config: Config | None, model: Path = cost.COST_MODEL) -> None:
+    def __init__(self, config: Config | None, model: Path | None = None) -> None:
         self._config = config
+        model = model or here_or_in_project(cost.COST_MODEL, project_of_package())
         try:
             self._model = cost.read_cost_model(model) if model.is_file() else None
         except ConfigError:

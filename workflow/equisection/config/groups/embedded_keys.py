@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
@@ -80,6 +81,11 @@ class Embedded(KeyGroup):
     def environment(self) -> dict[str, str]:
         """Return variables by which jobs find the solver on a machine."""
         return {}
+
+    def refuses_folder(self, folder: Path) -> str:
+        """Return why the solver cannot work in a folder; empty if it can, as in any."""
+        del folder
+        return ""
 
 
 @check("embedded.separation.delay", "embedded.separation.relaxation")

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -34,6 +36,8 @@ OVERSET: MeshMotion = "overset"
 PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
 #: The largest time step (c/V) that follows the flow over the plate.
 LARGEST_TIME_STEP = 0.04
+#: Characters that OpenFOAM drops from a path, whose file it then does not find (v1912).
+_DROPPED = re.compile(r"""[\s'"]""")
 
 
 class OpenFoam(KeyGroup):
@@ -85,6 +89,22 @@ class OpenFoam(KeyGroup):
     def environment(self) -> dict[str, str]:
         """Return variables by which jobs find the solver on a machine."""
         return {PREFIX_VARIABLE: self.prefix} if self.prefix else {}
+
+    def refuses_folder(self, folder: Path) -> str:
+        """Return why the solver cannot work in a folder; empty if it can."""
+        return refused_path(folder)
+
+
+def refused_path(folder: Path) -> str:
+    """Return why OpenFOAM cannot work in a folder, links followed; empty if it can."""
+    place = str(folder.resolve())
+    if not _DROPPED.search(place):
+        return ""
+    return (
+        f"OpenFOAM takes no blank and no quote in a path, and its cases would be in {place!r}: run "
+        "in a folder without them (snakemake --directory FOLDER), or make results/.store a link to "
+        "one"
+    )
 
 
 @check("solver", "unsteady.time_step")

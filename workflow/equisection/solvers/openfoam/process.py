@@ -16,6 +16,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import IO
 
+from equisection.config.groups.openfoam_keys import refused_path
 from equisection.errors import SolverError
 from equisection.solvers.openfoam.dictionaries import STOP_FILE
 from equisection.solvers.openfoam.installation import Installation
@@ -122,6 +123,9 @@ def _run(
     folder: Path,
     follow: Callable[[subprocess.Popen[bytes], Path, int], None],
 ) -> None:
+    refusal = refused_path(folder)
+    if refusal:
+        raise SolverError(refusal)
     log = folder / f"log.{program}"
     stop = folder / STOP_FILE
     stop.unlink(missing_ok=True)

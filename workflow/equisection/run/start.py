@@ -1,0 +1,185 @@
+"""Look at what a run starts from, before the workflow builds its graph.
+
+Here are the folders that a run may be started from, and what is said once at the start: files of
+the future, a folder that the solver cannot work in, a clone that git does not trust. It runs at
+every start of the workflow, so it must be cheap.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import equisection
+from equisection.config import Config, check_files, find_files, load_config, named_files
+from equisection.errors import ConfigError
+from equisection.provenance import COMMAND_VARIABLE, CONFIG_VARIABLE, refused_by_git
+from equisection.solvers.registry import check_provided
+from equisection.study.given_polars import check_polars
+
+#: Where the folders of runs are, and in it the store of all results by their hash.
+RESULTS = Path("results")
+STORE = ".store"
+#: The configuration that is read first.
+CONFIG_FILE = Path("config") / "config.yaml"
+#: How far ahead of the clock a file may be (s); clocks of file servers are that much off.
+_AHEAD = 10.0
+#: Folders of a run that nothing is made from.
+_ASIDE = {"logs", "provenance"}
+#: Hashes of the configurations of this process, and what it has said: both are per process, for a
+#: workflow may use this one as a module several times.
+_CONFIGS: set[str] = set()
+_SAID: set[str] = set()
+
+
+def project_of_package() -> Path | None:
+    """Return the clone that the package is in; none if it is installed without one."""
+    project = Path(equisection.__file__).resolve().parents[2]
+    return project if (project / "workflow" / "Snakefile").is_file() else None
+
+
+def here_or_in_project(path: Path, project: Path | None) -> Path:
+    """Return a path as seen from the working directory or, if it is not there, from the project."""
+    return path if path.exists() or project is None else project / path
+
+
+def config_files(first: Path, given: Iterable[Path]) -> list[Path]:
+    """Return the files of the configuration in the order in which they add up.
+
+    The first may be missing where others are given.
+    """
+    others = [Path(path) for path in given]
+    return [first, *others] if first.exists() or not others else others
+
+
+def project_of(rules: Path) -> Path:
+    """Return the folder of the project, whose rules are in ``rules``.
+
+    Rules that Snakemake fetches, as those of a module may be, are in no folder; then it is the
+    clone that the package is in.
+
+    Raises
+    ------
+    ConfigError
+        There is none, or its path has braces.
+    """
+    project = rules.parents[1] if rules.is_dir() else project_of_package()
+    if project is None:
+        raise ConfigError(
+            f"{rules}: the rules are fetched, and the package is in no clone of the project, which "
+            "has the polars and more; clone it and name its Snakefile, or install the package from "
+            "the clone ('pip install -c envs/constraints.txt -e .')"
+        )
+    if {"{", "}"} & set(str(project)):
+        raise ConfigError(
+            f"the project is in {project}: Snakemake takes what is in braces for a wildcard; give "
+            "the folder another name"
+        )
+    return project
+
+
+def checked_config(raw: Mapping[str, Any], project: Path, results: Path = RESULTS) -> Config:
+    """Return the configuration of a run, whose files are there and which its solver can run.
+
+    Parameters
+    ----------
+    raw
+        The keys of all files and of the command line.
+    project
+        The clone, which files are taken from that are not in the working directory.
+    results
+        Where the folders of runs are.
+
+    Raises
+    ------
+    ConfigError
+        With one line for each problem.
+    """
+    config = find_files(load_config(raw), project)
+    check_files(config, project=project, results=results)
+    check_polars(config)
+    check_provided(config)
+    return config
+
+
+def tell_jobs(command: str, config: str) -> None:
+    """Tell jobs, by the environment, the command and the hash of the configuration of their run.
+
+    A workflow that uses this one as a module more than once has several configurations, and its
+    jobs are told none: nothing is said rather than what is wrong.
+    """
+    _CONFIGS.add(config)
+    os.environ[COMMAND_VARIABLE] = command
+    os.environ[CONFIG_VARIABLE] = config if len(_CONFIGS) == 1 else ""
+
+
+def say(lines: Iterable[str]) -> None:
+    """Print lines to the person at the terminal, each once, however often it is said."""
+    for line in lines:
+        if line not in _SAID:
+            print(line, file=sys.stderr)
+        _SAID.add(line)
+
+
+def notices(config: Config, results: Path = RESULTS) -> Iterator[str]:
+    """Give what a person should know before the jobs start, in a line each.
+
+    Parameters
+    ----------
+    config
+        The configuration.
+    results
+        Where the folders of runs and the store are.
+    """
+    if config.compute:
+        refusal = config.solver_section.refuses_folder(results / STORE)
+        if refusal:
+            yield f"warning: {refusal}; until then a case that is not kept cannot be computed"
+    files = [*map(Path, named_files(config).values()), *_files(results / config.run)]
+    ahead = _of_the_future(files, time.time())
+    if ahead:
+        yield ahead
+    distrusted = refused_by_git(Path(equisection.__file__).parent)
+    if distrusted:
+        yield f"warning: {distrusted}"
+
+
+def _of_the_future(paths: Iterable[Path], now: float) -> str:
+    """Return a line on the files that are newer than the clock says; empty if none is."""
+    ahead = {path: modified - now for path in paths if (modified := _modified(path)) > now + _AHEAD}
+    if not ahead:
+        return ""
+    furthest = max(ahead, key=lambda path: ahead[path])
+    others = f" ({len(ahead) - 1} more are from the future)" if len(ahead) > 1 else ""
+    return (
+        f"warning: {furthest} is {_duration(ahead[furthest])} ahead of this machine's clock"
+        f"{others}: what is made from such a file may be made again at every start, and a change "
+        "of what it was made from may pass unseen; set the clock, or 'touch' the files"
+    )
+
+
+def _files(folder: Path) -> Iterator[Path]:
+    """Give the files of a run that something is made from."""
+    for place, folders, names in os.walk(folder):
+        folders[:] = [name for name in folders if name not in _ASIDE]
+        for name in names:
+            yield Path(place, name)
+
+
+def _modified(path: Path) -> float:
+    try:
+        return path.stat().st_mtime
+    except (OSError, ValueError):
+        return 0.0
+
+
+def _duration(seconds: float) -> str:
+    """Return a duration in its largest unit."""
+    for size, unit in ((86400, "d"), (3600, "h"), (60, "min")):
+        if seconds >= size:
+            return f"{seconds / size:.1f} {unit}"
+    return f"{seconds:.0f} s"

@@ -1,0 +1,34 @@
+"""Before anything else: the package is there, and so is a configuration that can be read."""
+
+import sys
+from pathlib import Path
+
+RULES = Path(str(workflow.current_basedir))
+
+try:
+    from equisection.config import check_config_files
+    from equisection.errors import ConfigError
+    from equisection.run import start
+except ModuleNotFoundError as error:
+    if error.name != "equisection":
+        raise
+    print(
+        f"equisection is not installed in {sys.prefix}: 'pip install -c envs/constraints.txt -e .' "
+        f"in {RULES.parents[1]}, or 'make run' there",
+        file=sys.stderr,
+    )
+    sys.exit(1)
+except ImportError as error:
+    print(error, file=sys.stderr)
+    sys.exit(1)
+
+try:
+    # Polars, the style of figures and more come with the clone, even if the rules are fetched.
+    PROJECT = start.project_of(RULES)
+    # The working directory's, or that which comes with the project.
+    CONFIG_FILE = str(start.here_or_in_project(start.CONFIG_FILE, PROJECT))
+    if workflow.is_main_process:
+        check_config_files(start.config_files(Path(CONFIG_FILE), workflow.configfiles))
+except ConfigError as error:
+    print(error, file=sys.stderr)
+    sys.exit(1)
