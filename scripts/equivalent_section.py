@@ -23,12 +23,11 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
     for warning in warnings:
         logging.warning(warning)
     dataset = equivalent_to_dataset(
-        [reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS],
+        {reduction: reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS},
         integrals,
         warnings,
         density=flow.density,
         speed=flow.speed,
-        chord=beam.chord,
     )
     write_dataset(output, dataset)
 

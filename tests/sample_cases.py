@@ -4,13 +4,14 @@ import math
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from equisection.beam.section import Section
 from equisection.cases import (
     BeamModes,
     EndCriteria,
     Geometry,
     Medium,
-    SectionProperties,
     SolverBlock,
     SteadyCase,
     UnsteadyCase,
@@ -49,7 +50,7 @@ UNSTEADY = UnsteadyCase(
     resolution="coarse",
     geometry=GEOMETRY,
     medium=MEDIUM,
-    section=SectionProperties(
+    section=Section(
         torsional_stiffness=6.44,
         flexural_stiffness=0.9,
         inertia=6.7,
@@ -91,6 +92,22 @@ def beam_modes(stiffness: float = 1.0, mass: float = 1.0, modes: int = 2) -> Bea
         inertia=mass * plate.inertia_per_length / (0.5 * 1.18 * 0.1**4),
         mass=mass * plate.mass_per_length / (0.5 * 1.18 * 0.1**2),
     )
+
+
+def sections(
+    k_star: ArrayLike, inertia: ArrayLike, mass_ratio: float, stiffness_ratio: float
+) -> list[Section]:
+    """Return sections in a flow from k*, I*, c^2 m/I and c^2 k_w/k_theta."""
+    pairs = np.broadcast_arrays(np.atleast_1d(k_star), np.atleast_1d(inertia))
+    return [
+        Section(
+            torsional_stiffness=k,
+            flexural_stiffness=k * stiffness_ratio,
+            inertia=i,
+            mass=i * mass_ratio,
+        )
+        for k, i in np.stack(pairs, axis=-1).tolist()
+    ]
 
 
 STEADY_PLATE = STEADY.model_copy(update={"dimension": "3d"})

@@ -15,9 +15,10 @@ from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.beam.section import Section
 from equisection.motion.beams import BeamParameters, beam_system, release_beams
 from equisection.motion.march import march
-from equisection.motion.sections import SectionParameters, release_sections
+from equisection.motion.sections import release_sections
 from equisection.motion.steady_states import equilibrium, least_stable_eigenvalue, rigid_state
 
 POLAR = Polar.read(Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv")
@@ -81,10 +82,15 @@ def beam_of_shape(shape: np.ndarray, k_star: float, heave_stiffness: float) -> B
     )
 
 
-def section(k_star: float, heave_stiffness: float) -> SectionParameters:
-    return SectionParameters(
-        np.array([INERTIA]), np.array([k_star]), np.array([MASS]), np.array([heave_stiffness])
-    )
+def section(k_star: float, heave_stiffness: float) -> list[Section]:
+    return [
+        Section(
+            torsional_stiffness=k_star,
+            flexural_stiffness=heave_stiffness,
+            inertia=INERTIA,
+            mass=MASS,
+        )
+    ]
 
 
 def test_in_vacuo_every_mode_keeps_its_frequency_and_its_energy():

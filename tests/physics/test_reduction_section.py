@@ -11,9 +11,10 @@ from scipy.integrate import simpson, solve_bvp
 from scipy.sparse.linalg import splu
 from tests.sample_cases import PAPER, plate_with
 
+from equisection.beam.section import Section
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import span_integrals
-from equisection.reduction.reduce import EquivalentSection, reduce_beam
+from equisection.reduction.reduce import reduce_beam
 from equisection.structure import solid
 from equisection.structure.mode_set import ModeSet
 from equisection.structure.modes import compute_modes
@@ -41,11 +42,11 @@ def analytic_modes(boundary: str = "clamped-free") -> ModeSet:
 def test_published_ratios_and_nominal_stiffness():
     # Below Eq. 18: 9.12 and 0.183; "k* = 21" is the nominal plate.
     section = reduce_beam(PAPER, solid_modes(), "paper")
-    assert section.inertia_ratio(CHORD) == pytest.approx(9.12, rel=2e-3)
-    assert section.stiffness_ratio(CHORD) == pytest.approx(0.183, rel=8e-3)
-    assert section.k_star(DENSITY, SPEED, CHORD) == pytest.approx(21.28, rel=2e-3)
+    assert section.inertia_ratio == pytest.approx(9.12, rel=2e-3)
+    assert section.stiffness_ratio == pytest.approx(0.183, rel=8e-3)
+    assert section.k_star(DENSITY, SPEED) == pytest.approx(21.28, rel=2e-3)
     analytic = reduce_beam(PAPER, analytic_modes(), "paper")
-    assert analytic.k_star(DENSITY, SPEED, CHORD) == pytest.approx(19.91, abs=5e-3)
+    assert analytic.k_star(DENSITY, SPEED) == pytest.approx(19.91, abs=5e-3)
     # Printed with A_theta under m_2D (the misprint), the ratio is 6.5 and not 9.12.
     integrals = span_integrals(PAPER, solid_modes())
     misprint = 12 * integrals.mass_w[0, 0] / integrals.a_theta_theta[0, 0]
@@ -58,8 +59,8 @@ def test_consistent_mass_and_inertia_are_those_of_the_section(boundary):
     section = reduce_beam(plate, analytic_modes(boundary), "consistent")
     assert section.mass == pytest.approx(plate.mass_per_length)
     assert section.inertia == pytest.approx(plate.inertia_per_length)
-    assert section.i_star(DENSITY, CHORD) == pytest.approx(20 / 3)
-    assert section.m_star(DENSITY, CHORD) == pytest.approx(80.0)
+    assert section.i_star(DENSITY) == pytest.approx(20 / 3)
+    assert section.m_star(DENSITY) == pytest.approx(80.0)
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
@@ -76,7 +77,7 @@ def test_the_section_vibrates_in_vacuum_at_the_beams_frequencies(boundary, reduc
 def test_only_the_consistent_section_pitches_as_the_solid_plate():
     measured = solid_modes().torsion(1).frequency[0]
 
-    def pitch(section: EquivalentSection) -> float:
+    def pitch(section: Section) -> float:
         return float(np.sqrt(section.torsional_stiffness / section.inertia) / (2 * np.pi))
 
     assert pitch(reduce_beam(PAPER, solid_modes(), "consistent")) == pytest.approx(measured)
@@ -111,9 +112,9 @@ def test_recovery_factors_of_the_solid_plate():
     assert (paper.twist_recovery, paper.deflection_recovery) == (1.0, 1.0)
 
 
-def loaded_beam(section: EquivalentSection, k_star: float) -> tuple[float, float]:
+def loaded_beam(section: Section, k_star: float) -> tuple[float, float]:
     """Tip twist (rad) and deflection (chords) of a continuous cantilever in the linear flow."""
-    factor = k_star / section.k_star(DENSITY, SPEED, CHORD)
+    factor = k_star / section.k_star(DENSITY, SPEED)
     torsion = factor * PAPER.torsional_rigidity / (PAPER.length**2 * Q * CHORD**2)
     bending = factor * PAPER.bending_rigidity / (PAPER.length**4 * Q)
 
@@ -130,9 +131,9 @@ def loaded_beam(section: EquivalentSection, k_star: float) -> tuple[float, float
     return float(solved.y[0, -1]), float(solved.y[2, -1])
 
 
-def at_k_star(section: EquivalentSection, k_star: float) -> EquivalentSection:
+def at_k_star(section: Section, k_star: float) -> Section:
     """The section with both stiffnesses scaled to a k* of its own."""
-    return section.scaled(k_star / section.k_star(DENSITY, SPEED, CHORD))
+    return section.scaled(k_star / section.k_star(DENSITY, SPEED))
 
 
 @pytest.mark.parametrize("k_star", [4.0, 6.44, 10.0, 21.0])
@@ -196,7 +197,7 @@ def test_static_twist_and_deflection_of_the_solid_plate():
     assert couple / by_slope / section.twist_recovery == pytest.approx(1.10 * twist, rel=0.01)
 
 
-def heave_roots(section: EquivalentSection, k_star: float) -> complex:
+def heave_roots(section: Section, k_star: float) -> complex:
     """Least root (1/s) of the section in quasi-steady linear flow, the one of heave."""
     section = at_k_star(section, k_star)
     mass = np.diag([section.inertia, section.mass])
@@ -222,7 +223,7 @@ def slowest(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray) -> com
 
 def plate_root(plate: Plate, modes: ModeSet, k_star: float) -> complex:
     """The same of the plate with four modes of each kind, all cross terms kept."""
-    nominal = reduce_beam(plate, modes, "consistent").k_star(DENSITY, SPEED, CHORD)
+    nominal = reduce_beam(plate, modes, "consistent").k_star(DENSITY, SPEED)
     soft = k_star / nominal
     a = span_integrals(plate, modes)
     lift, moment = Q * CHORD * C_L_SLOPE, Q * CHORD**2 * C_M_SLOPE
@@ -254,8 +255,8 @@ def test_heave_of_the_consistent_section_is_damped_as_the_plates():
 def test_stiffnesses_scale_together_and_masses_stay():
     section = reduce_beam(PAPER, solid_modes(), "consistent")
     soft = at_k_star(section, 5.5)
-    assert soft.k_star(DENSITY, SPEED, CHORD) == pytest.approx(5.5)
-    assert soft.stiffness_ratio(CHORD) == pytest.approx(section.stiffness_ratio(CHORD))
+    assert soft.k_star(DENSITY, SPEED) == pytest.approx(5.5)
+    assert soft.stiffness_ratio == pytest.approx(section.stiffness_ratio)
     assert (soft.mass, soft.inertia) == (section.mass, section.inertia)
     # The same as a plate of another Young's modulus (k* ~ E, Section 2).
     softer = replace(PAPER, youngs_modulus=PAPER.youngs_modulus / 2)

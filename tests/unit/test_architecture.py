@@ -20,6 +20,7 @@ ROOMS = (
     "provenance",
     "keys",
     "io",
+    "beam",
     "structure",
     "verdict",
     "aerodynamics",

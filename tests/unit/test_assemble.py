@@ -20,13 +20,13 @@ from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import REDUCTIONS, reduce_beam
 from equisection.results.correction_dataset import factors_from_dataset, factors_to_dataset
 from equisection.results.modes_dataset import modes_to_dataset
-from equisection.results.section_dataset import equivalent_to_dataset
+from equisection.results.section_dataset import equivalent_to_dataset, nominal_k_star
 from equisection.solvers.registry import solver_from_config
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import compute_modes
 from equisection.structure.plate import Plate
 from equisection.study import plan
-from equisection.study.assemble import nominal_k_star, steady_case, unsteady_case
+from equisection.study.assemble import steady_case, unsteady_case
 
 RAW: dict[str, Any] = {
     "structure": {"bending_modes": 2, "torsion_modes": 2},
@@ -53,12 +53,11 @@ def data(config: Config) -> dict[str, xr.Dataset]:
     return {
         "modes": modes_to_dataset(modes, list(frequency_constants(modes, plate))),
         "equivalent": equivalent_to_dataset(
-            [reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS],
+            {reduction: reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS},
             span_integrals(plate, modes, 2),
             (),
             density=flow.density,
             speed=flow.speed,
-            chord=config.beam.chord,
         ),
         "correction": factors_to_dataset(CorrectionFactors(polar, half)),
     }
@@ -105,7 +104,7 @@ def test_frequencies_of_the_beam_grow_as_the_root_of_k_star(data: dict[str, xr.D
 def test_beam_at_its_own_k_star_has_its_own_frequencies(
     config: Config, data: dict[str, xr.Dataset]
 ) -> None:
-    beam = case("3d", nominal_k_star(config, data["equivalent"]), data).beam
+    beam = case("3d", nominal_k_star(data["equivalent"]), data).beam
     modes = data["modes"]
     first = float(modes["frequency"].values[modes["kind"].values == "torsion"][0])
     assert beam is not None

@@ -14,7 +14,7 @@ from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.cases import UnsteadyCase
 from equisection.motion.beams import BeamHistories, BeamParameters, release_beams
 from equisection.motion.march import Failure
-from equisection.motion.sections import SectionHistories, SectionParameters, release_sections
+from equisection.motion.sections import SectionHistories, release_sections
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import Progress
 from equisection.solvers.verdicts import TipMotion, judge, monitor_of
@@ -35,15 +35,8 @@ def release_all_sections(
     cases: list[UnsteadyCase], loads: UnsteadyLoads, progress: Progress
 ) -> list[UnsteadyResult]:
     """Release the sections of some cases that share all but their structure."""
-    section = [case.section for case in cases]
-    parameters = SectionParameters(
-        inertia=np.array([s.inertia for s in section if s]),
-        torsional_stiffness=np.array([s.torsional_stiffness for s in section if s]),
-        mass=np.array([s.mass for s in section if s]),
-        heave_stiffness=np.array([s.flexural_stiffness for s in section if s]),
-    )
     histories = release_sections(
-        parameters,
+        [case.section for case in cases if case.section],
         loads,
         **_common_settings(cases[0]),
         monitor=monitor_of(cases, _section_lane),
