@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 from scipy.integrate import simpson, solve_bvp
 from scipy.sparse.linalg import splu
-from tests.sample_cases import PAPER, plate_with
+from tests.sample_cases import PAPER, altered, beam_with
 
+from equisection.beam.beam import BOUNDARIES, Beam
 from equisection.beam.section import Section
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import span_integrals
@@ -18,7 +18,6 @@ from equisection.reduction.reduce import reduce_beam
 from equisection.structure import solid
 from equisection.structure.mode_set import ModeSet
 from equisection.structure.modes import compute_modes
-from equisection.structure.plate import BOUNDARIES, Plate
 
 DENSITY, SPEED, CHORD = 1.18, 20.0, 0.1
 Q = 0.5 * DENSITY * SPEED**2
@@ -36,7 +35,7 @@ def solid_modes() -> ModeSet:
 
 @cache
 def analytic_modes(boundary: str = "clamped-free") -> ModeSet:
-    return compute_modes(plate_with(boundary), "analytic", (1, 89, 1), 16)
+    return compute_modes(beam_with(boundary), "analytic", (1, 89, 1), 16)
 
 
 def test_published_ratios_and_nominal_stiffness():
@@ -55,7 +54,7 @@ def test_published_ratios_and_nominal_stiffness():
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_consistent_mass_and_inertia_are_those_of_the_section(boundary):
-    plate = plate_with(boundary)
+    plate = beam_with(boundary)
     section = reduce_beam(plate, analytic_modes(boundary), "consistent")
     assert section.mass == pytest.approx(plate.mass_per_length)
     assert section.inertia == pytest.approx(plate.inertia_per_length)
@@ -67,7 +66,7 @@ def test_consistent_mass_and_inertia_are_those_of_the_section(boundary):
 @pytest.mark.parametrize("reduction", ["paper", "consistent"])
 def test_the_section_vibrates_in_vacuum_at_the_beams_frequencies(boundary, reduction):
     modes = analytic_modes(boundary)
-    section = reduce_beam(plate_with(boundary), modes, reduction)
+    section = reduce_beam(beam_with(boundary), modes, reduction)
     pitch = np.sqrt(section.torsional_stiffness / section.inertia) / (2 * np.pi)
     heave = np.sqrt(section.flexural_stiffness / section.mass) / (2 * np.pi)
     assert pitch == pytest.approx(modes.torsion(1).frequency[0], rel=1e-6)
@@ -98,7 +97,7 @@ def test_only_the_consistent_section_pitches_as_the_solid_plate():
     ],
 )
 def test_recovery_factors(boundary, a, b):
-    section = reduce_beam(plate_with(boundary), analytic_modes(boundary), "consistent")
+    section = reduce_beam(beam_with(boundary), analytic_modes(boundary), "consistent")
     assert section.twist_recovery == pytest.approx(np.pi / 4, rel=1e-4)
     assert section.twist_recovery == pytest.approx(a, abs=6e-4)
     assert section.deflection_recovery == pytest.approx(b, abs=6e-4)
@@ -159,7 +158,7 @@ def test_lift_by_twist_is_what_a_section_cannot_carry_exactly():
     a = span_integrals(PAPER, analytic_modes())
     carried = a.a_theta_theta[0, 0] * a.g_mean[0] / (a.a_theta_w[0, 0] * a.f_mean[0])
     assert carried == pytest.approx(0.907, abs=1e-3)
-    forks = plate_with("pinned-pinned")
+    forks = beam_with("pinned-pinned")
     same = span_integrals(forks, analytic_modes("pinned-pinned"))
     assert same.cos_phi == pytest.approx(1.0, abs=1e-9)
 
@@ -221,22 +220,22 @@ def slowest(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray) -> com
     return complex(roots[np.argmin(roots.imag)])
 
 
-def plate_root(plate: Plate, modes: ModeSet, k_star: float) -> complex:
+def plate_root(beam: Beam, modes: ModeSet, k_star: float) -> complex:
     """The same of the plate with four modes of each kind, all cross terms kept."""
-    nominal = reduce_beam(plate, modes, "consistent").k_star(DENSITY, SPEED)
+    nominal = reduce_beam(beam, modes, "consistent").k_star(DENSITY, SPEED)
     soft = k_star / nominal
-    a = span_integrals(plate, modes)
+    a = span_integrals(beam, modes)
     lift, moment = Q * CHORD * C_L_SLOPE, Q * CHORD**2 * C_M_SLOPE
     zero = np.zeros((4, 4))
     mass = np.block(
         [
-            [plate.inertia_per_length * a.mass_theta, zero],
-            [zero, plate.mass_per_length * a.mass_w],
+            [beam.inertia_per_length * a.mass_theta, zero],
+            [zero, beam.mass_per_length * a.mass_w],
         ]
     )
     damping = np.block([[zero, moment / SPEED * a.a_theta_w], [zero, lift / SPEED * a.a_w_w]])
-    k_theta = soft * plate.torsional_rigidity / plate.length**2 * a.stiffness_theta
-    k_w = soft * plate.bending_rigidity / plate.length**4 * a.stiffness_w
+    k_theta = soft * beam.torsional_rigidity / beam.length**2 * a.stiffness_theta
+    k_w = soft * beam.bending_rigidity / beam.length**4 * a.stiffness_w
     stiffness = np.block([[k_theta - moment * a.a_theta_theta, zero], [-lift * a.a_theta_w.T, k_w]])
     return slowest(mass, damping, stiffness)
 
@@ -259,7 +258,7 @@ def test_stiffnesses_scale_together_and_masses_stay():
     assert soft.stiffness_ratio == pytest.approx(section.stiffness_ratio)
     assert (soft.mass, soft.inertia) == (section.mass, section.inertia)
     # The same as a plate of another Young's modulus (k* ~ E, Section 2).
-    softer = replace(PAPER, youngs_modulus=PAPER.youngs_modulus / 2)
+    softer = altered(PAPER, youngs_modulus=PAPER.youngs_modulus / 2)
     halved = reduce_beam(softer, compute_modes(softer, "solid", COARSE, 12), "consistent")
     assert halved.torsional_stiffness == pytest.approx(section.torsional_stiffness / 2, rel=1e-6)
     with pytest.raises(ReductionError, match="stiffness_scale is -1"):
@@ -268,7 +267,7 @@ def test_stiffnesses_scale_together_and_masses_stay():
 
 def test_a_beam_without_restraint_has_no_section():
     for key, motion in (("torsional", "twist"), ("bending", "deflection")):
-        plate = replace(PAPER, boundary="spring-root", **{f"root_{key}_stiffness": 0.0})
+        plate = altered(beam_with("spring-root"), **{f"root_{key}_stiffness": 1e-12})
         for method in ("analytic", "beam"):
             modes = compute_modes(plate, method, (1, 40, 1), 8)
             with pytest.raises(ReductionError, match=f"leaves {motion} without restraint"):

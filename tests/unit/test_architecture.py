@@ -39,7 +39,7 @@ ROOMS = (
 )
 #: Modules that are the same idea of two solvers.
 OF_EACH_SOLVER = {"adapter", "job_work"}
-CLASSES_OF_EACH_SOLVER = {"Adapter", "CrossSection"}
+CLASSES_OF_EACH_SOLVER = {"Adapter"}
 
 
 def modules() -> dict[str, Path]:

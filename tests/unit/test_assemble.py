@@ -24,7 +24,6 @@ from equisection.results.section_dataset import equivalent_to_dataset, nominal_k
 from equisection.solvers.registry import solver_from_config
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import compute_modes
-from equisection.structure.plate import Plate
 from equisection.study import plan
 from equisection.study.assemble import steady_case, unsteady_case
 
@@ -43,18 +42,17 @@ def config() -> Config:
 @pytest.fixture(scope="module")
 def data(config: Config) -> dict[str, xr.Dataset]:
     """Modes, equivalent section and a correction by one half, of the paper's plate."""
-    plate = Plate(**config.beam.model_dump())
-    modes = compute_modes(plate, "beam", (4, 15, 1), count=8)
+    modes = compute_modes(config.beam, "beam", (4, 15, 1), count=8)
     polar = solver_from_config(config, "thin")._polar  # type: ignore[attr-defined]
     half = type(polar)(
         polar.incidence, 0.5 * polar.drag, 0.5 * polar.lift, 0.5 * polar.moment, "half"
     )
     flow = config.flow
     return {
-        "modes": modes_to_dataset(modes, list(frequency_constants(modes, plate))),
+        "modes": modes_to_dataset(modes, list(frequency_constants(modes, config.beam))),
         "equivalent": equivalent_to_dataset(
-            {reduction: reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS},
-            span_integrals(plate, modes, 2),
+            {reduction: reduce_beam(config.beam, modes, reduction) for reduction in REDUCTIONS},
+            span_integrals(config.beam, modes, 2),
             (),
             density=flow.density,
             speed=flow.speed,

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 from typing import Literal
 
+from equisection.beam.beam import Beam
 from equisection.beam.section import Section
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import Integrals, span_integrals
 from equisection.structure.mode_set import ModeSet
-from equisection.structure.plate import Plate
 
 Reduction = Literal["paper", "consistent"]
 REDUCTIONS: tuple[Reduction, ...] = ("paper", "consistent")
@@ -26,12 +26,12 @@ _LEAST_LIKENESS = 0.9
 _LEAST_PARTICIPATION = 0.3
 
 
-def reduce_beam(plate: Plate, modes: ModeSet, reduction: str = "consistent") -> Section:
+def reduce_beam(beam: Beam, modes: ModeSet, reduction: str = "consistent") -> Section:
     """Equivalent section of a beam from its first modes of torsion and of bending (Eq. 17).
 
     Parameters
     ----------
-    plate
+    beam
         The beam.
     modes
         Its modes, one of torsion and one of bending at least.
@@ -48,14 +48,14 @@ def reduce_beam(plate: Plate, modes: ModeSet, reduction: str = "consistent") -> 
     """
     if reduction not in REDUCTIONS:
         raise ReductionError(f"reduction is {reduction!r}; choose one of {', '.join(REDUCTIONS)}")
-    integrals = span_integrals(plate, modes, count=1)
-    _require_restraint(plate, integrals)
+    integrals = span_integrals(beam, modes, count=1)
+    _require_restraint(beam, integrals)
     if reduction == "paper":
-        return _paper_section(plate, integrals)
-    return _consistent_section(plate, integrals)
+        return _paper_section(beam, integrals)
+    return _consistent_section(beam, integrals)
 
 
-def _paper_section(plate: Plate, integrals: Integrals) -> Section:
+def _paper_section(beam: Beam, integrals: Integrals) -> Section:
     a_tt, a_tw = integrals.a_theta_theta[0, 0], integrals.a_theta_w[0, 0]
     if abs(a_tw) < 1e-6:
         raise ReductionError(
@@ -63,21 +63,21 @@ def _paper_section(plate: Plate, integrals: Integrals) -> Section:
             "and the paper's reduction divides by it; use reduction 'consistent'"
         )
     return Section(
-        torsional_stiffness=plate.torsional_rigidity
-        / plate.length**2
+        torsional_stiffness=beam.torsional_rigidity
+        / beam.length**2
         * float(integrals.strain_theta[0, 0] / a_tt),
-        flexural_stiffness=plate.bending_rigidity
-        / plate.length**4
+        flexural_stiffness=beam.bending_rigidity
+        / beam.length**4
         * float(integrals.stiffness_w[0, 0] / a_tw),
-        inertia=plate.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
-        mass=plate.mass_per_length * float(integrals.mass_w[0, 0] / a_tw),
-        chord=plate.chord,
+        inertia=beam.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
+        mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / a_tw),
+        chord=beam.chord,
         twist_recovery=1.0,
         deflection_recovery=1.0,
     )
 
 
-def _consistent_section(plate: Plate, integrals: Integrals) -> Section:
+def _consistent_section(beam: Beam, integrals: Integrals) -> Section:
     a_tt, a_ww = integrals.a_theta_theta[0, 0], integrals.a_w_w[0, 0]
     for name, mean in (("F", integrals.f_mean[0]), ("G", integrals.g_mean[0])):
         if abs(mean) < 1e-6:
@@ -86,21 +86,21 @@ def _consistent_section(plate: Plate, integrals: Integrals) -> Section:
                 "not move this mode and the section cannot stand for the beam"
             )
     return Section(
-        torsional_stiffness=plate.torsional_rigidity
-        / plate.length**2
+        torsional_stiffness=beam.torsional_rigidity
+        / beam.length**2
         * float(integrals.stiffness_theta[0, 0] / a_tt),
-        flexural_stiffness=plate.bending_rigidity
-        / plate.length**4
+        flexural_stiffness=beam.bending_rigidity
+        / beam.length**4
         * float(integrals.stiffness_w[0, 0] / a_ww),
-        inertia=plate.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
-        mass=plate.mass_per_length * float(integrals.mass_w[0, 0] / a_ww),
-        chord=plate.chord,
+        inertia=beam.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
+        mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / a_ww),
+        chord=beam.chord,
         twist_recovery=float(a_tt / integrals.f_mean[0]),
         deflection_recovery=float(a_ww / integrals.g_mean[0]),
     )
 
 
-def _require_restraint(plate: Plate, integrals: Integrals) -> None:
+def _require_restraint(beam: Beam, integrals: Integrals) -> None:
     """Refuse a beam that can turn or swing as a rigid body: it has no k_theta or no k_w."""
     for motion, key, stiffness in (
         ("twist", "root_torsional_stiffness", integrals.stiffness_theta[0, 0]),
@@ -108,9 +108,9 @@ def _require_restraint(plate: Plate, integrals: Integrals) -> None:
     ):
         if stiffness <= 1e-10:
             raise ReductionError(
-                f"boundary {plate.boundary!r} leaves {motion} without restraint (its first "
-                f"natural frequency is zero), so that the section would have no spring; give "
-                f"plate.{key} above zero or another boundary"
+                f"boundary {beam.boundary!r} leaves {motion} without restraint (its first "
+                "natural frequency is as good as zero), so that the section would have no spring; "
+                f"give a stiffer beam.{key} or another boundary"
             )
 
 

@@ -29,7 +29,6 @@ from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.section_dataset import nominal_k_star, section_from_dataset
 from equisection.solvers.protocol import Solver
 from equisection.solvers.verdicts import pitch_frequency
-from equisection.structure.plate import Plate
 from equisection.study.plan import Model
 
 #: Of the twist, below which its extrema are not where they seem to be.
@@ -189,7 +188,6 @@ def _corrected(config: Config, section: Section, correction: xr.Dataset) -> Sect
 
 def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> BeamModes:
     """Return the beam's modes, with frequencies that grow as the square root of E."""
-    plate = Plate.from_values(config.beam.model_dump())
     modes = modes_from_dataset(dataset)
     bending = modes.bending(config.structure.bending_modes)
     torsion = modes.torsion(config.structure.torsion_modes)
@@ -201,6 +199,6 @@ def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> 
         bending_shape=tuple(map(tuple, bending.shape)),
         torsion_frequency=tuple(to_reduced * torsion.frequency),
         torsion_shape=tuple(map(tuple, torsion.shape)),
-        inertia=plate.inertia_per_length / (0.5 * flow.density * chord**4),
-        mass=plate.mass_per_length / (0.5 * flow.density * chord**2),
+        inertia=config.beam.inertia_per_length / (0.5 * flow.density * chord**4),
+        mass=config.beam.mass_per_length / (0.5 * flow.density * chord**2),
     )
