@@ -117,7 +117,9 @@ def test_rigid_beam_is_the_lifting_line_in_its_channel(solver: Adapter) -> None:
     """Span 3.7 c, a gap of 0.3 c to the far wall, 4 c from floor to ceiling."""
     strips = cosine_strips(12)
     induction = induction_matrix(strips, 1.0, 3.7, 4.0, 4.0)
-    expected = LiftingLine(Polar.read(POLAR, symmetric=True), strips, induction).solve(math.radians(2.5))
+    expected = LiftingLine(Polar.read(POLAR, symmetric=True), strips, induction).solve(
+        math.radians(2.5)
+    )
     (beam,) = steady(solver, rigid("3d", 2.5))
     assert beam.lift == pytest.approx(expected.lift, rel=1e-12)
     assert beam.moment == pytest.approx(expected.moment, rel=1e-12)
