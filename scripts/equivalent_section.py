@@ -3,32 +3,30 @@
 import logging
 from pathlib import Path
 
-from equisection.config.groups import Beam, Flow
+from equisection.beam.beam import Beam
+from equisection.config.groups import Flow
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import REDUCTIONS, reduce_beam, validity_warnings
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.section_dataset import equivalent_to_dataset
 from equisection.run.script import logged
-from equisection.structure.plate import Plate
 
 
 def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
     """Reduce the modes of the beam (Eqs. 6, 7, 12 and 17)."""
-    plate = Plate.from_values(beam.model_dump())
     modes = modes_from_dataset(read_dataset(modes_file))
     count = min(modes.kind.count("bending"), modes.kind.count("torsion"))
-    integrals = span_integrals(plate, modes, count)
-    warnings = (*plate.warnings, *validity_warnings(integrals))
+    integrals = span_integrals(beam, modes, count)
+    warnings = (*beam.warnings, *validity_warnings(integrals))
     for warning in warnings:
         logging.warning(warning)
     dataset = equivalent_to_dataset(
-        [reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS],
+        {reduction: reduce_beam(beam, modes, reduction) for reduction in REDUCTIONS},
         integrals,
         warnings,
         density=flow.density,
         speed=flow.speed,
-        chord=beam.chord,
     )
     write_dataset(output, dataset)
 

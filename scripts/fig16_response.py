@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from equisection.config.groups.beam import FREE_TIP
+from equisection.beam.beam import FREE_TIP
 from equisection.figures.response import AT_THE_TIP, WHERE_LARGEST, draw, read_response
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style

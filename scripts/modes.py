@@ -3,13 +3,13 @@
 import logging
 from pathlib import Path
 
-from equisection.config.groups import Beam, Structure
+from equisection.beam.beam import Beam
+from equisection.config.groups import Structure
 from equisection.results.modes_dataset import modes_to_dataset
 from equisection.results.netcdf import write_dataset
 from equisection.run.script import logged
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import modes_of_kinds
-from equisection.structure.plate import Plate
 
 #: Modes computed beside those of bending and torsion that are wanted, since some are in-plane;
 #: a slender beam needs more, which are then computed.
@@ -18,11 +18,10 @@ OTHER_MODES = 4
 
 def main(beam: Beam, structure: Structure, output: Path) -> None:
     """Compute the modes that the configuration asks for."""
-    plate = Plate.from_values(beam.model_dump())
     elements = structure.elements
     bending, torsion = structure.bending_modes, structure.torsion_modes
     modes = modes_of_kinds(
-        plate,
+        beam,
         structure.method,
         (elements.chord, elements.span, elements.thickness),
         (bending, torsion),
@@ -30,7 +29,7 @@ def main(beam: Beam, structure: Structure, output: Path) -> None:
     )
     for frequency, kind in zip(modes.frequency, modes.kind, strict=True):
         logging.info("%9.3f Hz %s", frequency, kind)
-    write_dataset(output, modes_to_dataset(modes, list(frequency_constants(modes, plate))))
+    write_dataset(output, modes_to_dataset(modes, list(frequency_constants(modes, beam))))
 
 
 if __name__ == "__main__":

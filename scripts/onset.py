@@ -7,12 +7,12 @@ import pandas as pd
 from equisection.analysis.linear_theory import (
     linear_onset,
     moment_slope,
-    section_of,
     with_linear_theory,
 )
 from equisection.analysis.onset import onset_table, with_speeds
 from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
+from equisection.results.section_dataset import nominal_k_star
 from equisection.run.script import logged
 
 
@@ -32,7 +32,7 @@ def main(
     slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg)
     linear = linear_onset(sections, slope)
     table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
-    table = with_speeds(table, section_of(sections, reduction).k_star, speed)
+    table = with_speeds(table, nominal_k_star(sections), speed)
     with written_whole(output) as aside:
         table.to_csv(aside, index=False, float_format="%.6g")
 

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
+from equisection.beam.section import Section
 from equisection.cases import (
     EndCriteria,
     Geometry,
     Medium,
-    SectionProperties,
     SolverBlock,
     UnsteadyCase,
     case_hash,
@@ -45,7 +45,7 @@ def unsteady(k_star: float) -> UnsteadyCase:
     return UnsteadyCase(
         dimension="2d",
         k_star=k_star,
-        section=SectionProperties(
+        section=Section(
             torsional_stiffness=k_star,
             flexural_stiffness=1.0,
             inertia=6.7,

@@ -24,7 +24,8 @@ import xarray as xr
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from equisection.cases import BeamModes, SectionProperties, UnsteadyCase
+from equisection.beam.section import Section
+from equisection.cases import BeamModes, UnsteadyCase
 from equisection.results.netcdf import read_dataset
 from equisection.structure.span import integrate
 from tests.benchmarks.early_verdict import KEPT, case_of
@@ -43,7 +44,7 @@ class Swing:
     loads: Floats
 
 
-def section_swing(section: SectionProperties, history: xr.Dataset) -> Swing:
+def section_swing(section: Section, history: xr.Dataset) -> Swing:
     """Return pitch and heave of the section."""
     return Swing(
         time=history["time"].values,

@@ -12,11 +12,10 @@ from tests.benchmarks.measure import Row, limit, measured
 
 ELEMENTS = (24, 89, 2)
 COMPUTE = f"""
-from equisection.config import load_config
+from equisection.beam.beam import Beam
 from equisection.structure.modes import compute_modes
-from equisection.structure.plate import Plate
 
-compute_modes(Plate(**load_config({{}}).beam.model_dump()), "solid", {ELEMENTS}, count=12)
+compute_modes(Beam(), "solid", {ELEMENTS}, count=12)
 """
 
 

@@ -13,7 +13,8 @@ from scipy.optimize import minimize_scalar
 from tests.sample_cases import STEADY, UNSTEADY
 from tests.watching import interrupt_after, nothing
 
-from equisection.cases import SectionProperties, UnsteadyCase
+from equisection.beam.section import Section
+from equisection.cases import UnsteadyCase
 from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.reading.histories import read_history
@@ -42,7 +43,7 @@ def rigid(
 
 def free(duration: float, mass: float = 1.0) -> UnsteadyCase:
     """Return a case at k* = 10 with the paper's ratios, all of the structure scaled."""
-    section = SectionProperties(
+    section = Section(
         torsional_stiffness=10.0 * mass,
         flexural_stiffness=1.83 * mass,
         inertia=8.8 * mass,

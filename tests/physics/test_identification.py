@@ -15,15 +15,16 @@ import pandas as pd
 import pytest
 import yaml
 from scipy.optimize import brentq
+from tests.sample_cases import sections
 
 from equisection.aerodynamics.identification import LoadMisfit, identify_lags, load_misfit
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory, unexplained_damping
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.beam.section import Section
 from equisection.config.groups import Embedded
 from equisection.errors import ResultFileError
-from equisection.io.polar_file import read_polar
 from equisection.motion.release_judgement import (
     ReleaseJudgement,
     ReleaseNumbers,
@@ -31,7 +32,6 @@ from equisection.motion.release_judgement import (
     release_numbers,
 )
 from equisection.motion.sections import (
-    SectionParameters,
     release_sections,
     section_system,
 )
@@ -43,7 +43,7 @@ ROOT = Path(__file__).parents[2]
 CONFIGURED = Embedded()
 FITTED_TO = CONFIGURED.identification.fitted_to
 JUDGED_ON = CONFIGURED.identification.judged_on
-POLAR = read_polar(ROOT / CONFIGURED.polars["coarse"])
+POLAR = Polar.read(ROOT / CONFIGURED.polars["coarse"])
 LOADS = UnsteadyLoads.from_polar(POLAR)
 INDEPENDENCE = "results/reference/independence-{}/unsteady/2d/k{}.nc"
 
@@ -159,13 +159,7 @@ def onset_like(history: ReferenceHistory, lags: SeparationLags) -> float:
 
     def growth(k_star: float) -> float:
         scale = k_star / history.k_star
-        section = SectionParameters.from_ratios(
-            scale * history.torsional_stiffness,
-            history.inertia,
-            history.mass / history.inertia,
-            history.flexural_stiffness / history.torsional_stiffness,
-        )
-        system = section_system(section, loads, history.incidence_rad)
+        system = section_system([history.section.scaled(scale)], loads, history.incidence_rad)
         return float(least_stable_eigenvalue(system)[0].real)
 
     return float(brentq(growth, 4.0, 20.0, xtol=1e-3))
@@ -199,9 +193,9 @@ def first_part(history: ReferenceHistory, end: float) -> ReferenceHistory:
 
 def of_the_model(loads: UnsteadyLoads, k_star: float, like: ReferenceHistory) -> ReferenceHistory:
     """Return a release of the model as if it had been recorded."""
-    parameters = SectionParameters.from_ratios(k_star, 6.67, 12.0, 0.23)
+    (section,) = sections(k_star, 6.67, 12.0, 0.23)
     run = release_sections(
-        parameters, loads, math.radians(2.5), 80.0, time_step=0.025, output_interval=0.05
+        [section], loads, math.radians(2.5), 80.0, time_step=0.025, output_interval=0.05
     )
     return replace(
         like,
@@ -210,8 +204,7 @@ def of_the_model(loads: UnsteadyLoads, k_star: float, like: ReferenceHistory) ->
         deflection=run.deflection[:, 0],
         lift_coefficient=run.lift_coefficient[:, 0],
         moment_coefficient=run.moment_coefficient[:, 0],
-        torsional_stiffness=k_star,
-        inertia=6.67,
+        section=section,
     )
 
 
@@ -235,14 +228,14 @@ def test_known_lags_are_recovered_from_a_release_of_the_model(some_release):
 def test_recorded_motion_is_what_the_recorded_moment_does(path):
     """No damping from the coupling of flow and section: below 0.0008 V/c of growth."""
     history = release(path)
-    growth = unexplained_damping(history, 20.0) / (2 * history.inertia)
+    growth = unexplained_damping(history, 20.0) / (2 * history.section.inertia)
     print(path, "growth from unexplained damping", growth)
     assert abs(growth) < 8e-4
 
 
 def test_lags_that_a_history_does_not_tell_are_named(some_release):
     """A section that stays attached has no bubble whose lag could be found."""
-    attached = SectionPolar.flat_plate(5.0)
+    attached = Polar.flat_plate(5.0)
     loads = UnsteadyLoads.from_polar(attached, SeparationLags.none())
     history = of_the_model(loads, 21.0, some_release)
     assert identify_lags(attached, [history]).untold == ("relaxation", "delay", "lift_lag")
@@ -267,10 +260,9 @@ def test_damping_that_the_moment_does_not_have_is_found(damping):
         moment_coefficient=np.full(time.size, moment),
         incidence_rad=0.0,
         k_star=stiffness,
-        torsional_stiffness=stiffness,
-        flexural_stiffness=1.0,
-        inertia=inertia,
-        mass=80.0,
+        section=Section(
+            torsional_stiffness=stiffness, flexural_stiffness=1.0, inertia=inertia, mass=80.0
+        ),
         name="made up",
         source="made up",
     )
@@ -298,9 +290,9 @@ def test_unexplained_damping_of_the_embedded_solver_is_nil(some_release):
 
 def test_mean_loads_are_carried_by_the_springs(some_release):
     late = some_release.time > 40.0
-    twist = some_release.torsional_stiffness * some_release.twist[late].mean()
+    twist = some_release.section.torsional_stiffness * some_release.twist[late].mean()
     assert some_release.moment_coefficient[late].mean() == pytest.approx(twist, rel=0.02)
-    deflection = some_release.flexural_stiffness * some_release.deflection[late].mean()
+    deflection = some_release.section.flexural_stiffness * some_release.deflection[late].mean()
     assert some_release.lift_coefficient[late].mean() == pytest.approx(deflection, rel=0.02)
 
 

@@ -8,19 +8,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+from tests.sample_cases import sections
 
 from equisection.aerodynamics.indicial import wagner
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import (
     APPARENT_INERTIA,
     APPARENT_MASS,
     UnsteadyLoads,
 )
-from equisection.io.polar_file import read_polar
+from equisection.beam.section import Section
 from equisection.motion.march import march
 from equisection.motion.sections import (
-    SectionParameters,
     release_sections,
     section_system,
 )
@@ -34,13 +34,13 @@ from equisection.verdict import Criteria, assess, heave_grows
 from equisection.verdict.cycles import find_cycles
 
 POLARS = Path(__file__).parents[2] / "config/polars"
-POLAR = read_polar(POLARS / "plate_2d_11136.csv")
+POLAR = Polar.read(POLARS / "plate_2d_11136.csv")
 INCIDENCE = math.radians(2.5)
 INERTIA, MASS_RATIO, STIFFNESS_RATIO = 6.67, 9.12, 0.183  # the paper's plate, A_theta,w in both
 
 
-def plate_sections(k_star: object) -> SectionParameters:
-    return SectionParameters.from_ratios(k_star, INERTIA, MASS_RATIO, STIFFNESS_RATIO)
+def plate_sections(k_star: object) -> list[Section]:
+    return sections(k_star, INERTIA, MASS_RATIO, STIFFNESS_RATIO)
 
 
 def measured(lags: SeparationLags | None = None) -> UnsteadyLoads:
@@ -50,7 +50,7 @@ def measured(lags: SeparationLags | None = None) -> UnsteadyLoads:
 
 
 def thin_plate() -> UnsteadyLoads:
-    return UnsteadyLoads.from_polar(SectionPolar.flat_plate(10.0), SeparationLags.none())
+    return UnsteadyLoads.from_polar(Polar.flat_plate(10.0), SeparationLags.none())
 
 
 def cycle_amplitudes(history, lane: int) -> np.ndarray:
@@ -60,7 +60,7 @@ def cycle_amplitudes(history, lane: int) -> np.ndarray:
 
 def test_in_vacuo_the_energy_is_kept_and_the_frequencies_are_right():
     """Inertias 1e10 times the plate's: the air is nothing to it."""
-    heavy = SectionParameters.from_ratios(20e10, INERTIA * 1e10, MASS_RATIO, STIFFNESS_RATIO)
+    heavy = sections(20e10, INERTIA * 1e10, MASS_RATIO, STIFFNESS_RATIO)
     system = section_system(heavy, thin_plate(), 0.0)
     states, deficits = rigid_state(system)
     states[0, :4] = 0.1, 0.0, 0.2, 0.0
@@ -81,7 +81,7 @@ def test_in_vacuo_the_energy_is_kept_and_the_frequencies_are_right():
 
 
 def test_a_wing_started_from_rest_builds_its_lift_up_as_wagner_says():
-    stiff = SectionParameters.from_ratios(1e9, 1e9, 1.0, 1.0)
+    stiff = sections(1e9, 1e9, 1.0, 1.0)
     system = section_system(stiff, thin_plate(), 0.1)
     run = march(
         system,
@@ -127,7 +127,7 @@ def test_flutter_of_the_textbook_section():
     axis, centre = -0.2 / 2, -0.1 / 2  # chords behind mid-chord
     inertia_axis = mass * (6 / 25) / 4
     inertia_centre = inertia_axis - mass * (centre - axis) ** 2
-    held = SectionParameters.from_ratios(1.0, 1e12, 1.0, 1.0)  # loads without accelerations
+    held = sections(1.0, 1e12, 1.0, 1.0)  # loads without accelerations
     system = section_system(held, thin_plate(), 0.0)
     n = system.layout.size
     loads = np.stack([system.strip_loads[0, 1, :n], system.strip_loads[0, 0, :n]])  # c_m, c_l
@@ -151,25 +151,25 @@ def test_flutter_of_the_textbook_section():
 
 
 def test_steady_equilibrium_is_where_a_damped_section_ends():
-    parameters = plate_sections([10.0, 21.0])
+    given = plate_sections([10.0, 21.0])
     loads, incidence = measured(SeparationLags.none()), math.radians(1.0)
-    states, _ = equilibrium(section_system(parameters, loads, incidence))
-    history = release_sections(parameters, loads, incidence, 600.0, output_interval=1.0)
+    states, _ = equilibrium(section_system(given, loads, incidence))
+    history = release_sections(given, loads, incidence, 600.0, output_interval=1.0)
     np.testing.assert_allclose(history.twist[-1], states[:, 0], atol=1e-5)
     np.testing.assert_allclose(history.deflection[-1], states[:, 2], atol=1e-4)
     twist = states[:, 0]
     np.testing.assert_allclose(
-        parameters.torsional_stiffness * twist, POLAR.moment_coefficient(incidence + twist)
+        np.array([10.0, 21.0]) * twist, POLAR.moment_coefficient(incidence + twist)
     )
 
 
 def test_second_order_in_the_time_step():
     """Errors of the deficits' interpolation; all else is exact."""
-    parameters = plate_sections([5.0, 10.0])
+    given = plate_sections([5.0, 10.0])
 
     def twist(step: float) -> np.ndarray:
         run = release_sections(
-            parameters, measured(), INCIDENCE, 20.0, time_step=step, output_interval=0.4
+            given, measured(), INCIDENCE, 20.0, time_step=step, output_interval=0.4
         )
         return run.twist
 
@@ -181,9 +181,9 @@ def test_second_order_in_the_time_step():
 
 
 def test_a_linear_polar_has_no_time_step_error():
-    parameters = plate_sections([5.0, 21.0])
+    given = plate_sections([5.0, 21.0])
     coarse, fine = (
-        release_sections(parameters, thin_plate(), 0.02, 60.0, time_step=step, output_interval=1.0)
+        release_sections(given, thin_plate(), 0.02, 60.0, time_step=step, output_interval=1.0)
         for step in (1.0, 0.05)
     )
     np.testing.assert_allclose(coarse.twist, fine.twist, atol=1e-9)
@@ -295,7 +295,7 @@ def test_section_whose_lift_falls_gallops():
     """Den Hartog: with dc_l/dalpha + c_d < 0 the heave is unstable, however stiff the twist."""
     degrees = np.array([0.0, 3.0, 6.0, 10.0, 14.0, 18.0])
     lift = np.array([0.0, 0.33, 0.60, 0.50, 0.40, 0.30])
-    falling = SectionPolar(
+    falling = Polar(
         np.radians(degrees),
         np.full(6, 0.04),
         lift,
@@ -332,9 +332,9 @@ def test_heave_that_grows_is_told_stable_neither_early_nor_at_the_end(
 ):
     """Of a section with a linear c_l that falls the eigenvalue at equilibrium knows the truth."""
     angles = np.radians(np.linspace(-30.0, 30.0, 121))
-    bluff = SectionPolar(angles, np.full(121, 0.1), slope * angles, 0.3 * angles, "bluff")
+    bluff = Polar(angles, np.full(121, 0.1), slope * angles, 0.3 * angles, "bluff")
     loads = UnsteadyLoads.from_polar(bluff, SeparationLags.none())
-    section = SectionParameters.from_ratios(k_star, inertia, 12.0, stiffness_ratio)
+    section = sections(k_star, inertia, 12.0, stiffness_ratio)
     unstable = least_stable_eigenvalue(section_system(section, loads, INCIDENCE))[0]
     assert unstable.real > 0.001
     history = release_sections(section, loads, INCIDENCE, 400.0)
@@ -352,9 +352,9 @@ def test_heave_that_grows_is_told_stable_neither_early_nor_at_the_end(
 def test_heave_whose_growth_cannot_be_seen_yet_leaves_the_mean_unknown():
     """One swing of the heave in all of the run."""
     angles = np.radians(np.linspace(-30.0, 30.0, 121))
-    bluff = SectionPolar(angles, np.full(121, 0.1), -angles, 0.3 * angles, "bluff")
+    bluff = Polar(angles, np.full(121, 0.1), -angles, 0.3 * angles, "bluff")
     loads = UnsteadyLoads.from_polar(bluff, SeparationLags.none())
-    section = SectionParameters.from_ratios(10.0, 20.0, 12.0, 0.0085)
+    section = sections(10.0, 20.0, 12.0, 0.0085)
     history = release_sections(section, loads, INCIDENCE, 400.0)
     motion = history.time, history.twist[:, 0], history.deflection[:, 0]
     verdict = assess(*motion, final=True, natural_frequency=math.sqrt(0.5) / (2 * math.pi))
@@ -365,7 +365,7 @@ def test_heave_whose_growth_cannot_be_seen_yet_leaves_the_mean_unknown():
 
 def test_section_that_came_to_rest_long_ago_has_no_amplitude():
     """The paper's plate in water: the twist is dead after one swing of the heave."""
-    section = SectionParameters.from_ratios(3.0, 0.2, MASS_RATIO, STIFFNESS_RATIO)
+    section = sections(3.0, 0.2, MASS_RATIO, STIFFNESS_RATIO)
     system = section_system(section, measured(), INCIDENCE)
     history = release_sections(section, measured(), INCIDENCE, 400.0)
     natural = math.sqrt(3.0 / 0.2) / (2 * math.pi)
@@ -382,7 +382,7 @@ def test_section_that_came_to_rest_long_ago_has_no_amplitude():
 def test_stability_does_not_hang_on_where_incidence_is_counted_from(shift_deg):
     """The same section in the same flow, its incidence read from another chord line."""
     shift = math.radians(shift_deg)
-    moved = SectionPolar(POLAR.incidence + shift, POLAR.drag, POLAR.lift, POLAR.moment, "moved")
+    moved = Polar(POLAR.incidence + shift, POLAR.drag, POLAR.lift, POLAR.moment, "moved")
     sections = plate_sections(np.array([5.0, 8.0, 14.0]))
     first, second = (
         least_stable_eigenvalue(section_system(sections, UnsteadyLoads.from_polar(polar), at))
@@ -412,7 +412,7 @@ def test_onset_of_the_uncorrected_section(incidence_deg, onset):
 
 def test_onset_with_the_polar_of_the_whole_plate():
     """The section with the loads of the paper's Table 1, docs/embedded.md."""
-    whole = UnsteadyLoads.from_polar(read_polar(POLARS / "paper_plate_3d.csv"))
+    whole = UnsteadyLoads.from_polar(Polar.read(POLARS / "paper_plate_3d.csv"))
     assert section_onset(whole, 2.5) == pytest.approx(6.28, rel=0.01)
 
 
@@ -425,5 +425,5 @@ def section_onset(loads: UnsteadyLoads, incidence_deg: float) -> float:
 
 
 def test_parameters_that_make_no_sense_are_refused():
-    with pytest.raises(ValueError, match="must be positive"):
+    with pytest.raises(ValueError, match=r"torsional_stiffness\n.*greater than 0"):
         plate_sections([5.0, -1.0])

@@ -16,7 +16,7 @@ import xarray as xr
 from tests.benchmarks.early_verdict import KEPT, case_of
 from tests.benchmarks.energy import cycles, section_swing, swing_of
 
-from equisection.cases import SectionProperties
+from equisection.beam.section import Section
 from equisection.results.netcdf import read_dataset
 
 #: Part of the work, and growth rate (V/c).
@@ -24,7 +24,7 @@ TOLERANCE, GROWTH = 0.02, 2e-4
 #: Amplitude of the twist (deg) below which the growth rate may be larger (V/c).
 SMALL_DEG, GROWTH_OF_SMALL = 0.5, 3e-4
 KEPT_PLATES = KEPT.parents[1] / "paper-plate-openfoam-3d" / "unsteady"
-SECTION = SectionProperties(
+SECTION = Section(
     torsional_stiffness=10.0,
     flexural_stiffness=1.8,
     inertia=6.7,

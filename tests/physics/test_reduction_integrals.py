@@ -7,12 +7,12 @@ from functools import cache
 
 import numpy as np
 import pytest
-from tests.sample_cases import PAPER, plate_with
+from tests.sample_cases import PAPER, beam_with
 
+from equisection.beam.beam import BOUNDARIES
 from equisection.reduction.integrals import Integrals, span_integrals
 from equisection.reduction.reduce import validity_warnings
 from equisection.structure.modes import compute_modes
-from equisection.structure.plate import BOUNDARIES
 
 STATIONS = (1, 89, 1)
 HELD = BOUNDARIES[:-1]
@@ -20,7 +20,7 @@ HELD = BOUNDARIES[:-1]
 
 @cache
 def analytic_integrals(boundary: str) -> Integrals:
-    plate = plate_with(boundary)
+    plate = beam_with(boundary)
     return span_integrals(plate, compute_modes(plate, "analytic", STATIONS, 16))
 
 

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 from scipy.integrate import simpson, solve_bvp
 from scipy.sparse.linalg import splu
-from tests.sample_cases import PAPER, plate_with
+from tests.sample_cases import PAPER, altered, beam_with
 
+from equisection.beam.beam import BOUNDARIES, Beam
+from equisection.beam.section import Section
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import span_integrals
-from equisection.reduction.reduce import EquivalentSection, reduce_beam
+from equisection.reduction.reduce import reduce_beam
 from equisection.structure import solid
 from equisection.structure.mode_set import ModeSet
 from equisection.structure.modes import compute_modes
-from equisection.structure.plate import BOUNDARIES, Plate
 
 DENSITY, SPEED, CHORD = 1.18, 20.0, 0.1
 Q = 0.5 * DENSITY * SPEED**2
@@ -35,17 +35,17 @@ def solid_modes() -> ModeSet:
 
 @cache
 def analytic_modes(boundary: str = "clamped-free") -> ModeSet:
-    return compute_modes(plate_with(boundary), "analytic", (1, 89, 1), 16)
+    return compute_modes(beam_with(boundary), "analytic", (1, 89, 1), 16)
 
 
 def test_published_ratios_and_nominal_stiffness():
     # Below Eq. 18: 9.12 and 0.183; "k* = 21" is the nominal plate.
     section = reduce_beam(PAPER, solid_modes(), "paper")
-    assert section.inertia_ratio(CHORD) == pytest.approx(9.12, rel=2e-3)
-    assert section.stiffness_ratio(CHORD) == pytest.approx(0.183, rel=8e-3)
-    assert section.k_star(DENSITY, SPEED, CHORD) == pytest.approx(21.28, rel=2e-3)
+    assert section.inertia_ratio == pytest.approx(9.12, rel=2e-3)
+    assert section.stiffness_ratio == pytest.approx(0.183, rel=8e-3)
+    assert section.k_star(DENSITY, SPEED) == pytest.approx(21.28, rel=2e-3)
     analytic = reduce_beam(PAPER, analytic_modes(), "paper")
-    assert analytic.k_star(DENSITY, SPEED, CHORD) == pytest.approx(19.91, abs=5e-3)
+    assert analytic.k_star(DENSITY, SPEED) == pytest.approx(19.91, abs=5e-3)
     # Printed with A_theta under m_2D (the misprint), the ratio is 6.5 and not 9.12.
     integrals = span_integrals(PAPER, solid_modes())
     misprint = 12 * integrals.mass_w[0, 0] / integrals.a_theta_theta[0, 0]
@@ -54,19 +54,19 @@ def test_published_ratios_and_nominal_stiffness():
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_consistent_mass_and_inertia_are_those_of_the_section(boundary):
-    plate = plate_with(boundary)
+    plate = beam_with(boundary)
     section = reduce_beam(plate, analytic_modes(boundary), "consistent")
     assert section.mass == pytest.approx(plate.mass_per_length)
     assert section.inertia == pytest.approx(plate.inertia_per_length)
-    assert section.i_star(DENSITY, CHORD) == pytest.approx(20 / 3)
-    assert section.m_star(DENSITY, CHORD) == pytest.approx(80.0)
+    assert section.i_star(DENSITY) == pytest.approx(20 / 3)
+    assert section.m_star(DENSITY) == pytest.approx(80.0)
 
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 @pytest.mark.parametrize("reduction", ["paper", "consistent"])
 def test_the_section_vibrates_in_vacuum_at_the_beams_frequencies(boundary, reduction):
     modes = analytic_modes(boundary)
-    section = reduce_beam(plate_with(boundary), modes, reduction)
+    section = reduce_beam(beam_with(boundary), modes, reduction)
     pitch = np.sqrt(section.torsional_stiffness / section.inertia) / (2 * np.pi)
     heave = np.sqrt(section.flexural_stiffness / section.mass) / (2 * np.pi)
     assert pitch == pytest.approx(modes.torsion(1).frequency[0], rel=1e-6)
@@ -76,7 +76,7 @@ def test_the_section_vibrates_in_vacuum_at_the_beams_frequencies(boundary, reduc
 def test_only_the_consistent_section_pitches_as_the_solid_plate():
     measured = solid_modes().torsion(1).frequency[0]
 
-    def pitch(section: EquivalentSection) -> float:
+    def pitch(section: Section) -> float:
         return float(np.sqrt(section.torsional_stiffness / section.inertia) / (2 * np.pi))
 
     assert pitch(reduce_beam(PAPER, solid_modes(), "consistent")) == pytest.approx(measured)
@@ -97,7 +97,7 @@ def test_only_the_consistent_section_pitches_as_the_solid_plate():
     ],
 )
 def test_recovery_factors(boundary, a, b):
-    section = reduce_beam(plate_with(boundary), analytic_modes(boundary), "consistent")
+    section = reduce_beam(beam_with(boundary), analytic_modes(boundary), "consistent")
     assert section.twist_recovery == pytest.approx(np.pi / 4, rel=1e-4)
     assert section.twist_recovery == pytest.approx(a, abs=6e-4)
     assert section.deflection_recovery == pytest.approx(b, abs=6e-4)
@@ -111,9 +111,9 @@ def test_recovery_factors_of_the_solid_plate():
     assert (paper.twist_recovery, paper.deflection_recovery) == (1.0, 1.0)
 
 
-def loaded_beam(section: EquivalentSection, k_star: float) -> tuple[float, float]:
+def loaded_beam(section: Section, k_star: float) -> tuple[float, float]:
     """Tip twist (rad) and deflection (chords) of a continuous cantilever in the linear flow."""
-    factor = k_star / section.k_star(DENSITY, SPEED, CHORD)
+    factor = k_star / section.k_star(DENSITY, SPEED)
     torsion = factor * PAPER.torsional_rigidity / (PAPER.length**2 * Q * CHORD**2)
     bending = factor * PAPER.bending_rigidity / (PAPER.length**4 * Q)
 
@@ -130,9 +130,9 @@ def loaded_beam(section: EquivalentSection, k_star: float) -> tuple[float, float
     return float(solved.y[0, -1]), float(solved.y[2, -1])
 
 
-def at_k_star(section: EquivalentSection, k_star: float) -> EquivalentSection:
+def at_k_star(section: Section, k_star: float) -> Section:
     """The section with both stiffnesses scaled to a k* of its own."""
-    return section.scaled(k_star / section.k_star(DENSITY, SPEED, CHORD))
+    return section.scaled(k_star / section.k_star(DENSITY, SPEED))
 
 
 @pytest.mark.parametrize("k_star", [4.0, 6.44, 10.0, 21.0])
@@ -158,7 +158,7 @@ def test_lift_by_twist_is_what_a_section_cannot_carry_exactly():
     a = span_integrals(PAPER, analytic_modes())
     carried = a.a_theta_theta[0, 0] * a.g_mean[0] / (a.a_theta_w[0, 0] * a.f_mean[0])
     assert carried == pytest.approx(0.907, abs=1e-3)
-    forks = plate_with("pinned-pinned")
+    forks = beam_with("pinned-pinned")
     same = span_integrals(forks, analytic_modes("pinned-pinned"))
     assert same.cos_phi == pytest.approx(1.0, abs=1e-9)
 
@@ -196,7 +196,7 @@ def test_static_twist_and_deflection_of_the_solid_plate():
     assert couple / by_slope / section.twist_recovery == pytest.approx(1.10 * twist, rel=0.01)
 
 
-def heave_roots(section: EquivalentSection, k_star: float) -> complex:
+def heave_roots(section: Section, k_star: float) -> complex:
     """Least root (1/s) of the section in quasi-steady linear flow, the one of heave."""
     section = at_k_star(section, k_star)
     mass = np.diag([section.inertia, section.mass])
@@ -220,22 +220,22 @@ def slowest(mass: np.ndarray, damping: np.ndarray, stiffness: np.ndarray) -> com
     return complex(roots[np.argmin(roots.imag)])
 
 
-def plate_root(plate: Plate, modes: ModeSet, k_star: float) -> complex:
+def plate_root(beam: Beam, modes: ModeSet, k_star: float) -> complex:
     """The same of the plate with four modes of each kind, all cross terms kept."""
-    nominal = reduce_beam(plate, modes, "consistent").k_star(DENSITY, SPEED, CHORD)
+    nominal = reduce_beam(beam, modes, "consistent").k_star(DENSITY, SPEED)
     soft = k_star / nominal
-    a = span_integrals(plate, modes)
+    a = span_integrals(beam, modes)
     lift, moment = Q * CHORD * C_L_SLOPE, Q * CHORD**2 * C_M_SLOPE
     zero = np.zeros((4, 4))
     mass = np.block(
         [
-            [plate.inertia_per_length * a.mass_theta, zero],
-            [zero, plate.mass_per_length * a.mass_w],
+            [beam.inertia_per_length * a.mass_theta, zero],
+            [zero, beam.mass_per_length * a.mass_w],
         ]
     )
     damping = np.block([[zero, moment / SPEED * a.a_theta_w], [zero, lift / SPEED * a.a_w_w]])
-    k_theta = soft * plate.torsional_rigidity / plate.length**2 * a.stiffness_theta
-    k_w = soft * plate.bending_rigidity / plate.length**4 * a.stiffness_w
+    k_theta = soft * beam.torsional_rigidity / beam.length**2 * a.stiffness_theta
+    k_w = soft * beam.bending_rigidity / beam.length**4 * a.stiffness_w
     stiffness = np.block([[k_theta - moment * a.a_theta_theta, zero], [-lift * a.a_theta_w.T, k_w]])
     return slowest(mass, damping, stiffness)
 
@@ -254,11 +254,11 @@ def test_heave_of_the_consistent_section_is_damped_as_the_plates():
 def test_stiffnesses_scale_together_and_masses_stay():
     section = reduce_beam(PAPER, solid_modes(), "consistent")
     soft = at_k_star(section, 5.5)
-    assert soft.k_star(DENSITY, SPEED, CHORD) == pytest.approx(5.5)
-    assert soft.stiffness_ratio(CHORD) == pytest.approx(section.stiffness_ratio(CHORD))
+    assert soft.k_star(DENSITY, SPEED) == pytest.approx(5.5)
+    assert soft.stiffness_ratio == pytest.approx(section.stiffness_ratio)
     assert (soft.mass, soft.inertia) == (section.mass, section.inertia)
     # The same as a plate of another Young's modulus (k* ~ E, Section 2).
-    softer = replace(PAPER, youngs_modulus=PAPER.youngs_modulus / 2)
+    softer = altered(PAPER, youngs_modulus=PAPER.youngs_modulus / 2)
     halved = reduce_beam(softer, compute_modes(softer, "solid", COARSE, 12), "consistent")
     assert halved.torsional_stiffness == pytest.approx(section.torsional_stiffness / 2, rel=1e-6)
     with pytest.raises(ReductionError, match="stiffness_scale is -1"):
@@ -267,7 +267,7 @@ def test_stiffnesses_scale_together_and_masses_stay():
 
 def test_a_beam_without_restraint_has_no_section():
     for key, motion in (("torsional", "twist"), ("bending", "deflection")):
-        plate = replace(PAPER, boundary="spring-root", **{f"root_{key}_stiffness": 0.0})
+        plate = altered(beam_with("spring-root"), **{f"root_{key}_stiffness": 1e-12})
         for method in ("analytic", "beam"):
             modes = compute_modes(plate, method, (1, 40, 1), 8)
             with pytest.raises(ReductionError, match=f"leaves {motion} without restraint"):

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
-from tests.sample_cases import PAPER, plate_with
+from tests.sample_cases import PAPER, altered, beam_with
 
+from equisection.beam.beam import BOUNDARIES, Beam, CrossSection
 from equisection.errors import ModesError
 from equisection.reduction.reduce import reduce_beam
 from equisection.structure.analytic import bending_modes, bending_roots, torsion_modes
 from equisection.structure.modes import compute_modes, modes_of_kinds
-from equisection.structure.plate import BOUNDARIES, CrossSection, Plate
 from equisection.structure.span import gram
 
 SPAN = np.linspace(0.0, 1.0, 401)
@@ -30,7 +29,9 @@ DECK = CrossSection(
 @pytest.mark.parametrize("method", ["beam", "analytic"])
 def test_section_as_given_has_the_frequencies_of_its_own_rigidities(method):
     """Between forks: (pi/L)^2 sqrt(EI/m) n^2 and (pi/L) sqrt(GJ/I) n, in rad/s."""
-    deck = Plate(31.0, 1624.0, 4.0, 1.0, 0.0, 1.0, boundary="pinned-pinned", cross_section=DECK)
+    deck = Beam(
+        chord=31.0, length=1624.0, thickness=4.0, boundary="pinned-pinned", cross_section=DECK
+    )
     modes = compute_modes(deck, method, (1, 60, 1), count=8)
     n = np.arange(1, 3)
     wave = math.pi / 1624.0
@@ -43,19 +44,17 @@ def test_section_as_given_has_the_frequencies_of_its_own_rigidities(method):
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_section_of_a_plate_given_as_it_is_changes_nothing(boundary):
     """Modes and equivalent section, with springs at the root too."""
-    plate = plate_with(boundary)
-    given = Plate.from_values(
-        {
-            **asdict(plate),
-            "youngs_modulus": 1.0,
-            "density": 1.0,
-            "cross_section": {
-                "bending_rigidity": plate.bending_rigidity,
-                "torsional_rigidity": plate.torsional_rigidity,
-                "mass_per_length": plate.mass_per_length,
-                "inertia_per_length": plate.inertia_per_length,
-            },
-        }
+    plate = beam_with(boundary)
+    given = altered(
+        plate,
+        youngs_modulus=1.0,
+        density=1.0,
+        cross_section=CrossSection(
+            bending_rigidity=plate.bending_rigidity,
+            torsional_rigidity=plate.torsional_rigidity,
+            mass_per_length=plate.mass_per_length,
+            inertia_per_length=plate.inertia_per_length,
+        ),
     )
     modes, same = (compute_modes(each, "beam", (1, 30, 1), count=8) for each in (plate, given))
     np.testing.assert_allclose(same.frequency, modes.frequency, rtol=1e-9)
@@ -87,11 +86,14 @@ def test_a_root_spring_runs_from_hinge_to_clamp():
     roots = np.array([bending_roots(ends, spring, 4) for spring in (0.01, 0.1, 1.0, 10.0, 100.0)])
     assert (np.diff(roots, axis=0) > 0).all()
     # A soft spring carries the beam as a rigid body: omega^2 = k_b/(rho c h L^3/3).
-    assert bending_roots(ends, 1e-4, 1) ** 4 == pytest.approx([3e-4], rel=1e-4)
+    for spring in (1e-4, 1e-12, 1e-20):
+        first = bending_roots(ends, spring, 2)
+        assert first[0] ** 4 == pytest.approx(3 * spring, rel=1e-4)
+        assert first[1] == pytest.approx(3.92660231, rel=1e-4)
 
 
 def test_a_soft_torsion_spring_turns_the_beam_as_a_rigid_body():
-    plate = replace(PAPER, boundary="spring-root", root_torsional_stiffness=1e-3)
+    plate = altered(beam_with("spring-root"), root_torsional_stiffness=1e-3)
     frequency, shape = torsion_modes(plate, SPAN, 1)
     inertia = plate.inertia_per_length * plate.length
     assert frequency == pytest.approx([np.sqrt(1e-3 / inertia) / (2 * np.pi)], rel=1e-3)
@@ -99,7 +101,7 @@ def test_a_soft_torsion_spring_turns_the_beam_as_a_rigid_body():
 
 
 def test_sprung_shapes_meet_the_root_conditions():
-    plate = plate_with("spring-root")
+    plate = beam_with("spring-root")
     z = np.linspace(0.0, 1.0, 20001)
     step = z[1]
     _, g = bending_modes(plate, z, 3)
@@ -116,7 +118,7 @@ def test_sprung_shapes_meet_the_root_conditions():
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_modes_of_one_kind_are_orthogonal(boundary):
     for solve in (bending_modes, torsion_modes):
-        _, shape = solve(plate_with(boundary), SPAN, 4)
+        _, shape = solve(beam_with(boundary), SPAN, 4)
         mass = gram(SPAN, shape, shape)
         size = np.sqrt(np.diag(mass))
         assert mass / np.outer(size, size) == pytest.approx(np.eye(4), abs=1e-7)
@@ -124,7 +126,7 @@ def test_modes_of_one_kind_are_orthogonal(boundary):
 
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_elements_agree_with_closed_form(boundary):
-    plate = plate_with(boundary)
+    plate = beam_with(boundary)
     exact = compute_modes(plate, "analytic", (1, 60, 1), 8)
     beam = compute_modes(plate, "beam", (1, 60, 1), 8)
     assert beam.kind == exact.kind
@@ -135,7 +137,7 @@ def test_elements_agree_with_closed_form(boundary):
 
 @pytest.mark.parametrize("boundary", ["clamped-free", "spring-root"])
 def test_element_frequencies_converge_with_the_fourth_power(boundary):
-    plate = plate_with(boundary)
+    plate = beam_with(boundary)
     exact = compute_modes(plate, "analytic", (1, 8, 1), 6)
     error = [
         compute_modes(plate, "beam", (1, n, 1), 6).frequency / exact.frequency - 1.0
@@ -148,7 +150,7 @@ def test_element_frequencies_converge_with_the_fourth_power(boundary):
 @pytest.mark.parametrize("method", ["beam", "analytic"])
 @pytest.mark.parametrize("boundary", BOUNDARIES)
 def test_shapes_are_normalised_and_signed(method, boundary):
-    modes = compute_modes(plate_with(boundary), method, (1, 40, 1), 8)
+    modes = compute_modes(beam_with(boundary), method, (1, 40, 1), 8)
     assert np.abs(modes.shape).max(axis=1) == pytest.approx(np.ones(8))
     free = np.abs(modes.shape[:, -1]) > 1e-6
     assert (modes.shape[free, -1] > 0).all()
@@ -165,13 +167,13 @@ def test_what_is_missing_is_named():
     with pytest.raises(ModesError, match=r"modes\.method"):
         compute_modes(PAPER, "guess")
     with pytest.raises(ModesError, match="'beam' or 'analytic'"):
-        compute_modes(plate_with("one-fork"), "solid", (4, 8, 1), 4)
+        compute_modes(beam_with("one-fork"), "solid", (4, 8, 1), 4)
 
 
 @pytest.mark.parametrize("method", ["beam", "analytic"])
 @pytest.mark.parametrize("aspect", [16, 40])
 def test_a_slender_plate_has_the_torsion_modes_that_are_wanted(method, aspect):
-    plate = replace(PAPER, length=aspect * PAPER.chord)
+    plate = altered(PAPER, length=aspect * PAPER.chord)
     with pytest.raises(ModesError, match="4 torsion modes are needed"):
         compute_modes(plate, method, (1, 60, 1), 12).torsion(4)
     modes = modes_of_kinds(plate, method, (1, 60, 1), (4, 4), 12)

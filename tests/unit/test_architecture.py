@@ -19,6 +19,8 @@ ROOMS = (
     "files",
     "provenance",
     "keys",
+    "io",
+    "beam",
     "structure",
     "verdict",
     "aerodynamics",
@@ -26,7 +28,6 @@ ROOMS = (
     "motion",
     "cases",
     "results",
-    "io",
     "config",
     "solvers",
     "store",
@@ -38,7 +39,7 @@ ROOMS = (
 )
 #: Modules that are the same idea of two solvers.
 OF_EACH_SOLVER = {"adapter", "job_work"}
-CLASSES_OF_EACH_SOLVER = {"Adapter", "CrossSection"}
+CLASSES_OF_EACH_SOLVER = {"Adapter"}
 
 
 def modules() -> dict[str, Path]:

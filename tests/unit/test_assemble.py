@@ -11,7 +11,7 @@ from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 from tests.sample_cases import STEADY
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.cases import UnsteadyCase, case_hash
 from equisection.config import Config, load_config
 from equisection.errors import ConfigError
@@ -20,13 +20,12 @@ from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import REDUCTIONS, reduce_beam
 from equisection.results.correction_dataset import factors_from_dataset, factors_to_dataset
 from equisection.results.modes_dataset import modes_to_dataset
-from equisection.results.section_dataset import equivalent_to_dataset
+from equisection.results.section_dataset import equivalent_to_dataset, nominal_k_star
 from equisection.solvers.registry import solver_from_config
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import compute_modes
-from equisection.structure.plate import Plate
 from equisection.study import plan
-from equisection.study.assemble import nominal_k_star, steady_case, unsteady_case
+from equisection.study.assemble import steady_case, unsteady_case
 
 RAW: dict[str, Any] = {
     "structure": {"bending_modes": 2, "torsion_modes": 2},
@@ -43,22 +42,20 @@ def config() -> Config:
 @pytest.fixture(scope="module")
 def data(config: Config) -> dict[str, xr.Dataset]:
     """Modes, equivalent section and a correction by one half, of the paper's plate."""
-    plate = Plate(**config.beam.model_dump())
-    modes = compute_modes(plate, "beam", (4, 15, 1), count=8)
+    modes = compute_modes(config.beam, "beam", (4, 15, 1), count=8)
     polar = solver_from_config(config, "thin")._polar  # type: ignore[attr-defined]
     half = type(polar)(
         polar.incidence, 0.5 * polar.drag, 0.5 * polar.lift, 0.5 * polar.moment, "half"
     )
     flow = config.flow
     return {
-        "modes": modes_to_dataset(modes, list(frequency_constants(modes, plate))),
+        "modes": modes_to_dataset(modes, list(frequency_constants(modes, config.beam))),
         "equivalent": equivalent_to_dataset(
-            [reduce_beam(plate, modes, reduction) for reduction in REDUCTIONS],
-            span_integrals(plate, modes, 2),
+            {reduction: reduce_beam(config.beam, modes, reduction) for reduction in REDUCTIONS},
+            span_integrals(config.beam, modes, 2),
             (),
             density=flow.density,
             speed=flow.speed,
-            chord=config.beam.chord,
         ),
         "correction": factors_to_dataset(CorrectionFactors(polar, half)),
     }
@@ -105,7 +102,7 @@ def test_frequencies_of_the_beam_grow_as_the_root_of_k_star(data: dict[str, xr.D
 def test_beam_at_its_own_k_star_has_its_own_frequencies(
     config: Config, data: dict[str, xr.Dataset]
 ) -> None:
-    beam = case("3d", nominal_k_star(config, data["equivalent"]), data).beam
+    beam = case("3d", nominal_k_star(data["equivalent"]), data).beam
     modes = data["modes"]
     first = float(modes["frequency"].values[modes["kind"].values == "torsion"][0])
     assert beam is not None
@@ -159,7 +156,7 @@ def test_factors_are_those_of_the_incidence_at_equilibrium(data: dict[str, xr.Da
     k* theta = c_m(theta_0 + theta)/m_f is the beam's own equilibrium: k* theta = C_M.
     """
     angles = np.radians(np.linspace(-10.0, 10.0, 41))
-    section = SectionPolar(angles, 0.1 + angles**2, 6.0 * angles, 1.5 * angles, "section")
+    section = Polar(angles, 0.1 + angles**2, 6.0 * angles, 1.5 * angles, "section")
     beam = replace(section, moment=section.moment * (0.9 - 2.0 * np.abs(angles)))
     factors = CorrectionFactors(section, beam)
     given = {**data, "correction": factors_to_dataset(factors)}
@@ -169,7 +166,7 @@ def test_factors_are_those_of_the_incidence_at_equilibrium(data: dict[str, xr.Da
     assert plain is not None
     assert corrected is not None
 
-    def moment(twist: float, of: SectionPolar) -> float:
+    def moment(twist: float, of: Polar) -> float:
         return float(PchipInterpolator(of.incidence, of.moment)(start + twist))
 
     stiffness = plain.torsional_stiffness

@@ -7,12 +7,12 @@ import pytest
 import yaml
 
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS
+from equisection.beam.beam import BOUNDARIES
 from equisection.config import Config, check_files, load_config, resolve_config
 from equisection.config.__main__ import COMMAND, MARK, README, SCHEMA, main
 from equisection.config.groups import Range
 from equisection.errors import ConfigError
 from equisection.keys.values import NULL_WORDS
-from equisection.structure.plate import BOUNDARIES
 from equisection.structure.solid import SOLID_BOUNDARIES
 from equisection.study import plan
 

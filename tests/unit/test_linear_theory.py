@@ -17,9 +17,9 @@ from equisection.analysis.linear_theory import (
     moment_slope,
     with_linear_theory,
 )
+from equisection.beam.section import Section
 from equisection.motion.linear_flutter import (
     FlutterIterationError,
-    TypicalSection,
     growth_and_frequency,
 )
 
@@ -30,6 +30,9 @@ EQUIVALENT = xr.Dataset(
         "i_star": ("reduction", [6.67, 6.67]),
         "k_w_star": ("reduction", [3.9, 5.1]),
         "k_star": ("reduction", [21.3, 22.6]),
+        **dict.fromkeys(("s_star", "c_w_star", "c_theta_star"), ("reduction", [0.0, 0.0])),
+        "elastic_axis": ("reduction", [0.5, 0.5]),
+        **dict.fromkeys(("twist_recovery", "deflection_recovery"), ("reduction", [1.0, 1.0])),
     },
     {"reduction": ["paper", "consistent"]},
 )
@@ -72,7 +75,7 @@ def test_k_star_at_which_the_iteration_finds_nothing_is_missing_alone(
     index = ["reduction", "motion", "k_star"]
     known = linear_theory(EQUIVALENT, [4.0, 8.0, 21.0]).set_index(index)
 
-    def settles_above(section: TypicalSection, scales: np.ndarray) -> np.ndarray:
+    def settles_above(section: Section, scales: np.ndarray) -> np.ndarray:
         if np.any(scales < 0.3):
             raise FlutterIterationError("did not settle")
         return growth_and_frequency(section, scales)

@@ -85,7 +85,7 @@ CASES_MADE_OF = (
     "reduction",
     "results",
     "solvers",
-    "structure/plate.py",
+    "beam",
     "io",
 )
 

@@ -5,7 +5,9 @@ LINEAR_THEORY = (
     "aerodynamics/indicial.py",
     "aerodynamics/thin_airfoil.py",
     "analysis/linear_theory.py",
+    "beam/section.py",
     "motion/linear_flutter.py",
+    "results/section_dataset.py",
 )
 
 

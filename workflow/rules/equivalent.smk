@@ -17,7 +17,12 @@ rule equivalent_section:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("reduction", "results/modes_dataset.py", "results/section_dataset.py"),
+        code=code(
+            "beam",
+            "reduction",
+            "results/modes_dataset.py",
+            "results/section_dataset.py",
+        ),
         beam=RESOLVED["beam"],
         flow=RESOLVED["flow"],
     message:

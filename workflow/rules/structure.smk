@@ -14,7 +14,7 @@ rule modes:
         mem_mb=2500,
         runtime=10,
     params:
-        code=code("structure", "results/modes_dataset.py"),
+        code=code("beam", "structure", "results/modes_dataset.py"),
         beam=RESOLVED["beam"],
         structure=RESOLVED["structure"],
     message:
@@ -36,7 +36,7 @@ rule mesh_study:
         mem_mb=2000,
         runtime=10,
     params:
-        code=code("structure", "results/modes_dataset.py"),
+        code=code("beam", "structure", "results/modes_dataset.py"),
         beam=RESOLVED["beam"],
         structure=RESOLVED["structure"],
     message:

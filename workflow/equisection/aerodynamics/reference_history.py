@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.beam.section import Section
+
 Floats = NDArray[np.float64]
 
 
@@ -30,8 +32,8 @@ class ReferenceHistory:
         Rigid incidence theta_0 (rad).
     k_star
         k* of the beam that the section stands for.
-    torsional_stiffness, flexural_stiffness, inertia, mass
-        k*, k_w*, I*, m* of the section as it moved (Eq. 18), corrected where it was.
+    section
+        The section in its flow as it moved (Eq. 18), corrected where it was.
     name
         Model and case, for instance ``2d-corrected/k6.44``.
     source
@@ -45,10 +47,7 @@ class ReferenceHistory:
     moment_coefficient: Floats
     incidence_rad: float
     k_star: float
-    torsional_stiffness: float
-    flexural_stiffness: float
-    inertia: float
-    mass: float
+    section: Section
     name: str
     source: str
 
@@ -68,8 +67,8 @@ def unexplained_damping(history: ReferenceHistory, start: float) -> float:
     rate = np.gradient(history.twist, history.time_step)
     acceleration = np.gradient(rate, history.time_step)
     imbalance = (
-        history.inertia * acceleration
-        + history.torsional_stiffness * history.twist
+        history.section.inertia * acceleration
+        + history.section.torsional_stiffness * history.twist
         - history.moment_coefficient
     )
     late = history.time > start

@@ -11,58 +11,32 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.beam.section import Section
 from equisection.errors import IncidenceOutOfRangeError, ResultFileError
 from equisection.motion.linear_flutter import (
     FlutterIterationError,
-    TypicalSection,
     divergence_scale,
     flutter,
     growth_and_frequency,
 )
 from equisection.results.polar_dataset import polar_at
+from equisection.results.section_dataset import nominal_k_star, section_in_flow
 from equisection.study.plan import model
 
 #: Columns of ``comparison/linear_theory.csv``, in order.
 COLUMNS = ("reduction", "motion", "k_star", "growth_rate", "frequency_strouhal")
 #: Columns that the theory adds to ``comparison/onset.csv``.
 ONSET_COLUMNS = ("linear_flutter", "linear_divergence", "divergence_by_polar")
+#: Place of the moments of a polar, x/c.
+_MID_CHORD = 0.5
 #: The motions in vacuum, in the order of :func:`growth_and_frequency`.
 _MOTIONS = ("heave", "pitch")
-
-
-@dataclass(frozen=True)
-class Section:
-    """The section of one reduction.
-
-    Attributes
-    ----------
-    section
-        Its properties at the k* of the beam as given.
-    k_star
-        That k*, by which every stiffness goes.
-    """
-
-    section: TypicalSection
-    k_star: float
-
-
-def section_of(equivalent: xr.Dataset, reduction: str) -> Section:
-    """Return the section of a reduction from ``structure/equivalent.nc``."""
-    chosen = equivalent.sel(reduction=reduction)
-    own = TypicalSection(
-        mass=float(chosen["m_star"]),
-        inertia=float(chosen["i_star"]),
-        flexural_stiffness=float(chosen["k_w_star"]),
-        torsional_stiffness=float(chosen["k_star"]),
-    )
-    return Section(own, float(equivalent["k_star"].sel(reduction="paper")))
 
 
 def linear_theory(equivalent: xr.Dataset, k_star: Sequence[float]) -> pd.DataFrame:
@@ -78,17 +52,15 @@ def linear_theory(equivalent: xr.Dataset, k_star: Sequence[float]) -> pd.DataFra
     rows = []
     ascending = sorted(k_star)
     for reduction in (str(name) for name in equivalent["reduction"].values):
-        chosen = section_of(equivalent, reduction)
-        p = _growth_and_frequency(chosen.section, np.array(ascending) / chosen.k_star)
+        section = section_in_flow(equivalent, reduction)
+        p = _growth_and_frequency(section, np.array(ascending) / nominal_k_star(equivalent))
         for column, motion in enumerate(_MOTIONS):
             for value, root in zip(ascending, p[:, column], strict=True):
                 rows.append((reduction, motion, value, root.real, root.imag / (2 * math.pi)))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
-def _growth_and_frequency(
-    section: TypicalSection, scales: NDArray[np.float64]
-) -> NDArray[np.complex128]:
+def _growth_and_frequency(section: Section, scales: NDArray[np.float64]) -> NDArray[np.complex128]:
     """Return p of both motions at each s, shape (n, 2); NaN where the p-k iteration finds none.
 
     That may be so just above divergence, where a motion ceases to oscillate.
@@ -121,21 +93,24 @@ def linear_onset(equivalent: xr.Dataset, slope: float) -> dict[str, dict[str, fl
     equivalent
         ``structure/equivalent.nc``.
     slope
-        dc_m/dtheta of the section's polar (1/rad), of the divergence beside the thin plate's.
+        dc_m/dtheta about mid-chord of the section's polar (1/rad), for the divergence beside the
+        thin plate's; NaN where the elastic axis is elsewhere.
 
     Returns
     -------
     dict
         NaN for flutter where no k* has a neutral oscillation; 0 where nothing diverges.
     """
-    found = {}
+    found, nominal = {}, nominal_k_star(equivalent)
     for reduction in (str(name) for name in equivalent["reduction"].values):
-        chosen = section_of(equivalent, reduction)
-        neutral = flutter(chosen.section)
+        section = section_in_flow(equivalent, reduction)
+        neutral = flutter(section)
         values = (
-            math.nan if neutral is None else chosen.k_star * neutral.scale,
-            chosen.k_star * divergence_scale(chosen.section),
-            chosen.k_star * divergence_scale(chosen.section, slope),
+            math.nan if neutral is None else nominal * neutral.scale,
+            nominal * divergence_scale(section),
+            nominal * divergence_scale(section, slope)
+            if section.elastic_axis == _MID_CHORD
+            else math.nan,
         )
         found[reduction] = dict(zip(ONSET_COLUMNS, values, strict=True))
     return found

@@ -10,6 +10,8 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, model_validator
 
+from equisection.beam.section import Section
+
 SCHEMA_VERSION = 1
 
 
@@ -61,17 +63,6 @@ class SteadyCase(Block):
     solver: SolverBlock
 
 
-class SectionProperties(Block):
-    """Equivalent section, non-dimensional (Eq. 18), as the solver moves it."""
-
-    torsional_stiffness: float  # k_theta/(q c^2); the corrected one in `2d-corrected`
-    flexural_stiffness: float  # k_w/q
-    inertia: float  # I_2D/(rho c^4/2)
-    mass: float  # m_2D/(rho c^2/2)
-    twist_recovery: float  # a: tip twist = twist/a
-    deflection_recovery: float  # b: tip deflection = deflection/b
-
-
 class BeamModes(Block):
     """Modes of the beam for one k*, non-dimensional, bending and torsion apart.
 
@@ -114,7 +105,7 @@ class UnsteadyCase(Block):
     resolution: str
     geometry: Geometry
     medium: Medium
-    section: SectionProperties | None = None
+    section: Section | None = None  # in its flow; the corrected one in `2d-corrected`
     beam: BeamModes | None = None
     duration: float  # c/V
     time_step: float  # c/V

@@ -8,6 +8,6 @@ reference of all keys (``config/README.md``) come from the models of
 from equisection.config.input_files import check_files
 from equisection.config.load import load_config, resolve_config
 from equisection.config.model import Config
-from equisection.config.repeated_keys import check_repeated_keys
+from equisection.keys.repeated_keys import check_repeated_keys
 
 __all__ = ["Config", "check_files", "check_repeated_keys", "load_config", "resolve_config"]

@@ -8,10 +8,10 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from equisection.config.groups import KeyGroup
 from equisection.config.model import Config
 from equisection.errors import ConfigError
 from equisection.keys.checks import DisagreementError, Path, Problem, disagreements
+from equisection.keys.group import WHOLE, KeyGroup
 
 
 def load_config(raw: Mapping[str, Any]) -> Config:
@@ -26,7 +26,7 @@ def load_config(raw: Mapping[str, Any]) -> Config:
         problem = Problem("", raw, "allowed is a file of sections, as config/config.yaml is")
         raise ConfigError(problem.line)
     try:
-        return Config.model_validate(dict(raw))
+        return Config.model_validate(dict(raw), context=WHOLE)
     except ValidationError as error:
         problems = _problems(raw, error.errors(include_url=False))
     raise ConfigError("\n".join(dict.fromkeys(problem.line for problem in problems)))
@@ -51,7 +51,7 @@ def _problems(raw: Mapping[str, Any], errors: Sequence[ErrorDetails]) -> list[Pr
     sound = _without(raw, wrong)
     problems = [problem_of(error) for error in errors]
     try:
-        config = Config.model_validate(sound, context={"values_only": True})
+        config = Config.model_validate(sound, context={**WHOLE, "values_only": True})
     except ValidationError:
         return problems
     return problems + disagreements(config, [*wrong, *meant])

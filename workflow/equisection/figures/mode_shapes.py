@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from equisection.beam.beam import Beam
 from equisection.figures.origin import add_provenance
 from equisection.figures.panels import letter, say
 from equisection.figures.style import COLOURS, DASHES, GREY, PAGE_WIDTH
 from equisection.structure import analytic
-from equisection.structure.plate import Plate
 from equisection.structure.span import normalise
 
 Floats = NDArray[np.float64]
@@ -42,13 +42,13 @@ class AnalyticShapes:
     torsion: Floats
 
 
-def analytic_shapes(plate: Plate) -> AnalyticShapes:
-    """Return the first shapes of the analytic beam with the plate's ends."""
+def analytic_shapes(beam: Beam) -> AnalyticShapes:
+    """Return the first shapes of the analytic beam with the beam's ends."""
     span = np.linspace(0.0, 1.0, _STATIONS)
     return AnalyticShapes(
         span,
-        normalise(analytic.bending_modes(plate, span, COUNT)[1]),
-        normalise(analytic.torsion_modes(plate, span, COUNT)[1]),
+        normalise(analytic.bending_modes(beam, span, COUNT)[1]),
+        normalise(analytic.torsion_modes(beam, span, COUNT)[1]),
     )
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from functools import reduce
+from types import SimpleNamespace
 from typing import Any
 
 from equisection.keys.shown import shown
@@ -25,11 +26,16 @@ class Problem:
     allowed: str
 
     @property
-    def line(self) -> str:
+    def text(self) -> str:
         """Return the problem in one line."""
         key = self.key if self.key.isprintable() else repr(self.key)
         where = f"{key}: " if key else ""
-        return f"config: {where}{shown(self.value)}: {self.allowed}"
+        return f"{where}{shown(self.value)}: {self.allowed}"
+
+    @property
+    def line(self) -> str:
+        """Return the problem in one line, as one of the configuration."""
+        return f"config: {self.text}"
 
 
 class DisagreementError(ValueError):
@@ -59,11 +65,25 @@ def disagreements(config: object, wrong: Collection[Path] = ()) -> list[Problem]
     found: list[Problem] = []
     for keys, function in _CHECKS:
         paths = [tuple(key.split(".")) for key in keys]
-        if any(_overlap(path, other) for path in paths for other in wrong):
-            continue
-        values: list[Any] = [reduce(_attribute, path, config) for path in paths]
-        found += function(*values)
+        if not any(_overlap(path, other) for path in paths for other in wrong):
+            found += _of_one(function, paths, config)
     return found
+
+
+def disagreements_within(name: str, group: object) -> list[Problem]:
+    """Return what the checks find that read keys of one group alone, by the group's name."""
+    whole = SimpleNamespace(**{name: group})
+    found: list[Problem] = []
+    for keys, function in _CHECKS:
+        paths = [tuple(key.split(".")) for key in keys]
+        if all(path[0] == name and len(path) > 1 for path in paths):
+            found += _of_one(function, paths, whole)
+    return found
+
+
+def _of_one(function: Check, paths: list[tuple[str, ...]], config: object) -> Iterator[Problem]:
+    values: list[Any] = [reduce(_attribute, path, config) for path in paths]
+    return function(*values)
 
 
 def _attribute(section: Any, name: str) -> Any:

@@ -1,8 +1,9 @@
 """Linear stability of a section on springs: divergence, and flutter by the k and p-k methods.
 
-With q = (w/c, theta) the section obeys M q'' + s K q = Q q, where Q are the loads of a thin plate
-(:mod:`equisection.aerodynamics.thin_airfoil`) and s multiplies both stiffnesses: k* goes with s,
-and s with one over the square of the speed.
+With q = (w/c, theta) the section obeys M q'' + sqrt(s) C q' + s K q = Q q, where Q are the loads of
+a thin plate about the elastic axis (:mod:`equisection.aerodynamics.thin_airfoil`), M, C and K those
+of :class:`equisection.beam.section.Section`, and s multiplies both stiffnesses: k* goes with s, and
+s with one over the square of the speed, at which dampers weigh sqrt(s).
 
 Divergence
     det(s K - Q(0)) = 0. Lift does not turn the section, so s k* = dc_m/dtheta (Bisplinghoff,
@@ -11,12 +12,12 @@ k method
     Neutral oscillation at omega is (omega^2 M + Q(omega)) q = s K q with s real. s is complex at
     any other omega; Im s/Re s is the structural damping that would be needed (Theodorsen & Garrick,
     NACA Report 685, 1940; Hodges & Pierce, *Introduction to Structural Dynamics and
-    Aeroelasticity*, 2nd ed., 2011, section 5.4).
+    Aeroelasticity*, 2nd ed., 2011, section 5.4). With dampers it is a quadratic in sqrt(s).
 p-k method
-    (p^2 M + s K - Q(Im p)) q = 0, iterated until Q is that of the frequency found (Hassig, Journal
-    of Aircraft 8, 1971). Re p is the growth rate (V/c), exact where it is zero. Both motions are
-    followed from where the air is no more than a mass on them, in steps of s that are the same
-    whatever s is asked for, so that they keep apart.
+    (p^2 M + p sqrt(s) C + s K - Q(Im p)) q = 0, iterated until Q is that of the frequency found
+    (Hassig, Journal of Aircraft 8, 1971). Re p is the growth rate (V/c), exact where it is zero.
+    Both motions are followed from where the air is no more than a mass on them, in steps of s that
+    are the same whatever s is asked for, so that they keep apart.
 """
 
 from __future__ import annotations
@@ -26,13 +27,13 @@ import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
+from equisection.beam.section import Section
 from equisection.errors import EquisectionError
 
 Floats = NDArray[np.float64]
@@ -54,6 +55,8 @@ _ONE_ROOT = 1e-3
 #: A step on which a motion goes further than this part of what separates both is halved.
 _CLEAR_PART = 0.3
 _MOST_HALVINGS = 6
+#: Im p that is round-off.
+_STILL = 1e-12
 #: Bounds of the part of its way that an iteration goes.
 _LEAST_PART, _LARGEST_PART = 0.25, 1.5
 
@@ -62,53 +65,17 @@ class FlutterIterationError(EquisectionError):
     """The p-k iteration found no frequency that its loads belong to."""
 
 
-@dataclass(frozen=True)
-class TypicalSection:
-    """A section on two springs at its pitch axis, in the non-dimensional numbers of Eq. 18.
+class _Flow:
+    """A section in its flow: the matrices and the loads, made once."""
 
-    Attributes
-    ----------
-    mass : float
-        m* (-).
-    inertia : float
-        I* about the pitch axis (-).
-    flexural_stiffness : float
-        k_w* (-).
-    torsional_stiffness : float
-        k_theta/(q c^2) (-).
-    axis : float
-        Chords from mid-chord back to the pitch axis.
-    centre : float
-        Chords from mid-chord back to the centre of mass.
-    """
-
-    mass: float
-    inertia: float
-    flexural_stiffness: float
-    torsional_stiffness: float
-    axis: float = 0.0
-    centre: float = 0.0
-
-    @cached_property
-    def air(self) -> ThinAirfoil:
-        """The loads."""
-        return ThinAirfoil(self.axis)
-
-    @cached_property
-    def mass_matrix(self) -> Floats:
-        """M; a point x behind the axis moves by w - x theta."""
-        static_moment = -self.mass * (self.centre - self.axis)
-        return np.array([[self.mass, static_moment], [static_moment, self.inertia]])
-
-    @cached_property
-    def inverse_mass(self) -> Floats:
-        """Inverse of M."""
-        return np.asarray(np.linalg.inv(self.mass_matrix), dtype=np.float64)
-
-    @cached_property
-    def stiffness_matrix(self) -> Floats:
-        """K at s = 1."""
-        return np.diag([self.flexural_stiffness, self.torsional_stiffness])
+    def __init__(self, section: Section) -> None:
+        section.require_in_flow()
+        self.mass = section.mass_matrix
+        self.inverse_mass = np.asarray(np.linalg.inv(self.mass), dtype=np.float64)
+        self.damping = section.damping_matrix
+        self.is_damped = bool(self.damping.any())
+        self.stiffness = section.stiffness_matrix
+        self.air = ThinAirfoil(section.axis_behind_mid_chord)
 
 
 @dataclass(frozen=True)
@@ -127,42 +94,58 @@ class Neutral:
     omega: float
 
 
-def divergence_scale(section: TypicalSection, moment_slope: float | None = None) -> float:
+def divergence_scale(section: Section, moment_slope: float | None = None) -> float:
     """Return s at static divergence; 0 where the moment does not grow with the twist.
 
     Parameters
     ----------
     section
-        The section.
+        The section in its flow.
     moment_slope
-        dc_m/dtheta about the pitch axis (1/rad) in the place of the thin plate's.
+        dc_m/dtheta about the elastic axis (1/rad) in the place of the thin plate's.
+
+    Raises
+    ------
+    EquisectionError
+        The section is in SI units.
     """
-    slope = section.air.moment_slope if moment_slope is None else moment_slope
+    section.require_in_flow()
+    plate = ThinAirfoil(section.axis_behind_mid_chord)
+    slope = plate.moment_slope if moment_slope is None else moment_slope
     return 0.0 if slope <= 0.0 else slope / section.torsional_stiffness
 
 
-def flutter(section: TypicalSection) -> Neutral | None:
+def flutter(section: Section) -> Neutral | None:
     """Return the neutral oscillation of the largest s, the first met from low speed (k method).
 
     None if there is none at reduced frequencies k from 0.001 to 10.
+
+    Parameters
+    ----------
+    section
+        The section in its flow.
+
+    Raises
+    ------
+    EquisectionError
+        The section is in SI units.
     """
+    flow = _Flow(section)
     found = [
         neutral
         for branch in range(2)
         for low, high in itertools.pairwise(_FREQUENCIES)
-        if (neutral := _neutral_between(section, branch, 2.0 * low, 2.0 * high)) is not None
+        if (neutral := _neutral_between(flow, branch, 2.0 * low, 2.0 * high)) is not None
     ]
     return max(found, key=lambda neutral: neutral.scale, default=None)
 
 
-def _neutral_between(
-    section: TypicalSection, branch: int, low: float, high: float
-) -> Neutral | None:
+def _neutral_between(flow: _Flow, branch: int, low: float, high: float) -> Neutral | None:
     """Return the oscillation between two frequencies at which s of a branch is real."""
-    start = _scales(section, low)[branch]
+    start = _scales(flow, low)[branch]
 
     def followed(omega: float) -> complex:
-        values = _scales(section, omega)
+        values = _scales(flow, omega)
         return complex(values[np.argmin(np.abs(values - start))])
 
     if followed(low).imag * followed(high).imag >= 0.0:
@@ -173,14 +156,33 @@ def _neutral_between(
     return Neutral(scale.real, omega) if is_root else None
 
 
-def _scales(section: TypicalSection, omega: float) -> Complexes:
+def _scales(flow: _Flow, omega: float) -> Complexes:
     """Return both s of the k method at a frequency, by ascending absolute value."""
-    matrix = omega**2 * section.mass_matrix + section.air.influence(omega)
-    values = np.linalg.eigvals(np.linalg.solve(section.stiffness_matrix, matrix))
-    return np.asarray(values[np.argsort(np.abs(values))], dtype=np.complex128)
+    matrix = omega**2 * flow.mass + flow.air.influence(omega)
+    by_place = np.asarray(np.linalg.solve(flow.stiffness, matrix), dtype=np.complex128)
+    if flow.is_damped:
+        by_rate = -1j * omega * np.linalg.inv(flow.stiffness) @ flow.damping
+        values = _of_positive_real_part(_quadratic_roots(by_rate, by_place)) ** 2
+    else:
+        values = np.asarray(np.linalg.eigvals(by_place), dtype=np.complex128)
+    return values[np.argsort(np.abs(values))]
 
 
-def growth_and_frequency(section: TypicalSection, scales: Floats) -> Complexes:
+def _quadratic_roots(by_rate: Floats | Complexes, by_place: Floats | Complexes) -> Complexes:
+    """Return the four x of det(x^2 - x ``by_rate`` - ``by_place``) = 0."""
+    above = np.concatenate([np.zeros((2, 2)), np.eye(2)], axis=1)
+    return np.asarray(
+        np.linalg.eigvals(np.concatenate([above, np.concatenate([by_place, by_rate], axis=1)])),
+        dtype=np.complex128,
+    )
+
+
+def _of_positive_real_part(roots: Complexes) -> Complexes:
+    """Return the two sqrt(s) that are a speed; without dampers the others are their negatives."""
+    return roots[np.argsort(roots.real)[2:]]
+
+
+def growth_and_frequency(section: Section, scales: Floats) -> Complexes:
     """Return p of both motions at each s by the p-k method, shape (n, 2).
 
     Re p is the growth rate (V/c), Im p = omega c/V >= 0. The first column is the motion that is
@@ -190,17 +192,20 @@ def growth_and_frequency(section: TypicalSection, scales: Floats) -> Complexes:
     Parameters
     ----------
     section
-        The section.
+        The section in its flow.
     scales
         s > 0, shape (n,), in any order.
 
     Raises
     ------
+    EquisectionError
+        The section is in SI units.
     FlutterIterationError
         The iteration did not converge.
     """
+    flow = _Flow(section)
     found = np.empty((len(scales), 2), dtype=np.complex128)
-    start, roots_there = _start(section)
+    start, roots_there = _start(flow)
     descending = [int(place) for place in np.argsort(scales)[::-1]]
     below = [place for place in descending if scales[place] <= start]
     above = [place for place in reversed(descending) if scales[place] > start]
@@ -209,53 +214,51 @@ def growth_and_frequency(section: TypicalSection, scales: Floats) -> Complexes:
         for place in places:
             wanted = float(scales[place])
             while (scale * step - wanted) * (step - 1.0) < 0.0:
-                roots = _followed(section, scale, scale * step, roots)
+                roots = _followed(flow, scale, scale * step, roots)
                 scale *= step
-            found[place] = _both(section, wanted, _followed(section, scale, wanted, roots), True)
+            found[place] = _both(flow, wanted, _followed(flow, scale, wanted, roots), True)
     return found
 
 
-def _start(section: TypicalSection) -> tuple[float, Pair]:
+def _start(flow: _Flow) -> tuple[float, Pair]:
     """Return an s at which the air is no more than a mass on the section, and both p there."""
-    mass = section.mass_matrix + section.air.apparent_mass
-    squares = np.linalg.eigvals(np.linalg.solve(mass, section.stiffness_matrix)).real
-    apart = np.diag(section.stiffness_matrix) / np.diag(mass)  # omega^2 of one alone
+    mass = flow.mass + flow.air.apparent_mass
+    squares = np.linalg.eigvals(np.linalg.solve(mass, flow.stiffness)).real
+    apart = np.diag(flow.stiffness) / np.diag(mass)  # omega^2 of one alone
     slow, fast = np.sqrt(np.sort(squares))
     inertia = np.sqrt(np.outer(np.diag(mass), np.diag(mass)))
     scale = 1.0
     while True:
         omega = slow * math.sqrt(scale)
-        loads = section.air.influence(omega) / omega**2 - section.air.apparent_mass
+        loads = flow.air.influence(omega) / omega**2 - flow.air.apparent_mass
         if np.max(np.abs(loads) / inertia) <= _SMALL_LOADS:
             break
         scale *= 2.0
     heave, pitch = (slow, fast) if apart[0] <= apart[1] else (fast, slow)
     guesses = (1j * heave * math.sqrt(scale), 1j * pitch * math.sqrt(scale))
-    return scale, _both(section, scale, guesses)
+    return scale, _both(flow, scale, guesses)
 
 
-def _followed(
-    section: TypicalSection, start: float, end: float, roots: Pair, halved: int = 0
-) -> Pair:
+def _followed(flow: _Flow, start: float, end: float, roots: Pair, halved: int = 0) -> Pair:
     """Return both p at an s from those at one near it."""
     if start == end:
         return roots
     stiffer = math.sqrt(end / start)
     guesses = (roots[0] * stiffer, roots[1] * stiffer)
-    found = _both(section, end, guesses)
+    found = _both(flow, end, guesses)
     gone = max(abs(found[0] - guesses[0]), abs(found[1] - guesses[1]))
     if gone <= _CLEAR_PART * abs(found[0] - found[1]) or halved == _MOST_HALVINGS:
         return found
     middle = math.sqrt(start * end)
-    roots = _followed(section, start, middle, roots, halved + 1)
-    return _followed(section, middle, end, roots, halved + 1)
+    roots = _followed(flow, start, middle, roots, halved + 1)
+    return _followed(flow, middle, end, roots, halved + 1)
 
 
-def _both(section: TypicalSection, scale: float, guesses: Pair, is_wanted: bool = False) -> Pair:
+def _both(flow: _Flow, scale: float, guesses: Pair, is_wanted: bool = False) -> Pair:
     """Return both p, each nearest to its guess but for what the other is."""
 
     def nearest(p: complex) -> complex:
-        return min(_roots(section, scale, p), key=lambda root: abs(root - p))
+        return min(_roots(flow, scale, p), key=lambda root: abs(root - p))
 
     one = _root(scale, guesses[0], nearest, is_wanted)
     other = _root(scale, guesses[1], nearest, is_wanted)
@@ -264,7 +267,7 @@ def _both(section: TypicalSection, scale: float, guesses: Pair, is_wanted: bool 
     # Both guesses lead to one motion: the other one is the other root of its own loads.
 
     def not_it(p: complex) -> complex:
-        return max(_roots(section, scale, p), key=lambda root: abs(root - one))
+        return max(_roots(flow, scale, p), key=lambda root: abs(root - one))
 
     if abs(one - guesses[0]) <= abs(one - guesses[1]):
         return one, _root(scale, guesses[1], not_it, is_wanted)
@@ -297,10 +300,20 @@ def _root(
     )
 
 
-def _roots(section: TypicalSection, scale: float, p: complex) -> Pair:
+def _roots(flow: _Flow, scale: float, p: complex) -> Pair:
     """Return both p under the loads of the frequency of one."""
-    loads = section.air.influence(max(p.imag, 0.0)) - scale * section.stiffness_matrix
-    ((a, b), (c, d)) = (section.inverse_mass @ loads).tolist()
+    loads = flow.air.influence(max(p.imag, 0.0)) - scale * flow.stiffness
+    if flow.is_damped:
+        by_rate = -math.sqrt(scale) * flow.inverse_mass @ flow.damping
+        return _oscillating(_quadratic_roots(by_rate, flow.inverse_mass @ loads))
+    ((a, b), (c, d)) = (flow.inverse_mass @ loads).tolist()
     middle, half = 0.5 * (a + d), cmath.sqrt(0.25 * (a - d) ** 2 + b * c)
     one, other = cmath.sqrt(middle - half), cmath.sqrt(middle + half)
     return (-one if one.imag < 0.0 else one), (-other if other.imag < 0.0 else other)
+
+
+def _oscillating(roots: Complexes) -> Pair:
+    """Return the two of four p that turn forwards; of those that do not turn, what grows."""
+    order = np.lexsort((roots.real, np.where(np.abs(roots.imag) < _STILL, 0.0, roots.imag)))
+    one, other = (complex(root) for root in roots[order[2:]])
+    return one, other

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from equisection.aerodynamics.identification import LoadMisfit, load_misfit
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
-from equisection.motion.sections import SectionHistories, SectionParameters, release_sections
+from equisection.motion.sections import SectionHistories, release_sections
 from equisection.verdict.cycles import find_cycles
 
 Floats = NDArray[np.float64]
@@ -76,13 +76,8 @@ class ReleaseJudgement:
 
 def release_of(history: ReferenceHistory, loads: UnsteadyLoads) -> SectionHistories:
     """Release the section of a history with the model, for as long as it was recorded."""
-    parameters = SectionParameters(
-        inertia=np.array([history.inertia]),
-        torsional_stiffness=np.array([history.torsional_stiffness]),
-        mass=np.array([history.mass]),
-        heave_stiffness=np.array([history.flexural_stiffness]),
-    )
-    return release_sections(parameters, loads, history.incidence_rad, float(history.time[-1]))
+    end = float(history.time[-1])
+    return release_sections([history.section], loads, history.incidence_rad, end)
 
 
 def judge_release(history: ReferenceHistory, loads: UnsteadyLoads) -> ReleaseJudgement:

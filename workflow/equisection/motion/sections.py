@@ -7,13 +7,14 @@ with the unsteady loads of ``aerodynamics.unsteady_loads``; any number of cases 
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.beam.section import Section
 from equisection.motion.march import Failure, Monitor, Progress, Recording, march
 from equisection.motion.steady_states import rigid_state
 from equisection.motion.strip_system import StripStructure, StripSystem, assemble
@@ -26,44 +27,6 @@ SECTION_TIME_STEP = 0.05
 
 OUTPUT_INTERVAL = 0.1
 """Default interval of the histories in convective times."""
-
-
-@dataclass(frozen=True)
-class SectionParameters:
-    """Non-dimensional parameters of N sections, each of shape (N,).
-
-    ``inertia`` I*, ``torsional_stiffness`` k*, ``mass`` m*, ``heave_stiffness`` k_w* (Eq. 18).
-    """
-
-    inertia: Floats
-    torsional_stiffness: Floats
-    mass: Floats
-    heave_stiffness: Floats
-
-    @classmethod
-    def from_ratios(
-        cls,
-        k_star: ArrayLike,
-        inertia: ArrayLike,
-        mass_ratio: ArrayLike,
-        stiffness_ratio: ArrayLike,
-    ) -> SectionParameters:
-        """From k*, I*, c^2 m_2D/I_2D = m*/I* and c^2 k_w/k_theta = k_w*/k*, broadcast."""
-        k, i, m, s = np.broadcast_arrays(
-            *(
-                np.atleast_1d(np.asarray(v, float))
-                for v in (k_star, inertia, mass_ratio, stiffness_ratio)
-            )
-        )
-        return cls(i.copy(), k.copy(), i * m, k * s)
-
-    def __post_init__(self) -> None:
-        for name in ("inertia", "torsional_stiffness", "mass", "heave_stiffness"):
-            values = np.asarray(getattr(self, name), dtype=np.float64)
-            if values.shape != np.shape(self.inertia) or values.ndim != 1:
-                raise ValueError(f"{name} has shape {values.shape}; one value a section is wanted")
-            if not np.all(values > 0.0):
-                raise ValueError(f"{name} has the value {values.min():g}; all must be positive")
 
 
 @dataclass(frozen=True)
@@ -102,25 +65,46 @@ SectionMonitor = Callable[[SectionHistories, Indices], Indices]
 
 
 def section_system(
-    parameters: SectionParameters, loads: UnsteadyLoads, incidence_rad: float | Floats
+    sections: Sequence[Section], loads: UnsteadyLoads, incidence_rad: float | Floats
 ) -> StripSystem:
-    """System of N sections at rigid incidence theta_0 (rad), one value or one per section."""
+    """System of N sections at rigid incidence theta_0 (rad), one value or one per section.
+
+    Parameters
+    ----------
+    sections
+        The sections in their flow (:meth:`equisection.beam.section.Section.in_flow`).
+    loads, incidence_rad
+        What they are in.
+
+    Raises
+    ------
+    EquisectionError
+        A section is in SI units, or more than a mass on springs about mid-chord.
+    """
+    for section in sections:
+        section.require_in_flow()
+        section.require_springs_alone("the strip model")
     one = np.ones((1, 1))
     structure = StripStructure(
         torsion_shapes=one,
         bending_shapes=one,
         weights=np.ones(1),
-        torsion_inertia=np.asarray(parameters.inertia)[:, None],
-        torsion_stiffness=np.asarray(parameters.torsional_stiffness)[:, None],
-        bending_mass=np.asarray(parameters.mass)[:, None],
-        bending_stiffness=np.asarray(parameters.heave_stiffness)[:, None],
+        torsion_inertia=_column(sections, "inertia"),
+        torsion_stiffness=_column(sections, "torsional_stiffness"),
+        bending_mass=_column(sections, "mass"),
+        bending_stiffness=_column(sections, "flexural_stiffness"),
         induction=np.zeros((1, 1)),
     )
     return assemble(structure, loads, incidence_rad)
 
 
+def _column(sections: Sequence[Section], member: str) -> Floats:
+    """Return a member of each section, shape (N, 1)."""
+    return np.array([[getattr(section, member)] for section in sections])
+
+
 def release_sections(
-    parameters: SectionParameters,
+    sections: Sequence[Section],
     loads: UnsteadyLoads,
     incidence_rad: float | Floats,
     duration: float,
@@ -135,7 +119,7 @@ def release_sections(
     ``duration``, ``time_step`` and ``output_interval`` are convective times. A section whose
     bubble leaves the polar ends there and is named in ``failures``; the others go on.
     """
-    system = section_system(parameters, loads, incidence_rad)
+    system = section_system(sections, loads, incidence_rad)
     states = np.eye(4, system.rates.shape[2])[None].repeat(system.structure.lanes, axis=0)
     outputs = np.concatenate([states, system.strip_loads], axis=1)
     recording = march(

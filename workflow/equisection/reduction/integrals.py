@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.beam.beam import Beam
 from equisection.structure.mode_set import ModeSet, torsion_strain
-from equisection.structure.plate import Plate
 from equisection.structure.span import gram, integrate
 
 Floats = NDArray[np.float64]
@@ -73,7 +73,7 @@ class Integrals:
         return float(self.g_mean[0] ** 2 / self.a_w_w[0, 0])
 
 
-def span_integrals(plate: Plate, modes: ModeSet, count: int = 4) -> Integrals:
+def span_integrals(beam: Beam, modes: ModeSet, count: int = 4) -> Integrals:
     """Integrals over the first ``count`` modes of torsion and of bending.
 
     The spline through the stations of the modes is integrated exactly.
@@ -83,14 +83,14 @@ def span_integrals(plate: Plate, modes: ModeSet, count: int = 4) -> Integrals:
     a_theta_theta, a_w_w = gram(z, f, f), gram(z, g, g)
     omega_theta = 2.0 * np.pi * torsion.frequency
     omega_w = 2.0 * np.pi * bending.frequency
-    rate_theta = plate.torsional_rigidity / (plate.inertia_per_length * plate.length**2)
-    rate_w = plate.bending_rigidity / (plate.mass_per_length * plate.length**4)
+    rate_theta = beam.torsional_rigidity / (beam.inertia_per_length * beam.length**2)
+    rate_w = beam.bending_rigidity / (beam.mass_per_length * beam.length**4)
     return Integrals(
         mass_theta=a_theta_theta,  # for a uniform beam M and A are one integral (Eqs. 6, 12)
         mass_w=a_w_w,
         stiffness_theta=np.outer(omega_theta, omega_theta) * a_theta_theta / rate_theta,
         stiffness_w=np.outer(omega_w, omega_w) * a_w_w / rate_w,
-        strain_theta=torsion_strain(modes, plate, count),
+        strain_theta=torsion_strain(modes, beam, count),
         a_theta_theta=a_theta_theta,
         a_theta_w=gram(z, f, g),
         a_w_w=a_w_w,

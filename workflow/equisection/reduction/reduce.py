@@ -10,14 +10,13 @@ frequencies, and recovers the tip from the section through a and b (see docs/err
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
 from typing import Literal
 
-from equisection.conventions import dynamic_pressure
+from equisection.beam.beam import Beam
+from equisection.beam.section import Section
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import Integrals, span_integrals
 from equisection.structure.mode_set import ModeSet
-from equisection.structure.plate import Plate
 
 Reduction = Literal["paper", "consistent"]
 REDUCTIONS: tuple[Reduction, ...] = ("paper", "consistent")
@@ -27,105 +26,58 @@ _LEAST_LIKENESS = 0.9
 _LEAST_PARTICIPATION = 0.3
 
 
-@dataclass(frozen=True)
-class EquivalentSection:
-    """Structural properties of a two-dimensional section, per metre of span.
+def reduce_beam(beam: Beam, modes: ModeSet, reduction: str = "consistent") -> Section:
+    """Equivalent section of a beam from its first modes of torsion and of bending (Eq. 17).
 
-    Attributes
+    Parameters
     ----------
-    reduction : str
-        ``paper`` or ``consistent``.
-    torsional_stiffness : float
-        k_theta (N m/rad per m).
-    flexural_stiffness : float
-        k_w (N/m per m).
-    inertia : float
-        I_2D about mid-chord (kg m^2/m).
-    mass : float
-        m_2D (kg/m).
-    twist_recovery : float
-        a: the tip's twist is theta_2D/a (-).
-    deflection_recovery : float
-        b: the tip's deflection is w_2D/b (-).
+    beam
+        The beam.
+    modes
+        Its modes, one of torsion and one of bending at least.
+    reduction
+        One of :data:`REDUCTIONS`.
+
+    Raises
+    ------
+    ReductionError
+        The reduction is unknown, or the beam has no such section: nothing restrains a motion, or
+        the shapes of twist and deflection do not fit.
+    ModesError
+        A mode is missing.
     """
-
-    reduction: Reduction
-    torsional_stiffness: float
-    flexural_stiffness: float
-    inertia: float
-    mass: float
-    twist_recovery: float
-    deflection_recovery: float
-
-    def k_star(self, density: float, speed: float, chord: float) -> float:
-        """k* = k_theta/(q c^2) (-), Eq. 18; fluid density (kg/m^3), speed (m/s), chord (m)."""
-        return self.torsional_stiffness / (dynamic_pressure(density, speed) * chord**2)
-
-    def k_w_star(self, density: float, speed: float) -> float:
-        """k_w* = k_w/q (-), Eq. 18."""
-        return self.flexural_stiffness / dynamic_pressure(density, speed)
-
-    def i_star(self, density: float, chord: float) -> float:
-        """I* = I_2D/(rho c^4/2) (-), Eq. 18."""
-        return self.inertia / (0.5 * density * chord**4)
-
-    def m_star(self, density: float, chord: float) -> float:
-        """m* = m_2D/(rho c^2/2) (-), Eq. 18."""
-        return self.mass / (0.5 * density * chord**2)
-
-    def inertia_ratio(self, chord: float) -> float:
-        """c^2 m_2D/I_2D (-), 9.12 below Eq. 18."""
-        return chord**2 * self.mass / self.inertia
-
-    def stiffness_ratio(self, chord: float) -> float:
-        """c^2 k_w/k_theta (-), 0.183 below Eq. 18."""
-        return chord**2 * self.flexural_stiffness / self.torsional_stiffness
-
-    def scaled(self, stiffness_scale: float) -> EquivalentSection:
-        """Return the section of the beam with all stiffness times ``stiffness_scale`` (-)."""
-        if not stiffness_scale > 0.0:
-            raise ReductionError(f"stiffness_scale is {stiffness_scale}; give a positive number")
-        return replace(
-            self,
-            torsional_stiffness=stiffness_scale * self.torsional_stiffness,
-            flexural_stiffness=stiffness_scale * self.flexural_stiffness,
-        )
-
-
-def reduce_beam(plate: Plate, modes: ModeSet, reduction: str = "consistent") -> EquivalentSection:
-    """Equivalent section of a plate from its first modes of torsion and of bending (Eq. 17)."""
     if reduction not in REDUCTIONS:
         raise ReductionError(f"reduction is {reduction!r}; choose one of {', '.join(REDUCTIONS)}")
-    integrals = span_integrals(plate, modes, count=1)
-    _require_restraint(plate, integrals)
+    integrals = span_integrals(beam, modes, count=1)
+    _require_restraint(beam, integrals)
     if reduction == "paper":
-        return _paper_section(plate, integrals)
-    return _consistent_section(plate, integrals)
+        return _paper_section(beam, integrals)
+    return _consistent_section(beam, integrals)
 
 
-def _paper_section(plate: Plate, integrals: Integrals) -> EquivalentSection:
+def _paper_section(beam: Beam, integrals: Integrals) -> Section:
     a_tt, a_tw = integrals.a_theta_theta[0, 0], integrals.a_theta_w[0, 0]
     if abs(a_tw) < 1e-6:
         raise ReductionError(
             f"A_theta,w is {a_tw:.1e}: first twist and first deflection have orthogonal shapes, "
             "and the paper's reduction divides by it; use reduction 'consistent'"
         )
-    return EquivalentSection(
-        reduction="paper",
-        torsional_stiffness=plate.torsional_rigidity
-        / plate.length**2
+    return Section(
+        torsional_stiffness=beam.torsional_rigidity
+        / beam.length**2
         * float(integrals.strain_theta[0, 0] / a_tt),
-        flexural_stiffness=plate.bending_rigidity
-        / plate.length**4
+        flexural_stiffness=beam.bending_rigidity
+        / beam.length**4
         * float(integrals.stiffness_w[0, 0] / a_tw),
-        inertia=plate.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
-        mass=plate.mass_per_length * float(integrals.mass_w[0, 0] / a_tw),
+        inertia=beam.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
+        mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / a_tw),
+        chord=beam.chord,
         twist_recovery=1.0,
         deflection_recovery=1.0,
     )
 
 
-def _consistent_section(plate: Plate, integrals: Integrals) -> EquivalentSection:
+def _consistent_section(beam: Beam, integrals: Integrals) -> Section:
     a_tt, a_ww = integrals.a_theta_theta[0, 0], integrals.a_w_w[0, 0]
     for name, mean in (("F", integrals.f_mean[0]), ("G", integrals.g_mean[0])):
         if abs(mean) < 1e-6:
@@ -133,22 +85,22 @@ def _consistent_section(plate: Plate, integrals: Integrals) -> EquivalentSection
                 f"{name}, the span mean of the first shape, is {mean:.1e}: a uniform load does "
                 "not move this mode and the section cannot stand for the beam"
             )
-    return EquivalentSection(
-        reduction="consistent",
-        torsional_stiffness=plate.torsional_rigidity
-        / plate.length**2
+    return Section(
+        torsional_stiffness=beam.torsional_rigidity
+        / beam.length**2
         * float(integrals.stiffness_theta[0, 0] / a_tt),
-        flexural_stiffness=plate.bending_rigidity
-        / plate.length**4
+        flexural_stiffness=beam.bending_rigidity
+        / beam.length**4
         * float(integrals.stiffness_w[0, 0] / a_ww),
-        inertia=plate.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
-        mass=plate.mass_per_length * float(integrals.mass_w[0, 0] / a_ww),
+        inertia=beam.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
+        mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / a_ww),
+        chord=beam.chord,
         twist_recovery=float(a_tt / integrals.f_mean[0]),
         deflection_recovery=float(a_ww / integrals.g_mean[0]),
     )
 
 
-def _require_restraint(plate: Plate, integrals: Integrals) -> None:
+def _require_restraint(beam: Beam, integrals: Integrals) -> None:
     """Refuse a beam that can turn or swing as a rigid body: it has no k_theta or no k_w."""
     for motion, key, stiffness in (
         ("twist", "root_torsional_stiffness", integrals.stiffness_theta[0, 0]),
@@ -156,9 +108,9 @@ def _require_restraint(plate: Plate, integrals: Integrals) -> None:
     ):
         if stiffness <= 1e-10:
             raise ReductionError(
-                f"boundary {plate.boundary!r} leaves {motion} without restraint (its first "
-                f"natural frequency is zero), so that the section would have no spring; give "
-                f"plate.{key} above zero or another boundary"
+                f"boundary {beam.boundary!r} leaves {motion} without restraint (its first "
+                "natural frequency is as good as zero), so that the section would have no spring; "
+                f"give a stiffer beam.{key} or another boundary"
             )
 
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from equisection.aerodynamics.reference_history import ReferenceHistory
-from equisection.cases import SectionProperties, UnsteadyCase
+from equisection.beam.section import Section
+from equisection.cases import UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset
 
@@ -40,16 +41,13 @@ def read_reference_history(path: Path) -> ReferenceHistory:
         values("cm"),
         math.radians(case.incidence_deg),
         k_star=case.k_star,
-        torsional_stiffness=section.torsional_stiffness,
-        flexural_stiffness=section.flexural_stiffness,
-        inertia=section.inertia,
-        mass=section.mass,
+        section=section,
         name=f"{path.parent.name}/{path.stem}",
         source=str(data.attrs["solver_description"]),
     )
 
 
-def _case(path: Path, data: xr.Dataset) -> tuple[UnsteadyCase, SectionProperties]:
+def _case(path: Path, data: xr.Dataset) -> tuple[UnsteadyCase, Section]:
     try:
         case = UnsteadyCase.model_validate_json(data.attrs.get("case", ""))
     except ValidationError:

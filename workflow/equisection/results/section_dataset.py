@@ -2,22 +2,41 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
+from equisection.beam.section import Section
 from equisection.conventions import dynamic_pressure
 from equisection.reduction.integrals import Integrals
-from equisection.reduction.reduce import EquivalentSection, Reduction
 
-#: Members of :class:`EquivalentSection` with units and meaning.
-_PROPERTIES = {
+#: Members of :class:`Section` with units and meaning.
+_MEMBERS = {
     "torsional_stiffness": ("N m rad-1 m-1", "torsional stiffness k_theta per unit span"),
     "flexural_stiffness": ("N m-2", "flexural stiffness k_w per unit span"),
-    "inertia": ("kg m", "moment of inertia I_2D about mid-chord per unit span"),
+    "inertia": ("kg m", "moment of inertia I_2D about the elastic axis per unit span"),
     "mass": ("kg m-1", "mass m_2D per unit span"),
+    "static_imbalance": ("kg", "static imbalance S_2D per unit span, positive with mass aft"),
+    "flexural_damping": ("N s m-2", "flexural damping c_w per unit span"),
+    "torsional_damping": ("N m s rad-1 m-1", "torsional damping c_theta per unit span"),
+    "chord": ("m", "chord c"),
+    "elastic_axis": ("1", "place of the elastic axis, x/c from the leading edge"),
     "twist_recovery": ("1", "a: twist of the tip = twist of the section / a"),
     "deflection_recovery": ("1", "b: deflection of the tip = deflection of the section / b"),
 }
+#: What they are called in the flow of the run, and are there; the others stay, the chord is 1.
+_IN_FLOW = {
+    "torsional_stiffness": ("k_star", "k_theta/(q c^2)"),
+    "flexural_stiffness": ("k_w_star", "k_w/q"),
+    "inertia": ("i_star", "I_2D/(rho c^4/2)"),
+    "mass": ("m_star", "m_2D/(rho c^2/2)"),
+    "static_imbalance": ("s_star", "S_2D/(rho c^3/2)"),
+    "flexural_damping": ("c_w_star", "c_w/(rho V c/2)"),
+    "torsional_damping": ("c_theta_star", "c_theta/(rho V c^3/2)"),
+}
+_RATIOS = {"inertia_ratio": "c^2 m_2D/I_2D", "stiffness_ratio": "c^2 k_w/k_theta"}
 _INTEGRALS = {
     "mass_theta": "M_theta (Eq. 6)",
     "mass_w": "M_w (Eq. 6)",
@@ -31,33 +50,35 @@ _INTEGRALS = {
 
 
 def equivalent_to_dataset(
-    sections: list[EquivalentSection],
+    sections: Mapping[str, Section],
     integrals: Integrals,
     warnings: tuple[str, ...],
     *,
     density: float,
     speed: float,
-    chord: float,
 ) -> xr.Dataset:
-    """Return ``structure/equivalent.nc``; fluid density (kg/m3), speed (m/s), chord (m)."""
+    """Return ``structure/equivalent.nc``.
+
+    Parameters
+    ----------
+    sections
+        The section (SI) of each reduction.
+    integrals
+        Integrals over the shapes of the modes.
+    warnings
+        What makes the section a poor stand-in for the beam.
+    density, speed
+        Density (kg/m3) and speed (m/s) of the flow.
+    """
+    si = list(sections.values())
+    in_flow = [section.in_flow(density, speed) for section in si]
     variables: dict[str, object] = {
-        name: (
-            "reduction",
-            np.array([getattr(section, name) for section in sections]),
-            {"units": units, "long_name": text},
-        )
-        for name, (units, text) in _PROPERTIES.items()
+        name: _of_each(si, name, units, text) for name, (units, text) in _MEMBERS.items()
     }
-    non_dimensional = {
-        "k_star": ([s.k_star(density, speed, chord) for s in sections], "k_theta/(q c^2)"),
-        "k_w_star": ([s.k_w_star(density, speed) for s in sections], "k_w/q"),
-        "i_star": ([s.i_star(density, chord) for s in sections], "I_2D/(rho c^4/2)"),
-        "m_star": ([s.m_star(density, chord) for s in sections], "m_2D/(rho c^2/2)"),
-        "inertia_ratio": ([s.inertia_ratio(chord) for s in sections], "c^2 m_2D/I_2D"),
-        "stiffness_ratio": ([s.stiffness_ratio(chord) for s in sections], "c^2 k_w/k_theta"),
-    }
-    for name, (values, text) in non_dimensional.items():
-        variables[name] = ("reduction", np.array(values), {"units": "1", "long_name": text})
+    for member, (name, text) in _IN_FLOW.items():
+        variables[name] = _of_each(in_flow, member, "1", text)
+    for name, text in _RATIOS.items():
+        variables[name] = _of_each(si, name, "1", text)
     for name, text in _INTEGRALS.items():
         variables[name] = (
             ("row", "column"),
@@ -77,7 +98,7 @@ def equivalent_to_dataset(
         {
             "reduction": (
                 "reduction",
-                [section.reduction for section in sections],
+                list(sections),
                 {"units": "1", "long_name": "form of the reduction"},
             ),
             "row": ("row", number, {"units": "1", "long_name": "mode number i"}),
@@ -90,9 +111,30 @@ def equivalent_to_dataset(
     )
 
 
-def section_from_dataset(dataset: xr.Dataset, reduction: Reduction) -> EquivalentSection:
-    """Return one form of the section of ``structure/equivalent.nc``."""
-    chosen = dataset.sel(reduction=reduction)
-    return EquivalentSection(
-        reduction=reduction, **{name: float(chosen[name]) for name in _PROPERTIES}
-    )
+def _of_each(
+    sections: Sequence[Section], name: str, units: str, text: str
+) -> tuple[str, NDArray[np.float64], dict[str, str]]:
+    """Return a number of each section as a variable."""
+    values = np.array([getattr(section, name) for section in sections])
+    return "reduction", values, {"units": units, "long_name": text}
+
+
+def section_from_dataset(equivalent: xr.Dataset, reduction: str) -> Section:
+    """Return one form of the section of ``structure/equivalent.nc``, in SI units."""
+    chosen = equivalent.sel(reduction=reduction)
+    return Section(**{member: float(chosen[member]) for member in _MEMBERS})
+
+
+def section_in_flow(equivalent: xr.Dataset, reduction: str) -> Section:
+    """Return one form of the section of ``structure/equivalent.nc``, in the flow of the run."""
+    chosen = equivalent.sel(reduction=reduction)
+    names = {member: _IN_FLOW.get(member, (member,))[0] for member in _MEMBERS if member != "chord"}
+    return Section(**{member: float(chosen[name]) for member, name in names.items()})
+
+
+def nominal_k_star(equivalent: xr.Dataset) -> float:
+    """Return k* of the beam as given: Eq. 17 in the paper's form, the axis of every comparison.
+
+    Both reductions and the beam are at the same k* when they have the same Young's modulus.
+    """
+    return float(equivalent["k_star"].sel(reduction="paper"))

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import brentq
 
-from equisection.structure.plate import Plate
+from equisection.beam.beam import Beam
 
 Floats = NDArray[np.float64]
 
@@ -31,19 +31,19 @@ _VANISHING = {"clamped": (0, 1), "pinned": (0, 2), "free": (2, 3)}
 _RIGID_BELOW = 0.05
 
 
-def bending_modes(plate: Plate, span: Floats, count: int) -> tuple[Floats, Floats]:
+def bending_modes(beam: Beam, span: Floats, count: int) -> tuple[Floats, Floats]:
     """Bending frequencies (Hz, (n,)) and shapes g ((n, m)) at the stations z/L."""
-    spring = (plate.root_bending_stiffness or 0.0) * plate.length / plate.bending_rigidity
-    roots = bending_roots(plate.bending_ends, spring, count)
-    shapes = [_bending_shape(plate.bending_ends, spring, root, span) for root in roots]
-    rate = np.sqrt(plate.bending_rigidity / plate.mass_per_length) / plate.length**2
+    spring = (beam.root_bending_stiffness or 0.0) * beam.length / beam.bending_rigidity
+    roots = bending_roots(beam.bending_ends, spring, count)
+    shapes = [_bending_shape(beam.bending_ends, spring, root, span) for root in roots]
+    rate = np.sqrt(beam.bending_rigidity / beam.mass_per_length) / beam.length**2
     return roots**2 * rate / (2.0 * np.pi), np.array(shapes)
 
 
-def torsion_modes(plate: Plate, span: Floats, count: int) -> tuple[Floats, Floats]:
+def torsion_modes(beam: Beam, span: Floats, count: int) -> tuple[Floats, Floats]:
     """Torsion frequencies (Hz, (n,)) and shapes f ((n, m)) at the stations z/L."""
     order = np.arange(count)
-    match plate.torsion_ends:
+    match beam.torsion_ends:
         case ("fixed", "free"):
             roots = (order + 0.5) * np.pi
             shapes = np.sin(roots[:, None] * span)
@@ -51,12 +51,10 @@ def torsion_modes(plate: Plate, span: Floats, count: int) -> tuple[Floats, Float
             roots = (order + 1.0) * np.pi
             shapes = np.sin(roots[:, None] * span)
         case _:
-            stiffness = plate.root_torsional_stiffness or 0.0
-            roots = _sprung_torsion_roots(
-                stiffness * plate.length / plate.torsional_rigidity, count
-            )
+            stiffness = beam.root_torsional_stiffness or 0.0
+            roots = _sprung_torsion_roots(stiffness * beam.length / beam.torsional_rigidity, count)
             shapes = np.cos(roots[:, None] * (1.0 - span))
-    rate = np.sqrt(plate.torsional_rigidity / plate.inertia_per_length) / plate.length
+    rate = np.sqrt(beam.torsional_rigidity / beam.inertia_per_length) / beam.length
     return roots * rate / (2.0 * np.pi), shapes
 
 
@@ -69,8 +67,9 @@ def bending_roots(ends: tuple[str, str], spring: float, count: int) -> Floats:
     value = equation(grid)
     change = np.flatnonzero(np.sign(value[:-1]) * np.sign(value[1:]) < 0)
     roots = [brentq(equation, grid[i], grid[i + 1], xtol=1e-13) for i in change]
-    if ends[0] == "spring" and spring == 0.0:
-        roots.insert(0, 0.0)  # the rigid swing about a hinge
+    rigid = (3.0 * spring) ** 0.25  # a soft spring, or a hinge: the beam swings as a rigid body
+    if ends[0] == "spring" and rigid <= start:
+        roots.insert(0, rigid)
     return np.array(roots[:count])
 
 
@@ -127,8 +126,6 @@ def _bending_shape(ends: tuple[str, str], spring: float, root: float, span: Floa
 
 def _sprung_torsion_roots(spring: float, count: int) -> Floats:
     """Roots of gamma tan(gamma) = kappa, one in each [n pi, (n + 1/2) pi)."""
-    if spring == 0.0:
-        return np.arange(count, dtype=np.float64) * np.pi
 
     def equation(gamma: float) -> float:
         return float(gamma * np.sin(gamma) - spring * np.cos(gamma))

@@ -18,7 +18,7 @@ from scipy.linalg import eigh
 from skfem import Basis, BilinearForm, ElementLineHermite, ElementLineP2, MeshLine
 from skfem.helpers import dd, ddot, dot, grad
 
-from equisection.structure.plate import Plate
+from equisection.beam.beam import Beam
 
 Floats = NDArray[np.float64]
 
@@ -38,48 +38,48 @@ def _product(u: Any, v: Any, _: Any) -> Any:
     return u * v
 
 
-def bending_modes(plate: Plate, elements: int, count: int) -> tuple[Floats, Floats]:
+def bending_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats]:
     """Bending frequencies (Hz, (n,)) and shapes g ((n, 2 elements + 1), at ends and middles)."""
     mesh = MeshLine(np.linspace(0.0, 1.0, elements + 1))
     basis = Basis(mesh, ElementLineHermite(), intorder=6)
     deflection, slope = basis.dofs.nodal_dofs
     stiffness = BilinearForm(_curvature).assemble(basis).toarray()
     mass = BilinearForm(_product).assemble(basis).toarray()
-    if plate.root_bending_stiffness is not None:
+    if beam.root_bending_stiffness is not None:
         root = slope[0]
-        spring = plate.root_bending_stiffness * plate.length / plate.bending_rigidity
+        spring = beam.root_bending_stiffness * beam.length / beam.bending_rigidity
         stiffness[root, root] += spring
     held: list[int] = []
-    for node, end in zip((0, -1), plate.bending_ends, strict=True):
+    for node, end in zip((0, -1), beam.bending_ends, strict=True):
         if end != "free":
             held.append(int(deflection[node]))
         if end == "clamped":
             held.append(int(slope[node]))
     eigenvalue, vector = _lowest(stiffness, mass, held, count)
-    scale = plate.bending_rigidity / (plate.mass_per_length * plate.length**4)
+    scale = beam.bending_rigidity / (beam.mass_per_length * beam.length**4)
     values, slopes = vector[deflection], vector[slope]
     middle = (values[:-1] + values[1:]) / 2.0 + (slopes[:-1] - slopes[1:]) / (8.0 * elements)
     return _hertz(eigenvalue * scale), _interleave(values, middle)
 
 
-def torsion_modes(plate: Plate, elements: int, count: int) -> tuple[Floats, Floats]:
+def torsion_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats]:
     """Torsion frequencies (Hz, (n,)) and shapes f ((n, 2 elements + 1), at ends and middles)."""
     mesh = MeshLine(np.linspace(0.0, 1.0, elements + 1))
     basis = Basis(mesh, ElementLineP2(), intorder=4)
     nodes, middles = basis.dofs.nodal_dofs[0], basis.dofs.interior_dofs[0]
     stiffness = BilinearForm(_twist_rate).assemble(basis).toarray()
     mass = BilinearForm(_product).assemble(basis).toarray()
-    if plate.root_torsional_stiffness is not None:
+    if beam.root_torsional_stiffness is not None:
         root = nodes[0]
-        spring = plate.root_torsional_stiffness * plate.length / plate.torsional_rigidity
+        spring = beam.root_torsional_stiffness * beam.length / beam.torsional_rigidity
         stiffness[root, root] += spring
     held = [
         int(nodes[node])
-        for node, end in zip((0, -1), plate.torsion_ends, strict=True)
+        for node, end in zip((0, -1), beam.torsion_ends, strict=True)
         if end == "fixed"
     ]
     eigenvalue, vector = _lowest(stiffness, mass, held, count)
-    scale = plate.torsional_rigidity / (plate.inertia_per_length * plate.length**2)
+    scale = beam.torsional_rigidity / (beam.inertia_per_length * beam.length**2)
     return _hertz(eigenvalue * scale), _interleave(vector[nodes], vector[middles])
 
 

@@ -1,4 +1,4 @@
-"""What a mode of the solid plate is: bending, torsion, in-plane, extension or chordwise.
+"""Kinds of modes of a solid plate: bending, torsion, in-plane, extension or chordwise.
 
 At each station along the span the displacement of the mid-surface is split into the motions of
 a rigid section and the rest:

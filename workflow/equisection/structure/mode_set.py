@@ -1,4 +1,4 @@
-"""Modes of a plate as data: what the rest of the package reads, whoever computed them."""
+"""Modes of a beam as data: what the rest of the package reads, by whatever method."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.beam.beam import Beam
 from equisection.errors import ModesError
-from equisection.structure.plate import Plate
 from equisection.structure.span import derivative, gram
 
 Floats = NDArray[np.float64]
@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ModeSet:
-    """Natural modes of a plate, in order of frequency.
+    """Natural modes of a beam, in order of frequency.
 
     Attributes
     ----------
@@ -111,19 +111,19 @@ class MeshStudy:
         return np.asarray(self.frequency / self.frequency[-1] - 1.0)
 
 
-def torsion_strain(modes: ModeSet, plate: Plate, count: int) -> Floats:
+def torsion_strain(modes: ModeSet, beam: Beam, count: int) -> Floats:
     """K_theta of Eq. 7 from the slopes of the torsion shapes, (count, count), dimensionless.
 
     A spring that holds the root adds its energy, (k_t L/GJ) f_i(0) f_j(0).
     """
     shape = modes.torsion(count).shape
     slope = derivative(modes.span, shape)
-    spring = (plate.root_torsional_stiffness or 0.0) * plate.length / plate.torsional_rigidity
+    spring = (beam.root_torsional_stiffness or 0.0) * beam.length / beam.torsional_rigidity
     root = shape[:, 0]
     return np.asarray(gram(modes.span, slope, slope) + spring * np.outer(root, root))
 
 
-def frequency_constants(modes: ModeSet, plate: Plate) -> Floats:
+def frequency_constants(modes: ModeSet, beam: Beam) -> Floats:
     """C_i of Eq. 23 for each mode (-): f_i c/V = C_i (L/h) sqrt(k*/I*).
 
     k* is that of Eq. 17 with the slope of the computed torsion shape, which is what reproduces
@@ -131,7 +131,7 @@ def frequency_constants(modes: ModeSet, plate: Plate) -> Floats:
     sqrt(k*/I*) is already omega_theta c/V.
     """
     first = modes.torsion(1).shape
-    strain = (torsion_strain(modes, plate, 1) / gram(modes.span, first, first)).item()
-    stiffness = plate.torsional_rigidity / plate.length**2 * strain
-    radian_rate = np.sqrt(stiffness / plate.inertia_per_length)
-    return np.asarray(modes.frequency / radian_rate * plate.thickness / plate.length)
+    strain = (torsion_strain(modes, beam, 1) / gram(modes.span, first, first)).item()
+    stiffness = beam.torsional_rigidity / beam.length**2 * strain
+    radian_rate = np.sqrt(stiffness / beam.inertia_per_length)
+    return np.asarray(modes.frequency / radian_rate * beam.thickness / beam.length)

@@ -1,4 +1,4 @@
-"""The modes of a plate by any of three methods, in one form.
+"""The modes of a beam by any of three methods, in one form.
 
 ``solid`` (quadratic hexahedra) is what the paper does; ``beam`` (one-dimensional elements)
 and ``analytic`` cover every boundary and differ from it by what a beam leaves out: restrained
@@ -14,34 +14,34 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.beam.beam import Beam
 from equisection.errors import ModesError
 from equisection.structure import analytic, beam_elements
 from equisection.structure.classify import classify
 from equisection.structure.mode_set import MeshStudy, ModeSet
-from equisection.structure.plate import Plate
 from equisection.structure.solid import solid_modes
 from equisection.structure.span import normalise
 
 Floats = NDArray[np.float64]
 
 METHODS = ("solid", "beam", "analytic")
-#: Where the search for modes of a kind ends: a plate that lacks them among so many has none.
+#: Where the search for modes of a kind ends: a beam that lacks them among so many has none.
 MOST_MODES = 200
 
 logger = logging.getLogger(__name__)
 
 
 def compute_modes(
-    plate: Plate,
+    beam: Beam,
     method: str = "solid",
     elements: tuple[int, int, int] = (24, 89, 2),
     count: int = 12,
 ) -> ModeSet:
-    """Lowest modes of a plate.
+    """Lowest modes of a beam.
 
     Parameters
     ----------
-    plate : Plate
+    beam : Beam
         Geometry, material and boundary.
     method : str
         One of `METHODS`.
@@ -54,7 +54,7 @@ def compute_modes(
     if count < 1:
         raise ModesError(f"count is {count}; ask for at least one mode")
     if method == "solid":
-        solid = solid_modes(plate, elements, count)
+        solid = solid_modes(beam, elements, count)
         sorted_out = classify(solid.chord_position, solid.span, solid.displacement)
         label = " x ".join(str(n) for n in elements)
         shape = normalise(sorted_out.shape)
@@ -62,11 +62,11 @@ def compute_modes(
     along_span = elements[1]
     span = np.linspace(0.0, 1.0, 2 * along_span + 1)
     if method == "beam":
-        bending = beam_elements.bending_modes(plate, along_span, count)
-        torsion = beam_elements.torsion_modes(plate, along_span, count)
+        bending = beam_elements.bending_modes(beam, along_span, count)
+        torsion = beam_elements.torsion_modes(beam, along_span, count)
     elif method == "analytic":
-        bending = analytic.bending_modes(plate, span, count)
-        torsion = analytic.torsion_modes(plate, span, count)
+        bending = analytic.bending_modes(beam, span, count)
+        torsion = analytic.torsion_modes(beam, span, count)
     else:
         raise ModesError(f"modes.method is {method!r}; choose one of {', '.join(METHODS)}")
     frequency = np.concatenate([bending[0], torsion[0]])
@@ -83,15 +83,15 @@ def compute_modes(
 
 
 def modes_of_kinds(
-    plate: Plate,
+    beam: Beam,
     method: str,
     elements: tuple[int, int, int],
     numbers: tuple[int, int],
     count: int,
 ) -> ModeSet:
-    """Lowest modes of a plate, ``count`` or as many more as hold so many of bending and torsion.
+    """Lowest modes of a beam, ``count`` or as many more as hold so many of bending and torsion.
 
-    A slender plate has many bending modes below its first few of torsion.
+    A slender beam has many bending modes below its first few of torsion.
 
     Raises
     ------
@@ -99,14 +99,14 @@ def modes_of_kinds(
         The mesh has too few modes of a kind.
     """
     wanted = dict(zip(("bending", "torsion"), numbers, strict=True))
-    modes = _holding(plate, method, elements, wanted, count)
+    modes = _holding(beam, method, elements, wanted, count)
     for kind, number in wanted.items():
         modes.of_kind(kind, number)
     return modes
 
 
 def mesh_study(
-    plate: Plate, levels: Sequence[tuple[int, int, int]], method: str = "solid", count: int = 8
+    beam: Beam, levels: Sequence[tuple[int, int, int]], method: str = "solid", count: int = 8
 ) -> MeshStudy:
     """Solve on each mesh level (coarse to fine) and compare the first ``count`` frequencies.
 
@@ -118,19 +118,17 @@ def mesh_study(
     ModesError
         The finest level has no modes.
     """
-    finest = compute_modes(plate, method, levels[-1], count)
-    coarser = [_paired(plate, method, level, finest.kind) for level in levels[:-1]]
+    finest = compute_modes(beam, method, levels[-1], count)
+    coarser = [_paired(beam, method, level, finest.kind) for level in levels[:-1]]
     return MeshStudy(tuple(levels), finest.kind, np.array([*coarser, finest.frequency]))
 
 
-def _paired(
-    plate: Plate, method: str, level: tuple[int, int, int], kinds: tuple[str, ...]
-) -> Floats:
+def _paired(beam: Beam, method: str, level: tuple[int, int, int], kinds: tuple[str, ...]) -> Floats:
     """Return the frequencies (Hz) of modes of these kinds on a mesh; NaN of those it lacks."""
     frequency = np.full(len(kinds), np.nan)
     reason = ""
     try:
-        modes = _holding(plate, method, level, Counter(kinds), len(kinds))
+        modes = _holding(beam, method, level, Counter(kinds), len(kinds))
     except ModesError as error:
         reason = f" ({error})"
     else:
@@ -152,7 +150,7 @@ def _paired(
 
 
 def _holding(
-    plate: Plate,
+    beam: Beam,
     method: str,
     elements: tuple[int, int, int],
     wanted: Mapping[str, int],
@@ -164,7 +162,7 @@ def _holding(
     """
     asked = count
     while True:
-        modes = compute_modes(plate, method, elements, asked)
+        modes = compute_modes(beam, method, elements, asked)
         places = [_place(modes.kind, kind, number) for kind, number in wanted.items()]
         held = [place for place in places if place is not None]
         if len(held) == len(places):

@@ -27,8 +27,8 @@ from skfem import Basis, BilinearForm, ElementHex2, ElementVector, MeshHex
 from skfem.helpers import dot
 from skfem.models.elasticity import lame_parameters, linear_elasticity
 
+from equisection.beam.beam import Beam
 from equisection.errors import ModesError
-from equisection.structure.plate import Plate
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -70,31 +70,31 @@ class SolidModes:
     displacement: Floats
 
 
-def solid_modes(plate: Plate, elements: tuple[int, int, int], count: int) -> SolidModes:
-    """Lowest modes of the plate as an elastic solid.
+def solid_modes(beam: Beam, elements: tuple[int, int, int], count: int) -> SolidModes:
+    """Lowest modes of the beam, a plate, as an elastic solid.
 
     Parameters
     ----------
-    plate : Plate
+    beam : Beam
         Its boundary must be one of `SOLID_BOUNDARIES`.
     elements : tuple of int
         Elements along chord, span and thickness.
     count : int
         Number of modes n.
     """
-    if plate.boundary not in SOLID_BOUNDARIES:
+    if beam.boundary not in SOLID_BOUNDARIES:
         raise ModesError(
-            f"boundary {plate.boundary!r} has no counterpart on a solid plate (it allows "
+            f"boundary {beam.boundary!r} has no counterpart on a solid plate (it allows "
             f"{', '.join(SOLID_BOUNDARIES)}); use method 'beam' or 'analytic'"
         )
     if min(elements) < 1 or len(elements) != 3:
         raise ModesError(
             f"elements is {elements}; give three counts of at least 1 (chord, span, thickness)"
         )
-    element = _one_element(plate, elements)
+    element = _one_element(beam, elements)
     frequencies, fields = [], []
     for parity in _CLASSES:
-        frequency, field = _class_modes(plate, element, elements, parity, count)
+        frequency, field = _class_modes(beam, element, elements, parity, count)
         frequencies.append(frequency)
         fields.append(field)
     frequency = np.concatenate(frequencies)
@@ -102,7 +102,7 @@ def solid_modes(plate: Plate, elements: tuple[int, int, int], count: int) -> Sol
     nodes_x, nodes_z = 2 * elements[0] + 1, 2 * elements[1] + 1
     return SolidModes(
         frequency=frequency[order],
-        chord_position=np.linspace(-0.5, 0.5, nodes_x) * plate.chord,
+        chord_position=np.linspace(-0.5, 0.5, nodes_x) * beam.chord,
         span=np.linspace(0.0, 1.0, nodes_z),
         displacement=np.concatenate(fields)[order],
     )
@@ -127,16 +127,14 @@ def _product(u: Any, v: Any, _: Any) -> Any:
     return dot(u, v)
 
 
-def _one_element(plate: Plate, elements: tuple[int, int, int]) -> _Element:
+def _one_element(beam: Beam, elements: tuple[int, int, int]) -> _Element:
     along_chord, along_span, through = elements
-    size = np.array(
-        [plate.chord / along_chord, plate.thickness / through, plate.length / along_span]
-    )
+    size = np.array([beam.chord / along_chord, beam.thickness / through, beam.length / along_span])
     basis = Basis(MeshHex().scaled(tuple(size)), ElementVector(ElementHex2()), intorder=4)
-    lame = lame_parameters(plate.youngs_modulus, plate.poisson_ratio)
+    lame = lame_parameters(beam.youngs_modulus, beam.poisson_ratio)
     stiffness = linear_elasticity(*lame).assemble(basis).toarray()
 
-    mass = plate.density * BilinearForm(_product).assemble(basis).toarray()
+    mass = beam.density * BilinearForm(_product).assemble(basis).toarray()
     place = np.rint(2.0 * basis.doflocs / size[:, None]).astype(np.int64)
     component = np.empty(basis.N, dtype=np.int64)
     dofs = basis.dofs
@@ -159,7 +157,7 @@ class _Folding:
     unknowns: int
 
 
-def _fold(plate: Plate, elements: tuple[int, int, int], parity: tuple[int, int]) -> _Folding:
+def _fold(beam: Beam, elements: tuple[int, int, int], parity: tuple[int, int]) -> _Folding:
     """Assign numbers to the unknowns of a quarter and mirror them onto the whole mesh."""
     nx, nz, ny = (2 * n for n in elements)
     shape = (nz + 1, nx + 1, ny + 1, 3)
@@ -174,7 +172,7 @@ def _fold(plate: Plate, elements: tuple[int, int, int], parity: tuple[int, int])
     sign_x[nx // 2] = (1 + in_chord) // 2
     sign_y[ny // 2] = (1 + in_thickness) // 2
     sign = np.broadcast_to(sign_x[None, :, None] * sign_y[None, None], shape).astype(float)
-    for end, held in zip((0, nz), _HELD[plate.boundary], strict=True):
+    for end, held in zip((0, nz), _HELD[beam.boundary], strict=True):
         sign[end][..., list(held)] = 0.0
     quarter = sign[:, : nx // 2 + 1, : ny // 2 + 1] != 0.0
     numbers = np.where(quarter, np.cumsum(quarter).reshape(quarter.shape) - 1, -1)
@@ -211,18 +209,18 @@ def _class_matrices(
 
 
 def _class_modes(
-    plate: Plate,
+    beam: Beam,
     element: _Element,
     elements: tuple[int, int, int],
     parity: tuple[int, int],
     count: int,
 ) -> tuple[Floats, Floats]:
     """Frequencies (Hz) and mid-thickness displacements of one class of modes."""
-    folding = _fold(plate, elements, parity)
+    folding = _fold(beam, elements, parity)
     stiffness, mass = _class_matrices(element, elements, folding)
     # A shift just below zero keeps the factor regular where a class can move rigidly (pinned-pinned
     # slides along the span). The scale is that of the first bending frequency of a beam.
-    scale = plate.bending_rigidity / plate.mass_per_length / plate.length**4
+    scale = beam.bending_rigidity / beam.mass_per_length / beam.length**4
     shift = -1e-2 * scale
     factor = splu(
         stiffness - shift * mass,
@@ -238,7 +236,7 @@ def _class_modes(
     except ArpackNoConvergence as error:
         raise ModesError(
             f"the eigensolver did not converge on {elements} elements for {count} modes ({error}); "
-            "ask for fewer modes or check the plate's dimensions"
+            "ask for fewer modes or check the beam's dimensions"
         ) from error
     elastic = eigenvalue > 1e-3 * scale
     mid = elements[2]

@@ -10,12 +10,12 @@ from collections.abc import Mapping
 
 import xarray as xr
 
+from equisection.beam.section import Section
 from equisection.cases import (
     BeamModes,
     EndCriteria,
     Geometry,
     Medium,
-    SectionProperties,
     SolverBlock,
     SteadyCase,
     UnsteadyCase,
@@ -23,13 +23,12 @@ from equisection.cases import (
 from equisection.config import Config
 from equisection.errors import ConfigError, DivergenceError, EquisectionError
 from equisection.reduction.correction import corrected_equilibrium
-from equisection.reduction.reduce import EquivalentSection, Reduction
+from equisection.reduction.reduce import Reduction
 from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
-from equisection.results.section_dataset import section_from_dataset
+from equisection.results.section_dataset import nominal_k_star, section_from_dataset
 from equisection.solvers.protocol import Solver
 from equisection.solvers.verdicts import pitch_frequency
-from equisection.structure.plate import Plate
 from equisection.study.plan import Model
 
 #: Of the twist, below which its extrema are not where they seem to be.
@@ -78,7 +77,7 @@ def unsteady_case(
     ConfigError
         The history would be written too seldom to tell an oscillation.
     """
-    stiffness_scale = k_star / nominal_k_star(config, data["equivalent"])
+    stiffness_scale = k_star / nominal_k_star(data["equivalent"])
     section, beam, refusal, diverges = None, None, "", False
     if model.dimension == "3d":
         beam = _beam_modes(config, data["modes"], stiffness_scale)
@@ -146,53 +145,49 @@ def _solver_block(solver: Solver, dimension: str) -> SolverBlock:
     return SolverBlock(name=solver.name, version=solver.version, settings=settings)
 
 
-def nominal_k_star(config: Config, equivalent: xr.Dataset) -> float:
-    """Return k* of the configured beam: Eq. 17 in the paper's form, the axis of every comparison.
-
-    Both reductions and the beam stand at the same k* when they have the same Young's modulus.
-    """
-    flow = config.flow
-    return section_from_dataset(equivalent, "paper").k_star(
-        flow.density, flow.speed, config.beam.chord
-    )
-
-
 def _section(
     config: Config, model: Model, data: Mapping[str, xr.Dataset], stiffness_scale: float
-) -> SectionProperties:
-    flow, chord = config.flow, config.beam.chord
+) -> Section:
+    """Return the section of a model in the flow."""
     reduction: Reduction = "paper" if model.reduction == "paper" else "consistent"
     section = section_from_dataset(data["equivalent"], reduction).scaled(stiffness_scale)
-    lift_factor, moment_factor = 1.0, 1.0
-    if model.corrected:
-        lift_factor, moment_factor = _factors(config, section, data["correction"])
-    return SectionProperties(
-        torsional_stiffness=moment_factor * section.k_star(flow.density, flow.speed, chord),
-        flexural_stiffness=lift_factor * section.k_w_star(flow.density, flow.speed),
-        inertia=moment_factor * section.i_star(flow.density, chord),
-        mass=lift_factor * section.m_star(flow.density, chord),
+    in_flow = section.in_flow(config.flow.density, config.flow.speed)
+    return _corrected(config, in_flow, data["correction"]) if model.corrected else in_flow
+
+
+def _corrected(config: Config, section: Section, correction: xr.Dataset) -> Section:
+    """Return the section (in the flow) with the factors of Eq. 20 at the aeroelastic equilibrium.
+
+    Raises
+    ------
+    EquisectionError
+        The section is more than a mass on springs about mid-chord: factors on its rows would not
+        leave it a body, or move its moment to another axis.
+    ReductionError
+        There is no equilibrium inside the polars.
+    """
+    section.require_springs_alone("the correction for the finite span")
+    equilibrium = corrected_equilibrium(
+        factors_from_dataset(correction),
+        math.radians(config.flow.incidence_deg),
+        section.torsional_stiffness,
+        section.stiffness_ratio,
+    )
+    lift_factor, moment_factor = (
+        float(factor[0]) for factor in (equilibrium.lift_factor, equilibrium.moment_factor)
+    )
+    return Section(
+        torsional_stiffness=moment_factor * section.torsional_stiffness,
+        flexural_stiffness=lift_factor * section.flexural_stiffness,
+        inertia=moment_factor * section.inertia,
+        mass=lift_factor * section.mass,
         twist_recovery=section.twist_recovery,
         deflection_recovery=section.deflection_recovery,
     )
 
 
-def _factors(
-    config: Config, section: EquivalentSection, correction: xr.Dataset
-) -> tuple[float, float]:
-    """Return the factors of Eq. 20 of lift and moment at the aeroelastic equilibrium."""
-    flow = config.flow
-    equilibrium = corrected_equilibrium(
-        factors_from_dataset(correction),
-        math.radians(flow.incidence_deg),
-        section.k_star(flow.density, flow.speed, config.beam.chord),
-        section.stiffness_ratio(config.beam.chord),
-    )
-    return float(equilibrium.lift_factor[0]), float(equilibrium.moment_factor[0])
-
-
 def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> BeamModes:
     """Return the beam's modes, with frequencies that grow as the square root of E."""
-    plate = Plate.from_values(config.beam.model_dump())
     modes = modes_from_dataset(dataset)
     bending = modes.bending(config.structure.bending_modes)
     torsion = modes.torsion(config.structure.torsion_modes)
@@ -204,6 +199,6 @@ def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> 
         bending_shape=tuple(map(tuple, bending.shape)),
         torsion_frequency=tuple(to_reduced * torsion.frequency),
         torsion_shape=tuple(map(tuple, torsion.shape)),
-        inertia=plate.inertia_per_length / (0.5 * flow.density * chord**4),
-        mass=plate.mass_per_length / (0.5 * flow.density * chord**2),
+        inertia=config.beam.inertia_per_length / (0.5 * flow.density * chord**4),
+        mass=config.beam.mass_per_length / (0.5 * flow.density * chord**2),
     )

@@ -3,7 +3,7 @@
 Units stand in the description of each key; a name without a unit suffix is SI.
 """
 
-from equisection.config.groups.beam import FREE_TIP, Beam, Boundary, CrossSection
+from equisection.beam.beam import FREE_TIP, Beam, Boundary, CrossSection
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
 from equisection.config.groups.openfoam_keys import OpenFoam

@@ -8,9 +8,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from equisection.beam.beam import BOUNDARIES, CrossSection
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.values import WHOLE
+
+#: Boundaries that a solid plate has no counterpart of.
+NOT_OF_SOLID: frozenset[str] = frozenset({"one-fork", "spring-root"})
 
 Modes = Annotated[int, Field(ge=1, le=12), WHOLE]
 
@@ -62,3 +66,26 @@ def _finer_and_finer(meshes: tuple[Elements, ...]) -> Iterator[Problem]:
                 fine.model_dump(),
                 "allowed is a mesh with no fewer elements in any direction than the one before",
             )
+
+
+@check("beam.boundary", "structure.method")
+def _held_by_the_method(boundary: str, method: str) -> Iterator[Problem]:
+    if method == "solid" and boundary in NOT_OF_SOLID:
+        allowed = ", ".join(name for name in BOUNDARIES if name not in NOT_OF_SOLID)
+        yield Problem(
+            "beam.boundary",
+            boundary,
+            f"allowed with structure.method 'solid' are {allowed}; or give structure.method: beam "
+            "or analytic",
+        )
+
+
+@check("beam.cross_section", "structure.method")
+def _section_by_the_method(given: CrossSection | None, method: str) -> Iterator[Problem]:
+    if method == "solid" and given is not None:
+        yield Problem(
+            "structure.method",
+            method,
+            "allowed with beam.cross_section are beam and analytic; 'solid' meshes a homogeneous "
+            "plate",
+        )

@@ -172,7 +172,10 @@ class Adapter:
         from equisection.solvers.openfoam.section.free_section import SectionRun  # noqa: PLC0415
         from equisection.solvers.openfoam.section.overset_section import OversetRun  # noqa: PLC0415
         from equisection.solvers.openfoam.section.rigid_section import mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.section.section_motion import MOVER  # noqa: PLC0415
 
+        if case.section is not None:  # before the steady flow, which takes long
+            case.section.require_springs_alone(MOVER)
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun

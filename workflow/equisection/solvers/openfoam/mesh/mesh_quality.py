@@ -12,7 +12,7 @@ import shutil
 from dataclasses import dataclass
 from pathlib import Path
 
-from equisection.cases import SectionProperties
+from equisection.beam.section import Section
 from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.solvers.openfoam import flow_setup as flow
@@ -23,7 +23,7 @@ from equisection.solvers.openfoam.process import run_program
 from equisection.solvers.openfoam.section.section_motion import morphing, write_displacement
 
 #: A section that goes on as it was started.
-_COASTING = SectionProperties(
+_COASTING = Section(
     torsional_stiffness=1e-12,
     flexural_stiffness=1e-12,
     inertia=2.0,

@@ -14,7 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from equisection.cases import SectionProperties, UnsteadyCase
+from equisection.beam.section import Section
+from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.unsteady_result import UnsteadyResult
@@ -187,7 +188,7 @@ class SectionRun(FreeRun[Mesh]):
         mark_ready(folder)
 
 
-def _tip(section: SectionProperties | None, history: SectionHistory) -> verdicts.TipMotion:
+def _tip(section: Section | None, history: SectionHistory) -> verdicts.TipMotion:
     assert section is not None
     return verdicts.TipMotion(
         history.time,

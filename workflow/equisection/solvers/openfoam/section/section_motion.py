@@ -17,13 +17,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.cases import SectionProperties
+from equisection.beam.section import Section
 from equisection.files import write_text
 from equisection.solvers.openfoam.dictionaries import PLATE, Entries, dictionary
 from equisection.solvers.openfoam.reading.histories import read_history
 
 #: Name of the function object of the motion.
 MOTION = "motion"
+MOVER = "the rigid body of OpenFOAM"
 #: Within the first distance from the plate the mesh moves with it, beyond the second it stands;
 #: the second as a part of the half channel at the most.
 _RIGID_WITHIN, _STILL_BEYOND, _STILL_PART = 0.3, 1.5, 0.75
@@ -38,14 +39,14 @@ class BodyMotion:
     deflection: NDArray[np.float64]
 
 
-def write_motion(folder: Path, section: SectionProperties, channel_height: float) -> None:
+def write_motion(folder: Path, section: Section, channel_height: float) -> None:
     """Write ``constant/dynamicMeshDict``: the section, and the mesh that morphs around it."""
     entries = morphing(section, channel_height)
     write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", entries))
     write_displacement(folder)
 
 
-def morphing(section: SectionProperties, channel_height: float) -> dict[str, Any]:
+def morphing(section: Section, channel_height: float) -> dict[str, Any]:
     """Return the section, and the mesh that morphs around it up to near the channel's walls."""
     still = min(_STILL_BEYOND, _STILL_PART * channel_height / 2)
     return {
@@ -56,11 +57,17 @@ def morphing(section: SectionProperties, channel_height: float) -> dict[str, Any
     }
 
 
-def rigid_body(section: SectionProperties, rigid_within: float, still: float) -> dict[str, Any]:
+def rigid_body(section: Section, rigid_within: float, still: float) -> dict[str, Any]:
     """Return the section, released from rest with slack springs.
 
     Up to the first distance (chords) the mesh moves with it, beyond the second it stands.
+
+    Raises
+    ------
+    EquisectionError
+        The section is more than a mass on springs about mid-chord.
     """
+    section.require_springs_alone(MOVER)
     return {
         "patches": [PLATE],
         "innerDistance": rigid_within,

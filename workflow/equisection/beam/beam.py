@@ -1,0 +1,246 @@
+"""The beam: a flat plate or a cross-section as given, and how its two ends are held.
+
+It is the section ``beam`` of the configuration too, whose keys are its members, in SI units. It is
+homogeneous, of a rectangular section, unless ``cross_section`` says what its section is.
+
+Each boundary is a pair of end conditions for bending and one for torsion. A *fork* holds the
+deflection and the twist of a section and leaves its bending slope free, which is what a pinned
+end has to be if the twist is to have any restraint at all.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Annotated, Literal, get_args
+
+from pydantic import Field, ValidationInfo, model_validator
+
+from equisection.keys.checks import Problem, check
+from equisection.keys.group import KeyGroup
+from equisection.keys.group_file import read_group
+from equisection.keys.values import NULLABLE, NUMBER, Positive
+
+Boundary = Literal[
+    "clamped-free",
+    "clamped-clamped",
+    "pinned-pinned",
+    "clamped-pinned",
+    "one-fork",
+    "spring-root",
+]
+BOUNDARIES: tuple[Boundary, ...] = get_args(Boundary)
+
+BendingEnd = Literal["clamped", "pinned", "free", "spring"]
+TorsionEnd = Literal["fixed", "free", "spring"]
+
+_BENDING_ENDS: dict[str, tuple[BendingEnd, BendingEnd]] = {
+    "clamped-free": ("clamped", "free"),
+    "clamped-clamped": ("clamped", "clamped"),
+    "pinned-pinned": ("pinned", "pinned"),
+    "clamped-pinned": ("clamped", "pinned"),
+    "one-fork": ("pinned", "pinned"),
+    "spring-root": ("spring", "free"),
+}
+_TORSION_ENDS: dict[str, tuple[TorsionEnd, TorsionEnd]] = {
+    "clamped-free": ("fixed", "free"),
+    "clamped-clamped": ("fixed", "fixed"),
+    "pinned-pinned": ("fixed", "fixed"),
+    "clamped-pinned": ("fixed", "fixed"),
+    "one-fork": ("fixed", "free"),
+    "spring-root": ("spring", "free"),
+}
+
+#: Boundaries whose far end moves freely, and so need a gap to the channel's wall.
+FREE_TIP: frozenset[str] = frozenset({"clamped-free", "spring-root"})
+#: h/c up to which a rectangle is a thin strip: its G J is then 6 % too large.
+_THIN = 0.1
+
+
+class CrossSection(KeyGroup):
+    """Rigidities, mass and inertia of the beam's section, about axes at mid-chord."""
+
+    bending_rigidity: Positive = Field(description="E I (N m2) of the deflection across the chord.")
+    torsional_rigidity: Positive = Field(description="G J (N m2).")
+    mass_per_length: Positive = Field(description="Mass m (kg/m).")
+    inertia_per_length: Positive = Field(
+        description="Polar moment of inertia about mid-chord (kg m2/m)."
+    )
+
+
+class Beam(KeyGroup):
+    """The flexible beam, of constant section, and how it is held."""
+
+    chord: Positive = Field(0.1, description="Chord c (m).")
+    length: Positive = Field(0.37, description="Span L (m), longer than the chord.")
+    thickness: Positive = Field(0.004, description="Thickness h (m), below half the chord.")
+    youngs_modulus: Positive = Field(
+        3.3e9,
+        description="Young's modulus E (Pa) of the beam as given; the sweep scales all of its "
+        "stiffness, root springs included.",
+    )
+    poisson_ratio: Annotated[float, Field(gt=-1, lt=0.5, allow_inf_nan=False), NUMBER] = Field(
+        0.35, description="Poisson's ratio nu (-)."
+    )
+    density: Positive = Field(1180.0, description="Density rho_s (kg/m3).")
+    boundary: Boundary = Field(
+        "clamped-free",
+        description="How the beam is held, root first. `pinned-pinned` has fork ends (no twist "
+        "at either end), `one-fork` is pinned at both ends with the twist held at the root "
+        "only, `spring-root` is held by the two root springs alone; these two need "
+        "`structure.method` `beam` or `analytic`.",
+    )
+    root_torsional_stiffness: Annotated[Positive | None, NULLABLE] = Field(
+        None,
+        description="Stiffness of the root's torsional spring (N m/rad); needed with "
+        "`spring-root`, and only there.",
+    )
+    root_bending_stiffness: Annotated[Positive | None, NULLABLE] = Field(
+        None,
+        description="Stiffness of the root's rotational spring in bending (N m/rad); needed "
+        "with `spring-root`, and only there.",
+    )
+    cross_section: Annotated[CrossSection | None, NULLABLE] = Field(
+        None,
+        description="Rigidities and masses of a section that is no homogeneous rectangle, such as "
+        "a bridge deck's; all four, in the place of what `thickness`, `youngs_modulus`, "
+        "`poisson_ratio` and `density` make. `thickness` stays the body's in the flow. Needs "
+        "`structure.method` `beam` or `analytic`.",
+    )
+
+    @model_validator(mode="after")
+    def _agree(self, info: ValidationInfo) -> Beam:
+        self.require_agreement("beam", info)
+        return self
+
+    @classmethod
+    def from_yaml(cls, path: Path | str) -> Beam:
+        """Read the section ``beam`` of a configuration file; keys that it lacks are defaults.
+
+        Raises
+        ------
+        ConfigError
+            The file has no section ``beam`` or cannot be read, or one line for each problem.
+        """
+        return read_group(Path(path), "beam", cls)
+
+    @property
+    def shear_modulus(self) -> float:
+        """G = E / (2 (1 + nu)) (Pa), below Eq. 4."""
+        return self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
+
+    @property
+    def second_moment(self) -> float:
+        """I = c h^3/12 (m^4), below Eq. 4."""
+        return self.chord * self.thickness**3 / 12.0
+
+    @property
+    def torsion_constant(self) -> float:
+        """J = c h^3/3 (m^4), the thin-strip limit below Eq. 4; see `torsion_series_factor`."""
+        return self.chord * self.thickness**3 / 3.0
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Warnings where formulas of a thin strip do not hold; none of a section as given."""
+        ratio = self.thickness / self.chord
+        if self.cross_section is not None or ratio <= _THIN:
+            return ()
+        return (
+            f"h/c = {ratio:.3g} is above {_THIN:g}: of a thin strip, as which the beam is taken, "
+            f"G J is {100 * (1 / torsion_series_factor(ratio) - 1):.1f} % too large and the moment "
+            f"of inertia {100 * (1 - 1 / (1 + ratio**2)):.1f} % too small; give the section as it "
+            "is (beam.cross_section)",
+        )
+
+    @property
+    def bending_rigidity(self) -> float:
+        """E I (N m^2)."""
+        if self.cross_section is not None:
+            return self.cross_section.bending_rigidity
+        return self.youngs_modulus * self.second_moment
+
+    @property
+    def torsional_rigidity(self) -> float:
+        """G J (N m^2)."""
+        if self.cross_section is not None:
+            return self.cross_section.torsional_rigidity
+        return self.shear_modulus * self.torsion_constant
+
+    @property
+    def mass_per_length(self) -> float:
+        """rho_s c h (kg/m), Eq. 5."""
+        if self.cross_section is not None:
+            return self.cross_section.mass_per_length
+        return self.density * self.chord * self.thickness
+
+    @property
+    def inertia_per_length(self) -> float:
+        """Polar inertia about mid-chord rho_s c^3 h/12 (kg m^2/m), Eq. 5 (h^2 against c^2 left)."""
+        if self.cross_section is not None:
+            return self.cross_section.inertia_per_length
+        return self.density * self.chord**3 * self.thickness / 12.0
+
+    @property
+    def bending_ends(self) -> tuple[BendingEnd, BendingEnd]:
+        """End conditions of bending at root and tip."""
+        return _BENDING_ENDS[self.boundary]
+
+    @property
+    def torsion_ends(self) -> tuple[TorsionEnd, TorsionEnd]:
+        """End conditions of twist at root and tip."""
+        return _TORSION_ENDS[self.boundary]
+
+
+def torsion_series_factor(thickness_over_chord: float) -> float:
+    """Saint-Venant's exact J of a rectangle divided by c h^3/3 (-), for the record.
+
+    1 - (192/pi^5)(h/c) sum over odd n of tanh(n pi c/2h)/n^5 (Timoshenko and Goodier,
+    Theory of Elasticity, art. 109): 0.975 for h/c = 0.04. The paper's J is kept so that
+    Eq. 17 is its own; three-dimensional elasticity needs neither.
+    """
+    ratio = thickness_over_chord
+    total = sum(math.tanh(n * math.pi / (2.0 * ratio)) / n**5 for n in range(1, 40, 2))
+    return 1.0 - 192.0 / math.pi**5 * ratio * total
+
+
+@check("beam.thickness", "beam.chord")
+def _thin(thickness: float, chord: float) -> Iterator[Problem]:
+    if thickness >= chord / 2:
+        yield Problem(
+            "beam.thickness",
+            thickness,
+            f"allowed is a number above 0 and below half the chord, {chord / 2:g} m",
+        )
+
+
+@check("beam.length", "beam.chord")
+def _slender(length: float, chord: float) -> Iterator[Problem]:
+    if length <= chord:
+        yield Problem(
+            "beam.length", length, f"allowed is a number above the chord, beam.chord = {chord:g} m"
+        )
+
+
+@check("beam.root_torsional_stiffness", "beam.boundary")
+def _torsional_spring(stiffness: float | None, boundary: str) -> Iterator[Problem]:
+    yield from _spring("beam.root_torsional_stiffness", stiffness, boundary)
+
+
+@check("beam.root_bending_stiffness", "beam.boundary")
+def _bending_spring(stiffness: float | None, boundary: str) -> Iterator[Problem]:
+    yield from _spring("beam.root_bending_stiffness", stiffness, boundary)
+
+
+def _spring(key: str, stiffness: float | None, boundary: str) -> Iterator[Problem]:
+    if boundary == "spring-root" and stiffness is None:
+        yield Problem(
+            key,
+            stiffness,
+            "allowed is a number above 0 (N m/rad); with boundary 'spring-root' nothing else "
+            "holds the root's rotation",
+        )
+    if boundary != "spring-root" and stiffness is not None:
+        yield Problem(
+            key, stiffness, f"allowed is null with boundary '{boundary}', which has no root spring"
+        )

@@ -1,0 +1,261 @@
+"""The section: two degrees of freedom per unit span, about the elastic axis.
+
+With w the deflection of the elastic axis (up) and theta the twist (nose up), a point x behind
+the axis moves by w - x theta, and the section obeys
+
+    m w''     - S theta'' + c_w w'         + k_w w         = lift,
+    I theta'' - S w''     + c_theta theta' + k_theta theta = moment about the axis,
+
+with S = m d, d the distance of the centre of mass behind the axis (Theodorsen, NACA Report 496,
+1935, Eqs. A and B, where h = -w).
+
+A section is in SI units per metre of span, or, as :meth:`Section.in_flow` returns it, in units of
+rho/2, V and c. Then it has the chord 1 and the numbers of Eq. 18, with w in chords and ' = d/ds:
+
+    m* = m/(rho c^2/2)    S* = S/(rho c^3/2)      I* = I/(rho c^4/2)
+    k_w* = k_w/q          k* = k_theta/(q c^2)    q = rho V^2/2
+    c_w* = c_w/(rho V c/2)                        c_theta* = c_theta/(rho V c^3/2)
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
+from scipy.linalg import eigh
+
+from equisection.conventions import dynamic_pressure
+from equisection.errors import EquisectionError, ReductionError
+
+Floats = NDArray[np.float64]
+
+_Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+_NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
+
+#: Members by which a section is more than a mass on two springs at mid-chord, and their defaults.
+MORE_THAN_SPRINGS = {
+    "static_imbalance": 0.0,
+    "flexural_damping": 0.0,
+    "torsional_damping": 0.0,
+    "elastic_axis": 0.5,
+}
+#: Left out where a section is written down, so that a case without them keeps its hash.
+_LEFT_OUT = {"chord": 1.0, **MORE_THAN_SPRINGS}
+
+
+class Section(BaseModel):
+    """Section of a beam per unit span: mass, springs and dampers about its elastic axis.
+
+    Units are those of SI; a section in a flow (:meth:`in_flow`) has none.
+
+    Attributes
+    ----------
+    torsional_stiffness : float
+        k_theta (N m/rad per m).
+    flexural_stiffness : float
+        k_w (N/m per m).
+    inertia : float
+        I about the elastic axis (kg m^2/m).
+    mass : float
+        m (kg/m).
+    static_imbalance : float
+        S = m d (kg m/m), positive where the centre of mass is behind the elastic axis.
+    flexural_damping : float
+        c_w (N s/m per m).
+    torsional_damping : float
+        c_theta (N m s/rad per m).
+    chord : float
+        c (m); 1 in a flow.
+    elastic_axis : float
+        Place of the elastic axis (x/c from the leading edge).
+    twist_recovery : float
+        a: the tip's twist is theta/a (-).
+    deflection_recovery : float
+        b: the tip's deflection is w/b (-).
+
+    Raises
+    ------
+    pydantic.ValidationError
+        A member is out of its bounds, or S^2 is not below m I.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    torsional_stiffness: _Positive
+    flexural_stiffness: _Positive
+    inertia: _Positive
+    mass: _Positive
+    static_imbalance: Annotated[float, Field(allow_inf_nan=False)] = 0.0
+    flexural_damping: _NotNegative = 0.0
+    torsional_damping: _NotNegative = 0.0
+    chord: _Positive = 1.0
+    elastic_axis: Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)] = 0.5
+    twist_recovery: Annotated[float, Field(allow_inf_nan=False)] = 1.0
+    deflection_recovery: Annotated[float, Field(allow_inf_nan=False)] = 1.0
+
+    @model_validator(mode="after")
+    def _is_a_body(self) -> Section:
+        """Refuse an imbalance that no distribution of the mass has (Cauchy and Schwarz)."""
+        if self.static_imbalance**2 >= self.mass * self.inertia:
+            largest = math.sqrt(self.mass * self.inertia)
+            raise ValueError(
+                f"static_imbalance is {self.static_imbalance:g}; allowed is less than "
+                f"sqrt(mass * inertia) = {largest:g} either way. The inertia is that about the "
+                "elastic axis: I_cg + S^2/m"
+            )
+        return self
+
+    @model_serializer(mode="wrap")
+    def _without_defaults(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        values: dict[str, Any] = dump(self)
+        return {name: v for name, v in values.items() if v != _LEFT_OUT.get(name)}
+
+    def k_star(self, density: float, speed: float) -> float:
+        """k* = k_theta/(q c^2) (-), Eq. 18; fluid density (kg/m^3), speed (m/s)."""
+        return self.torsional_stiffness / (dynamic_pressure(density, speed) * self.chord**2)
+
+    def k_w_star(self, density: float, speed: float) -> float:
+        """k_w* = k_w/q (-), Eq. 18."""
+        return self.flexural_stiffness / dynamic_pressure(density, speed)
+
+    def i_star(self, density: float) -> float:
+        """I* = I/(rho c^4/2) (-), Eq. 18."""
+        return self.inertia / (0.5 * density * self.chord**4)
+
+    def m_star(self, density: float) -> float:
+        """m* = m/(rho c^2/2) (-), Eq. 18."""
+        return self.mass / (0.5 * density * self.chord**2)
+
+    @property
+    def inertia_ratio(self) -> float:
+        """c^2 m/I (-), 9.12 below Eq. 18."""
+        return self.chord**2 * self.mass / self.inertia
+
+    @property
+    def stiffness_ratio(self) -> float:
+        """c^2 k_w/k_theta (-), 0.183 below Eq. 18."""
+        return self.chord**2 * self.flexural_stiffness / self.torsional_stiffness
+
+    @property
+    def axis_behind_mid_chord(self) -> float:
+        """Chords from mid-chord back to the elastic axis, x_ea (-)."""
+        return self.elastic_axis - 0.5
+
+    def in_flow(self, density: float, speed: float) -> Section:
+        """Return the section in units of rho/2, V and c: k*, k_w*, I*, m* and the rest.
+
+        Parameters
+        ----------
+        density
+            Density of the fluid rho (kg/m^3).
+        speed
+            Speed V (m/s).
+        """
+        return self._with(
+            torsional_stiffness=self.k_star(density, speed),
+            flexural_stiffness=self.k_w_star(density, speed),
+            inertia=self.i_star(density),
+            mass=self.m_star(density),
+            static_imbalance=self.static_imbalance / (0.5 * density * self.chord**3),
+            flexural_damping=self.flexural_damping / (0.5 * density * speed * self.chord),
+            torsional_damping=self.torsional_damping / (0.5 * density * speed * self.chord**3),
+            chord=1.0,
+        )
+
+    def scaled(self, stiffness_scale: float) -> Section:
+        """Return the section with both stiffnesses times a factor s (-).
+
+        The dampings go with the square root of s, so that the damping ratios stay: another s is
+        the same section in a flow of another speed.
+
+        Raises
+        ------
+        ReductionError
+            The factor is not positive.
+        """
+        if not stiffness_scale > 0.0:
+            raise ReductionError(f"stiffness_scale is {stiffness_scale}; give a positive number")
+        root = math.sqrt(stiffness_scale)
+        return self._with(
+            torsional_stiffness=stiffness_scale * self.torsional_stiffness,
+            flexural_stiffness=stiffness_scale * self.flexural_stiffness,
+            torsional_damping=root * self.torsional_damping,
+            flexural_damping=root * self.flexural_damping,
+        )
+
+    def _with(self, **changes: float) -> Section:
+        """Return the section with other members, checked as it was."""
+        return Section(**{**dict(self), **changes})
+
+    @property
+    def mass_matrix(self) -> Floats:
+        """M of (w, theta), [[m, -S], [-S, I]]."""
+        coupling = -self.static_imbalance
+        return np.array([[self.mass, coupling], [coupling, self.inertia]])
+
+    @property
+    def damping_matrix(self) -> Floats:
+        """C of (w, theta), diagonal: c_w, c_theta."""
+        return np.diag([self.flexural_damping, self.torsional_damping])
+
+    @property
+    def stiffness_matrix(self) -> Floats:
+        """K of (w, theta), diagonal: k_w, k_theta."""
+        return np.diag([self.flexural_stiffness, self.torsional_stiffness])
+
+    @property
+    def natural_frequencies(self) -> Floats:
+        """Undamped angular frequencies in vacuum (rad/s; rad per c/V in a flow), rising, (2,).
+
+        Those of det(K - omega^2 M) = 0: coupled where S is not 0.
+        """
+        squares = eigh(self.stiffness_matrix, self.mass_matrix, eigvals_only=True)
+        return np.asarray(np.sqrt(squares), dtype=np.float64)
+
+    def require_in_flow(self) -> None:
+        """Refuse a section in SI units where one without units is wanted.
+
+        Raises
+        ------
+        EquisectionError
+            The chord is not 1.
+        """
+        if self.chord != 1.0:
+            raise EquisectionError(
+                f"the section has the chord {self.chord:g} m and so is in SI units; give "
+                "section.in_flow(density, speed), which has the chord 1"
+            )
+
+    def require_springs_alone(self, mover: str) -> None:
+        """Refuse a section that is more than a mass on two springs at mid-chord.
+
+        Parameters
+        ----------
+        mover
+            The model that has no more, as the message names it.
+
+        Raises
+        ------
+        EquisectionError
+            A member of :data:`MORE_THAN_SPRINGS` is not at its default.
+        """
+        more = [
+            f"{name} {getattr(self, name):g} (allowed is {default:g})"
+            for name, default in MORE_THAN_SPRINGS.items()
+            if getattr(self, name) != default
+        ]
+        if more:
+            raise EquisectionError(
+                f"{mover} moves a section of mass and springs about mid-chord alone; this one has "
+                f"{', '.join(more)}"
+            )
