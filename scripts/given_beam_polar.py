@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equisection.io.polar_file import read_polar
+from equisection.aerodynamics.polar import Polar
 from equisection.results.netcdf import write_dataset
 from equisection.results.polar_dataset import given_polar
 from equisection.run.script import logged
@@ -10,7 +10,7 @@ from equisection.run.script import logged
 
 def main(polar: Path, resolution: str, output: Path) -> None:
     """Write the file's polar as that of the run's resolution."""
-    write_dataset(output, given_polar(read_polar(polar, symmetric=False), resolution))
+    write_dataset(output, given_polar(Polar.read(polar, symmetric=False), resolution))
 
 
 if __name__ == "__main__":

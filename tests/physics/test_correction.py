@@ -9,18 +9,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.errors import DivergenceError, IncidenceOutOfRangeError, ReductionError
-from equisection.io.polar_file import read_polar
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
 from equisection.results.correction_dataset import factor_at, factors_to_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"
-SECTION = read_polar(POLARS / "plate_2d_11136.csv")
-BEAM = read_polar(POLARS / "paper_plate_3d.csv")
+SECTION = Polar.read(POLARS / "plate_2d_11136.csv")
+BEAM = Polar.read(POLARS / "paper_plate_3d.csv")
 PLATE = CorrectionFactors(SECTION, BEAM)
-THIN_PLATE = SectionPolar.flat_plate(0.5)
+THIN_PLATE = Polar.flat_plate(0.5)
 THETA_0 = np.radians(2.5)
 RATIO = 0.183  # c^2 k_w/k_theta of the paper
 
@@ -31,11 +30,11 @@ TABLE_1 = {
 }
 
 
-def table_1(cells: str) -> SectionPolar:
+def table_1(cells: str) -> Polar:
     """Table 1 with straight lines between its angles, drawn with many points."""
     lift, moment = TABLE_1[cells]
     degrees = np.linspace(0, 10, 401)
-    return SectionPolar(
+    return Polar(
         np.radians(degrees),
         np.full(401, 0.05),
         np.interp(degrees, TABLE_1_DEG, lift),
@@ -44,10 +43,8 @@ def table_1(cells: str) -> SectionPolar:
     ).mirrored()
 
 
-def scaled(polar: SectionPolar, lift: float, moment: float) -> SectionPolar:
-    return SectionPolar(
-        polar.incidence, polar.drag, lift * polar.lift, moment * polar.moment, "scaled"
-    )
+def scaled(polar: Polar, lift: float, moment: float) -> Polar:
+    return Polar(polar.incidence, polar.drag, lift * polar.lift, moment * polar.moment, "scaled")
 
 
 @pytest.mark.parametrize(
@@ -111,7 +108,7 @@ def test_factors_are_even_and_positive(alpha: float) -> None:
 
 
 def test_what_a_solver_leaves_of_zero_changes_no_factor() -> None:
-    left = SectionPolar(
+    left = Polar(
         SECTION.incidence, SECTION.drag, SECTION.lift - 7e-5, SECTION.moment + 2e-6, "not quite"
     )
     alpha = np.radians([0.0, 0.3, 1.0, 2.5, 5.0])
@@ -123,8 +120,8 @@ def test_what_a_solver_leaves_of_zero_changes_no_factor() -> None:
 def test_beam_coefficient_that_vanishes_alone_is_named() -> None:
     degrees = np.radians([0, 1, 2, 3, 4])
     flat, rising = np.array([0, 0.1, 0.2, 0.2, 0.2]), np.array([0, 0.1, 0.0, -0.1, -0.1])
-    beam = SectionPolar(degrees, flat, flat, rising, "beam").mirrored()
-    section = SectionPolar(degrees, flat, flat, flat, "section").mirrored()
+    beam = Polar(degrees, flat, flat, rising, "beam").mirrored()
+    section = Polar(degrees, flat, flat, flat, "section").mirrored()
     factors = CorrectionFactors(section, beam)
     assert factors.lift_factor(np.radians(2)) == pytest.approx(1)
     assert factors.moment_factor(np.radians([1, 2, 3])) == pytest.approx(
@@ -134,11 +131,11 @@ def test_beam_coefficient_that_vanishes_alone_is_named() -> None:
         corrected_equilibrium(factors, np.radians(2), 50.0, RATIO)
 
 
-def cambered(zero_deg: float, slope: float, label: str) -> SectionPolar:
+def cambered(zero_deg: float, slope: float, label: str) -> Polar:
     """A moment of its own sign on either side of an angle, the lift of one sign throughout."""
     degrees = np.linspace(-4, 8, 13)
     moment = slope * np.radians(degrees - zero_deg)
-    return SectionPolar(np.radians(degrees), 0 * degrees, 0.6 + 0.05 * degrees, moment, label)
+    return Polar(np.radians(degrees), 0 * degrees, 0.6 + 0.05 * degrees, moment, label)
 
 
 CAMBERED = CorrectionFactors(cambered(1.5, 1.2, "section"), cambered(2.5, 0.9, "beam"))
@@ -203,7 +200,7 @@ def test_divergence_is_an_error_with_k_star_and_range(k_star: float, theta_0: fl
 def test_polar_that_ends_where_the_section_stands_tells_no_divergence() -> None:
     """With c_m < 0 at 0 deg and a polar from 0 deg on: what is below is not known."""
     degrees = np.linspace(0, 8, 9)
-    down = SectionPolar(
+    down = Polar(
         np.radians(degrees), 0.1 + 0 * degrees, 0.1 * degrees, 0.02 * degrees - 0.05, "deck"
     )
     with pytest.raises(ReductionError, match=r"too short; .*steady\.incidence_deg") as refused:
@@ -211,12 +208,12 @@ def test_polar_that_ends_where_the_section_stands_tells_no_divergence() -> None:
     assert not isinstance(refused.value, DivergenceError)
 
 
-def half(polar: SectionPolar, residue: float = 0.0) -> SectionPolar:
+def half(polar: Polar, residue: float = 0.0) -> Polar:
     """The half from zero incidence on, with what a solver may leave of zero there."""
     kept = polar.incidence >= 0
     lift, moment = polar.lift[kept], polar.moment[kept]
     lift[0] = residue
-    return SectionPolar(polar.incidence[kept], polar.drag[kept], lift, moment, polar.label)
+    return Polar(polar.incidence[kept], polar.drag[kept], lift, moment, polar.label)
 
 
 def test_factors_are_the_same_whether_the_other_half_is_listed_or_not() -> None:
@@ -240,10 +237,8 @@ def test_what_a_solver_leaves_of_zero_is_no_camber() -> None:
 
 
 def test_cambered_polar_is_not_continued() -> None:
-    cambered = SectionPolar(BEAM.incidence[3:], BEAM.drag[3:], BEAM.lift[3:], BEAM.moment[3:], "c")
-    lifted = SectionPolar(
-        cambered.incidence, cambered.drag, cambered.lift + 0.05, cambered.moment, "c"
-    )
+    cambered = Polar(BEAM.incidence[3:], BEAM.drag[3:], BEAM.lift[3:], BEAM.moment[3:], "c")
+    lifted = Polar(cambered.incidence, cambered.drag, cambered.lift + 0.05, cambered.moment, "c")
     assert lifted.continued is lifted
     with pytest.raises(IncidenceOutOfRangeError):
         CorrectionFactors(lifted, lifted).lift_factor(-0.01)
@@ -261,7 +256,7 @@ def test_what_a_solver_leaves_of_zero_decides_no_equilibrium(left: float) -> Non
     """The moment rises with 1.2/rad to stall at 4 deg: the plate's, a little off at zero."""
     degrees = np.linspace(-10, 10, 41)
     moment = 1.2 * np.radians(np.clip(degrees, -4, 4))
-    beam = SectionPolar(
+    beam = Polar(
         np.radians(degrees), 0 * moment, moment, moment + left * moment.max(), "a little off"
     )
     factors = CorrectionFactors(SECTION, beam)
@@ -277,7 +272,7 @@ def test_first_of_several_roots_is_taken() -> None:
     """A moment that levels off and rises again cuts k* theta three times."""
     degrees = np.radians([0, 1, 2, 4, 6, 7, 8, 12])
     moment = np.array([0, 0.02, 0.03, 0.03, 0.05, 0.2, 0.25, 0.26])
-    beam = SectionPolar(degrees, 0 * moment, moment, moment, "wavy").mirrored()
+    beam = Polar(degrees, 0 * moment, moment, moment, "wavy").mirrored()
     k_star = 1.5
     found = corrected_equilibrium(CorrectionFactors(beam, beam), np.radians(1), k_star, RATIO)
     twist = np.linspace(0, np.radians(11), 20001)

@@ -11,9 +11,9 @@ from tests.watching import nothing
 
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
+from equisection.aerodynamics.polar import Polar
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import load_config
-from equisection.io.polar_file import read_polar
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.embedded.adapter import Adapter
@@ -88,7 +88,7 @@ def test_settings_make_the_same_solver_again(polar: str) -> None:
 def test_rigid_section_has_the_values_of_its_polar_file(
     incidence_deg: float, solver: Adapter
 ) -> None:
-    polar = read_polar(POLAR, True)
+    polar = Polar.read(POLAR, symmetric=True)
     (result,) = steady(solver, rigid("2d", incidence_deg))
     alpha = math.radians(incidence_deg)
     assert result.lift == pytest.approx(float(polar.lift_coefficient(alpha)), abs=1e-15)
@@ -117,7 +117,9 @@ def test_rigid_beam_is_the_lifting_line_in_its_channel(solver: Adapter) -> None:
     """Span 3.7 c, a gap of 0.3 c to the far wall, 4 c from floor to ceiling."""
     strips = cosine_strips(12)
     induction = induction_matrix(strips, 1.0, 3.7, 4.0, 4.0)
-    expected = LiftingLine(read_polar(POLAR, True), strips, induction).solve(math.radians(2.5))
+    expected = LiftingLine(Polar.read(POLAR, symmetric=True), strips, induction).solve(
+        math.radians(2.5)
+    )
     (beam,) = steady(solver, rigid("3d", 2.5))
     assert beam.lift == pytest.approx(expected.lift, rel=1e-12)
     assert beam.moment == pytest.approx(expected.moment, rel=1e-12)

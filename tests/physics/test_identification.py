@@ -18,14 +18,13 @@ from scipy.optimize import brentq
 from tests.sample_cases import sections
 
 from equisection.aerodynamics.identification import LoadMisfit, identify_lags, load_misfit
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory, unexplained_damping
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.config.groups import Embedded
 from equisection.errors import ResultFileError
-from equisection.io.polar_file import read_polar
 from equisection.motion.release_judgement import (
     ReleaseJudgement,
     ReleaseNumbers,
@@ -44,7 +43,7 @@ ROOT = Path(__file__).parents[2]
 CONFIGURED = Embedded()
 FITTED_TO = CONFIGURED.identification.fitted_to
 JUDGED_ON = CONFIGURED.identification.judged_on
-POLAR = read_polar(ROOT / CONFIGURED.polars["coarse"])
+POLAR = Polar.read(ROOT / CONFIGURED.polars["coarse"])
 LOADS = UnsteadyLoads.from_polar(POLAR)
 INDEPENDENCE = "results/reference/independence-{}/unsteady/2d/k{}.nc"
 
@@ -236,7 +235,7 @@ def test_recorded_motion_is_what_the_recorded_moment_does(path):
 
 def test_lags_that_a_history_does_not_tell_are_named(some_release):
     """A section that stays attached has no bubble whose lag could be found."""
-    attached = SectionPolar.flat_plate(5.0)
+    attached = Polar.flat_plate(5.0)
     loads = UnsteadyLoads.from_polar(attached, SeparationLags.none())
     history = of_the_model(loads, 21.0, some_release)
     assert identify_lags(attached, [history]).untold == ("relaxation", "delay", "lift_lag")

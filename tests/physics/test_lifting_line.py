@@ -8,12 +8,12 @@ import pytest
 from equisection.aerodynamics import lifting_line
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine, SpanwiseLoads
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.errors import IncidenceOutOfRangeError, SolverError
 
-THIN_PLATE = SectionPolar.flat_plate(0.5)
+THIN_PLATE = Polar.flat_plate(0.5)
 STALLING_DEG = np.array([0, 1, 2, 3, 4, 5, 6, 8, 10, 12])
-STALLING = SectionPolar(
+STALLING = Polar(
     np.radians(STALLING_DEG),
     0.04 + 0.001 * STALLING_DEG**2,
     np.array([0, 0.17, 0.34, 0.49, 0.58, 0.64, 0.67, 0.66, 0.64, 0.62]),
@@ -22,7 +22,7 @@ STALLING = SectionPolar(
 ).mirrored()
 
 
-def free_wing(aspect_ratio: float, count: int, polar: SectionPolar = THIN_PLATE) -> LiftingLine:
+def free_wing(aspect_ratio: float, count: int, polar: Polar = THIN_PLATE) -> LiftingLine:
     strips = cosine_strips(count, root_on_wall=False)
     matrix = induction_matrix(strips, 1.0, aspect_ratio, root_on_wall=False)
     return LiftingLine(polar, strips, matrix)
@@ -30,7 +30,7 @@ def free_wing(aspect_ratio: float, count: int, polar: SectionPolar = THIN_PLATE)
 
 def cantilever(
     count: int,
-    polar: SectionPolar = THIN_PLATE,
+    polar: Polar = THIN_PLATE,
     length: float = 3.7,
     width: float | None = 4.0,
     height: float | None = 4.0,

@@ -15,12 +15,12 @@ import pytest
 
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
-from equisection.io.polar_file import read_polar
+from equisection.aerodynamics.polar import Polar
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"
-SECTION = read_polar(POLARS / "plate_2d_11136.csv")
-BEAM = read_polar(POLARS / "paper_plate_3d.csv")
+SECTION = Polar.read(POLARS / "plate_2d_11136.csv")
+BEAM = Polar.read(POLARS / "paper_plate_3d.csv")
 DEGREES = np.array([2.5, 5.0, 7.5, 10.0])
 TABLE_1_DEG = np.array([2.5, 5.0, 10.0])
 

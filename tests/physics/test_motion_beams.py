@@ -12,17 +12,16 @@ from scipy.optimize import brentq
 
 from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
-from equisection.io.polar_file import read_polar
 from equisection.motion.beams import BeamParameters, beam_system, release_beams
 from equisection.motion.march import march
 from equisection.motion.sections import release_sections
 from equisection.motion.steady_states import equilibrium, least_stable_eigenvalue, rigid_state
 
-POLAR = read_polar(Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv")
+POLAR = Polar.read(Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv")
 INCIDENCE = math.radians(2.5)
 INERTIA = 2 * 1000.0 * 0.04 / 12  # rho_s h c^3/12 over rho c^4/2 with rho_s/rho = 1000, h = 0.04 c
 MASS = 12 * INERTIA
@@ -144,7 +143,7 @@ def test_a_beam_with_equal_shapes_is_the_section_at_a_scaled_incidence():
     (the consistent reduction) at theta_0 F/A has the twist of the tip.
     """
     shape = np.sin(SPAN * math.pi / 2)
-    loads = UnsteadyLoads.from_polar(SectionPolar.flat_plate(5.0), SeparationLags.none())
+    loads = UnsteadyLoads.from_polar(Polar.flat_plate(5.0), SeparationLags.none())
     factor = (2 / math.pi) / 0.5  # F/A, 1/a of the consistent reduction
     beam = release_beams(beam_of_shape(shape, 6.44, 1.2), loads, INCIDENCE, 60.0)
     same = release_sections(section(6.44, 1.2), loads, INCIDENCE * factor, 60.0)
@@ -170,7 +169,7 @@ def test_rigid_beam_beyond_a_drop_of_the_lift_carries_the_load_of_the_lifting_li
     """At 7 deg, where whole steps of Newton's method jump to and fro over the drop at 5 deg."""
     degrees = np.array([0.0, 3.0, 5.0, 6.0, 8.0, 10.0, 16.0])
     angles, lift = np.radians(degrees), np.array([0.0, 0.45, 0.75, 0.55, 0.575, 0.6, 0.6])
-    drop = SectionPolar(angles, 0.05 + 0 * angles, lift, 0.2 * angles, "drop").mirrored()
+    drop = Polar(angles, 0.05 + 0 * angles, lift, 0.2 * angles, "drop").mirrored()
     strips = cosine_strips(20)
     line = LiftingLine(drop, strips, induction_matrix(strips, 0.1, 0.37, 0.4, 0.4))
     incidence = math.radians(7.0)

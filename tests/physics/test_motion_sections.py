@@ -11,7 +11,7 @@ from scipy.optimize import brentq
 from tests.sample_cases import sections
 
 from equisection.aerodynamics.indicial import wagner
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import (
     APPARENT_INERTIA,
@@ -19,7 +19,6 @@ from equisection.aerodynamics.unsteady_loads import (
     UnsteadyLoads,
 )
 from equisection.beam.section import Section
-from equisection.io.polar_file import read_polar
 from equisection.motion.march import march
 from equisection.motion.sections import (
     release_sections,
@@ -35,7 +34,7 @@ from equisection.verdict import Criteria, assess, heave_grows
 from equisection.verdict.cycles import find_cycles
 
 POLARS = Path(__file__).parents[2] / "config/polars"
-POLAR = read_polar(POLARS / "plate_2d_11136.csv")
+POLAR = Polar.read(POLARS / "plate_2d_11136.csv")
 INCIDENCE = math.radians(2.5)
 INERTIA, MASS_RATIO, STIFFNESS_RATIO = 6.67, 9.12, 0.183  # the paper's plate, A_theta,w in both
 
@@ -51,7 +50,7 @@ def measured(lags: SeparationLags | None = None) -> UnsteadyLoads:
 
 
 def thin_plate() -> UnsteadyLoads:
-    return UnsteadyLoads.from_polar(SectionPolar.flat_plate(10.0), SeparationLags.none())
+    return UnsteadyLoads.from_polar(Polar.flat_plate(10.0), SeparationLags.none())
 
 
 def cycle_amplitudes(history, lane: int) -> np.ndarray:
@@ -296,7 +295,7 @@ def test_section_whose_lift_falls_gallops():
     """Den Hartog: with dc_l/dalpha + c_d < 0 the heave is unstable, however stiff the twist."""
     degrees = np.array([0.0, 3.0, 6.0, 10.0, 14.0, 18.0])
     lift = np.array([0.0, 0.33, 0.60, 0.50, 0.40, 0.30])
-    falling = SectionPolar(
+    falling = Polar(
         np.radians(degrees),
         np.full(6, 0.04),
         lift,
@@ -333,7 +332,7 @@ def test_heave_that_grows_is_told_stable_neither_early_nor_at_the_end(
 ):
     """Of a section with a linear c_l that falls the eigenvalue at equilibrium knows the truth."""
     angles = np.radians(np.linspace(-30.0, 30.0, 121))
-    bluff = SectionPolar(angles, np.full(121, 0.1), slope * angles, 0.3 * angles, "bluff")
+    bluff = Polar(angles, np.full(121, 0.1), slope * angles, 0.3 * angles, "bluff")
     loads = UnsteadyLoads.from_polar(bluff, SeparationLags.none())
     section = sections(k_star, inertia, 12.0, stiffness_ratio)
     unstable = least_stable_eigenvalue(section_system(section, loads, INCIDENCE))[0]
@@ -353,7 +352,7 @@ def test_heave_that_grows_is_told_stable_neither_early_nor_at_the_end(
 def test_heave_whose_growth_cannot_be_seen_yet_leaves_the_mean_unknown():
     """One swing of the heave in all of the run."""
     angles = np.radians(np.linspace(-30.0, 30.0, 121))
-    bluff = SectionPolar(angles, np.full(121, 0.1), -angles, 0.3 * angles, "bluff")
+    bluff = Polar(angles, np.full(121, 0.1), -angles, 0.3 * angles, "bluff")
     loads = UnsteadyLoads.from_polar(bluff, SeparationLags.none())
     section = sections(10.0, 20.0, 12.0, 0.0085)
     history = release_sections(section, loads, INCIDENCE, 400.0)
@@ -383,7 +382,7 @@ def test_section_that_came_to_rest_long_ago_has_no_amplitude():
 def test_stability_does_not_hang_on_where_incidence_is_counted_from(shift_deg):
     """The same section in the same flow, its incidence read from another chord line."""
     shift = math.radians(shift_deg)
-    moved = SectionPolar(POLAR.incidence + shift, POLAR.drag, POLAR.lift, POLAR.moment, "moved")
+    moved = Polar(POLAR.incidence + shift, POLAR.drag, POLAR.lift, POLAR.moment, "moved")
     sections = plate_sections(np.array([5.0, 8.0, 14.0]))
     first, second = (
         least_stable_eigenvalue(section_system(sections, UnsteadyLoads.from_polar(polar), at))
@@ -413,7 +412,7 @@ def test_onset_of_the_uncorrected_section(incidence_deg, onset):
 
 def test_onset_with_the_polar_of_the_whole_plate():
     """The section with the loads of the paper's Table 1, docs/embedded.md."""
-    whole = UnsteadyLoads.from_polar(read_polar(POLARS / "paper_plate_3d.csv"))
+    whole = UnsteadyLoads.from_polar(Polar.read(POLARS / "paper_plate_3d.csv"))
     assert section_onset(whole, 2.5) == pytest.approx(6.28, rel=0.01)
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from equisection.aerodynamics.indicial import theodorsen, theodorsen_of_jones, wagner
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, Branches, SeparationLags
 from equisection.aerodynamics.unsteady_loads import (
     ForcedMotion,
@@ -17,14 +17,13 @@ from equisection.aerodynamics.unsteady_loads import (
     adapted_incidence,
     forced_loads,
 )
-from equisection.io.polar_file import read_polar
 
 POLAR_FILE = Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv"
 REDUCED_FREQUENCIES = (0.02, 0.1, 0.25, 0.5, 1.0)
 
 
 def flat_plate_loads() -> UnsteadyLoads:
-    return UnsteadyLoads.from_polar(SectionPolar.flat_plate(0.5), SeparationLags.none())
+    return UnsteadyLoads.from_polar(Polar.flat_plate(0.5), SeparationLags.none())
 
 
 def first_harmonic(time: np.ndarray, signal: np.ndarray, omega: float) -> complex:
@@ -108,7 +107,7 @@ def test_forced_motion_reproduces_theodorsen(k, pitch, heave, theory):
 
 
 def test_loads_at_rest_are_those_of_the_polar_at_any_incidence():
-    polar = read_polar(POLAR_FILE)
+    polar = Polar.read(POLAR_FILE)
     loads = UnsteadyLoads.from_polar(polar)
     time = np.linspace(0.0, 5.0, 51)
     for incidence in np.radians(np.linspace(-11.9, 11.9, 24)):
@@ -122,7 +121,7 @@ def test_loads_at_rest_are_those_of_the_polar_at_any_incidence():
 
 
 def test_mirrored_motion_gives_mirrored_loads():
-    loads = UnsteadyLoads.from_polar(read_polar(POLAR_FILE))
+    loads = UnsteadyLoads.from_polar(Polar.read(POLAR_FILE))
     time = np.linspace(0.0, 40.0, 801)
     incidence = np.radians(2.5 + 3.0 * np.sin(time))
     heave = 0.05 * np.cos(0.7 * time)
@@ -142,7 +141,7 @@ def test_on_a_slow_ramp_the_bubble_is_behind_by_the_sum_of_its_lags():
 
 def test_the_lag_of_the_bubble_makes_the_moment_lead():
     """Im c_m/theta > 0 is work done on the pitching section: stall flutter's cause."""
-    polar = read_polar(POLAR_FILE)
+    polar = Polar.read(POLAR_FILE)
     omega = 0.75  # of the release at k* = 5
     time = np.arange(0.0, 120.0, 0.02)
     motion = ForcedMotion(
@@ -157,7 +156,7 @@ def test_the_lag_of_the_bubble_makes_the_moment_lead():
 
 
 def test_attached_minus_deficit_is_the_polar():
-    polar = read_polar(POLAR_FILE)
+    polar = Polar.read(POLAR_FILE)
     branches = Branches.from_polar(polar)
     alpha = np.radians(np.linspace(-12, 12, 97))
     np.testing.assert_allclose(

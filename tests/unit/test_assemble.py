@@ -11,7 +11,7 @@ from scipy.interpolate import PchipInterpolator
 from scipy.optimize import brentq
 from tests.sample_cases import STEADY
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.cases import UnsteadyCase, case_hash
 from equisection.config import Config, load_config
 from equisection.errors import ConfigError
@@ -157,7 +157,7 @@ def test_factors_are_those_of_the_incidence_at_equilibrium(data: dict[str, xr.Da
     k* theta = c_m(theta_0 + theta)/m_f is the beam's own equilibrium: k* theta = C_M.
     """
     angles = np.radians(np.linspace(-10.0, 10.0, 41))
-    section = SectionPolar(angles, 0.1 + angles**2, 6.0 * angles, 1.5 * angles, "section")
+    section = Polar(angles, 0.1 + angles**2, 6.0 * angles, 1.5 * angles, "section")
     beam = replace(section, moment=section.moment * (0.9 - 2.0 * np.abs(angles)))
     factors = CorrectionFactors(section, beam)
     given = {**data, "correction": factors_to_dataset(factors)}
@@ -167,7 +167,7 @@ def test_factors_are_those_of_the_incidence_at_equilibrium(data: dict[str, xr.Da
     assert plain is not None
     assert corrected is not None
 
-    def moment(twist: float, of: SectionPolar) -> float:
+    def moment(twist: float, of: Polar) -> float:
         return float(PchipInterpolator(of.incidence, of.moment)(start + twist))
 
     stiffness = plain.torsional_stiffness

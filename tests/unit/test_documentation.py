@@ -68,10 +68,20 @@ def test_every_make_target_that_a_guide_names_is_there(guide: str) -> None:
     assert named <= targets
 
 
-def test_every_room_is_in_the_table_of_rooms() -> None:
+def test_rooms_are_in_the_page_in_the_order_that_imports_keep() -> None:
     page = (ROOT / "docs" / "architecture.md").read_text()
     table = page.partition("\n## Rooms")[2].partition("\n## ")[0]
-    package = Path(equisection.__file__).parent
-    rooms = {path.name + "/" for path in package.iterdir() if (path / "__init__.py").exists()}
-    rooms |= {path.name for path in package.glob("*.py")} - {"__init__.py"}
-    assert rooms <= set(re.findall(r"`([\w.]+/?)`", table))
+    firsts = [line.split("|")[1] for line in table.splitlines() if line.startswith("| `")]
+    shown = [room for first in firsts for room in re.findall(r"`(\w+)(?:\.py|/)`", first)]
+    architecture = (ROOT / "tests" / "unit" / "test_architecture.py").read_text()
+    (rooms,) = re.findall(r"^ROOMS = \((.*?)^\)", architecture, re.M | re.S)
+    assert shown == re.findall(r'"(\w+)"', rooms)
+
+
+def test_the_python_of_the_readme_prints_what_it_says() -> None:
+    blocks = re.findall(r"^```(\w*)\n(.*?)^```$", (ROOT / "README.md").read_text(), re.M | re.S)
+    (at,) = (i for i, (language, _) in enumerate(blocks) if language == "python")
+    run = subprocess.run(
+        [sys.executable, "-c", blocks[at][1]], cwd=ROOT, capture_output=True, text=True, check=False
+    )
+    assert run.stdout == blocks[at + 1][1], run.stderr

@@ -10,19 +10,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.errors import IncidenceOutOfRangeError
 
 ANGLES = np.radians([0, 1, 2, 3, 5, 8, 12])
 LIFT = np.array([0, 0.17, 0.34, 0.49, 0.66, 0.72, 0.70])
 MOMENT = np.array([0, 0.033, 0.059, 0.066, 0.058, 0.056, 0.07])
 DRAG = np.array([0.043, 0.045, 0.053, 0.066, 0.107, 0.165, 0.24])
-HALF = SectionPolar(ANGLES, DRAG, LIFT, MOMENT, "half")
+HALF = Polar(ANGLES, DRAG, LIFT, MOMENT, "half")
 WHOLE = HALF.mirrored()
 
 
 def test_flat_plate_is_thin_plate_theory() -> None:
-    plate = SectionPolar.flat_plate(0.2)
+    plate = Polar.flat_plate(0.2)
     alpha = np.linspace(-0.2, 0.2, 77)
     assert plate.lift_coefficient(alpha) == pytest.approx(2 * np.pi * alpha, abs=1e-13)
     assert plate.moment_coefficient(alpha) == pytest.approx(np.pi / 2 * alpha, abs=1e-13)
@@ -109,11 +109,11 @@ def test_polar_cannot_be_changed() -> None:
 def test_bad_polar_is_refused(incidence: list[float], lift: list[float], words: str) -> None:
     zeros = np.zeros(len(incidence))
     with pytest.raises(ValueError, match=words):
-        SectionPolar(np.array(incidence), zeros, np.array(lift), zeros, "bad")
+        Polar(np.array(incidence), zeros, np.array(lift), zeros, "bad")
 
 
 def test_only_a_half_polar_of_a_symmetric_section_is_mirrored() -> None:
     with pytest.raises(ValueError, match="starts at -12 deg"):
         WHOLE.mirrored()
     with pytest.raises(ValueError, match="vanish"):
-        SectionPolar(ANGLES, DRAG, LIFT + 0.01, MOMENT, "cambered").mirrored()
+        Polar(ANGLES, DRAG, LIFT + 0.01, MOMENT, "cambered").mirrored()

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from tests.conftest import ROOT
 
+from equisection.aerodynamics.polar import Polar
+from equisection.analysis.polar_of_results import polar_csv
 from equisection.errors import ResultFileError
-from equisection.io.polar_export import polar_csv
-from equisection.io.polar_file import read_polar
 from equisection.results.netcdf import write_dataset
 from equisection.results.steady_result import SteadyResult
 from equisection.run.command_line import main
@@ -48,7 +48,7 @@ def test_polar_is_read_back_in_order_without_what_failed(tmp_path: Path) -> None
     assert "# Left out: 12 deg, the flow blew up" in text
     file = tmp_path / "polar.csv"
     file.write_text(text, encoding="utf-8")
-    polar = read_polar(file, symmetric=False)
+    polar = Polar.read(file, symmetric=False)
     assert np.degrees(polar.incidence) == pytest.approx([0, 2.5, 5, 10])
     assert polar.lift == pytest.approx([0, 0.25, 0.5, 1.0])
     assert polar.moment == pytest.approx(polar.lift / 8)

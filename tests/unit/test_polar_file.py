@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from equisection.aerodynamics.polar import Polar
 from equisection.errors import PolarFileError
-from equisection.io.polar_file import read_polar
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"
 HEADER = "incidence_deg,cl,cm,cd\n"
@@ -24,7 +26,7 @@ def write(folder: Path, text: str) -> Path:
 def test_reads_comments_other_columns_any_order_and_mirrors(tmp_path: Path) -> None:
     text = "# made by hand\n\ncd, CL ,note,cm,incidence_deg\n"
     text += "0.04,0,a,0,0\n# half way\n0.05,.17,,.03,1\n.06,.34,b,.06,2\n.08,.6,c,.06,4\n"
-    polar = read_polar(write(tmp_path, text))
+    polar = Polar.read(write(tmp_path, text))
     assert polar.label == "section"
     assert np.degrees(polar.incidence) == pytest.approx([-4, -2, -1, 0, 1, 2, 4])
     assert polar.lift[-1] == 0.6
@@ -34,7 +36,7 @@ def test_reads_comments_other_columns_any_order_and_mirrors(tmp_path: Path) -> N
 
 def test_whole_polar_is_taken_as_it_is(tmp_path: Path) -> None:
     text = HEADER + "-2,-.1,0,.05\n0,.1,.01,.04\n2,.3,.02,.05\n3,.4,.02,.06\n"
-    polar = read_polar(write(tmp_path, text), symmetric=False)
+    polar = Polar.read(write(tmp_path, text), symmetric=False)
     assert np.degrees(polar.incidence) == pytest.approx([-2, 0, 2, 3])
     assert float(polar.lift_coefficient(0.0)) == pytest.approx(0.1)
 
@@ -64,22 +66,131 @@ def test_whole_polar_is_taken_as_it_is(tmp_path: Path) -> None:
 )
 def test_refusal_names_file_and_line(tmp_path: Path, text: str, words: str) -> None:
     with pytest.raises(PolarFileError, match=r"section\.csv.*" + words):
-        read_polar(write(tmp_path, text))
+        Polar.read(write(tmp_path, text), symmetric=True)
+
+
+@pytest.mark.parametrize(
+    ("points", "mirrored"),
+    [
+        (POINTS, True),
+        ("-2,-.1,0,.05\n" + POINTS, False),
+        ("-2,-.1,0,.05\n-1,-.1,0,.05\n1,.1,0,.05\n2,.3,0,.05\n", False),
+    ],
+)
+def test_the_file_tells_a_half_polar_by_its_first_angle(
+    tmp_path: Path, points: str, mirrored: bool
+) -> None:
+    path = write(tmp_path, HEADER + points)
+    polar = Polar.read(path)
+    said = Polar.read(path, symmetric=mirrored)
+    np.testing.assert_array_equal(polar.incidence, said.incidence)
+    np.testing.assert_array_equal(polar.moment, said.moment)
+    assert (polar.incidence[0] == -polar.incidence[-1] and polar.lift[0] == -0.6) == mirrored
+
+
+@pytest.mark.parametrize(
+    ("first", "words"),
+    [("0,.1,.01,.04", "cl 0.1, cm 0.01"), (".5,.1,0,.04", r"incidence_deg 0\.5")],
+)
+def test_a_polar_that_may_be_half_or_whole_is_refused(
+    tmp_path: Path, first: str, words: str
+) -> None:
+    path = write(tmp_path, HEADER + first + POINTS[len("0,0,0,0.04") :])
+    with pytest.raises(PolarFileError, match=f"line 2: no negative incidence.*{words}.*=False"):
+        Polar.read(path)
+    assert Polar.read(path, symmetric=False).incidence.size == 4
+
+
+def test_moment_about_the_quarter_chord_of_a_thin_plate_is_none(tmp_path: Path) -> None:
+    """The lift acts there, so about mid-chord c_m is a quarter of what is normal to the chord."""
+    angles = np.arange(-8.0, 9.0, 2.0)
+    alpha = np.radians(angles)
+    normal = 2 * np.pi * np.sin(alpha)
+    columns = np.transpose([angles, normal * np.cos(alpha), 0 * alpha, normal * np.sin(alpha)])
+    rows = "".join(",".join(f"{value:.17g}" for value in row) + "\n" for row in columns)
+    path = write(tmp_path, HEADER + rows)
+    np.testing.assert_allclose(Polar.read(path, moment_axis=0.25).moment, normal / 4, atol=1e-15)
+    np.testing.assert_allclose(Polar.read(path, moment_axis=1.0).moment, -normal / 2, atol=1e-15)
+    assert not Polar.read(path).moment.any()
+
+
+@pytest.mark.parametrize("axis", [25, -0.25, float("nan")])
+def test_a_moment_axis_off_the_chord_is_refused(tmp_path: Path, axis: float) -> None:
+    with pytest.raises(PolarFileError, match=r"section\.csv: moment_axis is .* from 0 to 1"):
+        Polar.read(write(tmp_path, HEADER + POINTS), moment_axis=axis)
+
+
+XFOIL = """
+       XFOIL         Version 6.99
+
+ Calculated polar for: NACA 2412
+
+ xtrf =   1.000 (top)        1.000 (bottom)
+ Mach =   0.000     Re =     1.000 e 6     Ncrit =   9.000
+
+   alpha    CL        CD       CDp       CM     Top_Xtr  Bot_Xtr
+  ------ -------- --------- --------- -------- -------- --------
+  -2.000   0.0220   0.00659   0.00062  -0.0540   0.7828   0.2959
+   0.000   0.2371   0.00564   0.00049  -0.0520   0.6516   0.6796
+   2.000   0.4496   0.00578   0.00079  -0.0481   0.5256   0.9675
+   4.000   0.6635   0.00683   0.00121  -0.0459   0.4368   0.9924
+"""
+
+
+def test_xfoils_polar_says_itself_where_its_moment_is(tmp_path: Path) -> None:
+    path = tmp_path / "n2412.pol"
+    path.write_text(XFOIL)
+    polar = Polar.read(path)
+    assert polar.label == "n2412"
+    assert np.degrees(polar.incidence) == pytest.approx([-2, 0, 2, 4])
+    assert polar.drag == pytest.approx([0.00659, 0.00564, 0.00578, 0.00683])
+    assert polar.moment[1] == pytest.approx(-0.0520 + 0.2371 / 4)
+    assert Polar.read(path, moment_axis=0.25).moment == pytest.approx(polar.moment)
+    with pytest.raises(PolarFileError, match=r"is 0\.5, but moments of XFOIL are about 0\.25"):
+        Polar.read(path, moment_axis=0.5)
+
+
+@pytest.mark.parametrize(
+    ("found", "instead", "words"),
+    [
+        ("0.2371   0.00564", "0.2371  *******", r"line 12: CD is '\*\*\*"),
+        ("0.4496   0.00578", "0.4496", r"line 13: 6 values under 7 column names"),
+        ("   CM  ", "   XX  ", r"line 9: no column CM; found alpha, CL"),
+        ("alpha", "angle", r"no line of column names that begins with 'alpha'"),
+        ("2.000   0.4496", "-9.000   0.4496", r"line 13: incidence_deg -9 is below the 0 of line"),
+    ],
+)
+def test_a_broken_polar_of_xfoil_is_refused_by_line(
+    tmp_path: Path, found: str, instead: str, words: str
+) -> None:
+    assert found in XFOIL
+    path = tmp_path / "any_name.txt"
+    path.write_text(XFOIL.replace(f" {found}", f" {instead}"))
+    with pytest.raises(PolarFileError, match=r"any_name\.txt.*" + words):
+        Polar.read(path)
+
+
+def test_formats_load_no_numerics() -> None:
+    code = "import sys, equisection.io.formats; print({'numpy', 'scipy'} & set(sys.modules))"
+    said = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, check=True
+    ).stdout
+    assert said.strip() == "set()"
 
 
 def test_missing_file_and_folder_are_named(tmp_path: Path) -> None:
     with pytest.raises(PolarFileError, match=r"none\.csv: no such polar file"):
-        read_polar(tmp_path / "none.csv")
+        Polar.read(tmp_path / "none.csv")
     with pytest.raises(PolarFileError, match="cannot be read"):
-        read_polar(tmp_path)
+        Polar.read(tmp_path)
     (tmp_path / "binary.csv").write_bytes(b"\xff\xfe\x00\x81")
     with pytest.raises(PolarFileError, match="cannot be read"):
-        read_polar(tmp_path / "binary.csv")
+        Polar.read(tmp_path / "binary.csv")
 
 
 def test_polars_of_the_plate_are_read() -> None:
-    section = read_polar(POLARS / "plate_2d_11136.csv")
+    section = Polar.read(POLARS / "plate_2d_11136.csv")
     assert np.degrees(section.incidence_range) == pytest.approx((-12, 12))
     assert float(section.lift_coefficient(np.radians(3))) == pytest.approx(0.45675, abs=1e-6)
-    beam = read_polar(POLARS / "paper_plate_3d.csv")
+    beam = Polar.read(POLARS / "paper_plate_3d.csv")
     assert float(beam.moment_coefficient(np.radians(2.5))) == pytest.approx(0.0602, abs=1e-6)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 import xarray as xr
 
+from equisection.aerodynamics.polar import Polar
 from equisection.errors import ResultFileError
-from equisection.io.polar_file import read_polar
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.polar_dataset import at_resolution, gather_polar, given_polar, polar_at
 from equisection.results.steady_result import SteadyResult
@@ -110,7 +110,7 @@ def test_given_polar_is_read_back_as_it_was(tmp_path: Path) -> None:
     csv.write_text(
         "incidence_deg,CL,CM,CD\n-2.5,-.26,-.06,.054\n0,0,0,.044\n5,.48,.07,.086\n10,.57,.066,.15\n"
     )
-    write_dataset(tmp_path / "polar.nc", given_polar(read_polar(csv, symmetric=False), "fine"))
+    write_dataset(tmp_path / "polar.nc", given_polar(Polar.read(csv, symmetric=False), "fine"))
     dataset = read_dataset(tmp_path / "polar.nc")
     assert dataset["incidence_deg"].values.tolist() == [-2.5, 0.0, 5.0, 10.0]
     polar = polar_at(dataset, "fine")

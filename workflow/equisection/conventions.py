@@ -45,6 +45,9 @@ import math
 #: Largest |c_l| or |c_m| of a symmetric section at zero incidence that still counts as round-off.
 SYMMETRY_TOLERANCE = 1e-4
 
+#: Density (kg/m3) of air at sea level in the International Standard Atmosphere (ISO 2533:1975).
+STANDARD_AIR = 1.225
+
 
 def dynamic_pressure(density: float, speed: float) -> float:
     """Dynamic pressure q = rho V^2 / 2 (Pa)."""

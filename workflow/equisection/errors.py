@@ -13,6 +13,10 @@ class ConfigError(EquisectionError):
     """The configuration is not valid; one line for each problem."""
 
 
+class ArgumentError(EquisectionError, ValueError):
+    """An argument of a function of the package is not one that it can use."""
+
+
 class PolarFileError(EquisectionError):
     """A polar file cannot be used; the message names file and line."""
 

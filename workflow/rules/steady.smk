@@ -163,8 +163,8 @@ if CONFIG.steady.beam_polar:
         params:
             code=code(
                 "results/polar_dataset.py",
-                "io/polar_file.py",
-                "io/polar_rows.py",
+                "aerodynamics/polar.py",
+                "io",
             ),
             resolution=CONFIG.steady.resolution,
         message:

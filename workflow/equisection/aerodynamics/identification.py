@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.separation import Branches, SeparationLags
 from equisection.aerodynamics.unsteady_loads import ForcedMotion, UnsteadyLoads, forced_loads
@@ -75,7 +75,7 @@ class IdentifiedLags:
 
 
 def identify_lags(
-    polar: SectionPolar, histories: Sequence[ReferenceHistory], start: float = START
+    polar: Polar, histories: Sequence[ReferenceHistory], start: float = START
 ) -> IdentifiedLags:
     """Find the lags with which the model explains the loads of ``histories`` best.
 

@@ -27,7 +27,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.induction import SpanStrips
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.errors import SolverError
 
 Floats = NDArray[np.float64]
@@ -81,7 +81,7 @@ class LiftingLine:
         D (rad) of `induction_matrix` for these strips, shape (n, n).
     """
 
-    polar: SectionPolar
+    polar: Polar
     strips: SpanStrips
     matrix: Floats
 
@@ -95,11 +95,11 @@ class LiftingLine:
         self.polar.require(effective)
         return self._loads(effective)
 
-    def beam_polar(self, incidences_rad: ArrayLike) -> SectionPolar:
+    def beam_polar(self, incidences_rad: ArrayLike) -> Polar:
         """C_D, C_L and C_M of the untwisted beam against theta_0 (rad, ascending)."""
         incidences = np.asarray(incidences_rad, dtype=np.float64)
         loads = [self.solve(float(incidence)) for incidence in incidences]
-        return SectionPolar(
+        return Polar(
             incidences,
             np.array([load.drag for load in loads]),
             np.array([load.lift for load in loads]),

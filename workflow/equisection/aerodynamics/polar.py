@@ -17,15 +17,21 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator
 
 from equisection.conventions import SYMMETRY_TOLERANCE
-from equisection.errors import IncidenceOutOfRangeError
+from equisection.errors import IncidenceOutOfRangeError, PolarFileError
+from equisection.io.formats import read_rows
+from equisection.io.polar_rows import PolarFormat
 
 Floats = NDArray[np.float64]
+
+MID_CHORD = 0.5
+"""x/c from the leading edge of the point that every polar here has its moment about."""
 
 TABLE_STEP = 1e-4
 """Step h of the reading table (rad), 0.0057 deg."""
@@ -81,7 +87,7 @@ class _Curve:
 
 
 @dataclass(frozen=True, eq=False)
-class SectionPolar:
+class Polar:
     """Steady coefficients of a section; moment about mid-chord, nose up.
 
     Parameters
@@ -131,7 +137,52 @@ class SectionPolar:
             raise ValueError(f"polar {self.label!r}: the angles of incidence do not ascend")
 
     @classmethod
-    def flat_plate(cls, limit_rad: float) -> SectionPolar:
+    def read(
+        cls,
+        path: Path | str,
+        *,
+        symmetric: bool | None = None,
+        moment_axis: float | None = None,
+    ) -> Polar:
+        """Polar of the file at ``path``, with the file's name (without suffix) as its label.
+
+        Formats are those of :mod:`equisection.io.formats`. The coefficients of a finite beam are
+        read the same way (C_L, C_M, C_D in the place of c_l, c_m, c_d).
+
+        Parameters
+        ----------
+        path
+            The file.
+        symmetric
+            True: it holds the half polar alpha >= 0 of a symmetric section, which is mirrored.
+            False: it is taken as it is. None: the file decides. With a negative angle it is taken
+            as it is, from 0 deg on without lift and moment there it is mirrored, and any other is
+            refused.
+        moment_axis
+            x/c from the leading edge of the point that the file's moments are about. None: what
+            the format says (0.25 for XFOIL), else mid-chord, 0.5. From there the moment is
+            transferred to mid-chord,
+
+                c_m = c_m,axis - (x/c - 1/2) (c_l cos alpha + c_d sin alpha).
+
+        Raises
+        ------
+        PolarFileError
+            The file cannot be used, or its format has its moments about another point.
+        """
+        path = Path(path)
+        points = read_rows(path, symmetric)
+        axis = _moment_axis(path, points.format, moment_axis)
+        incidence_deg, lift, moment, drag = np.array([row.values for row in points.rows]).T
+        incidence = np.radians(incidence_deg)
+        if axis != MID_CHORD:
+            normal_force = lift * np.cos(incidence) + drag * np.sin(incidence)
+            moment = moment - (axis - MID_CHORD) * normal_force
+        polar = cls(incidence, drag, lift, moment, path.stem)
+        return polar.mirrored() if points.half else polar
+
+    @classmethod
+    def flat_plate(cls, limit_rad: float) -> Polar:
         """Thin-plate theory for -limit_rad <= alpha <= limit_rad: c_l = 2 pi alpha, c_d = 0.
 
         The lift acts at a quarter of the chord, so about mid-chord c_m = c_l/4 (Glauert, *The
@@ -141,7 +192,7 @@ class SectionPolar:
         alpha[2] = 0.0
         return cls(alpha, np.zeros(5), 2 * np.pi * alpha, 0.5 * np.pi * alpha, "thin flat plate")
 
-    def mirrored(self) -> SectionPolar:
+    def mirrored(self) -> Polar:
         """Whole polar of a symmetric section of which this one is the half alpha >= 0.
 
         c_l and c_m are continued as odd functions and c_d as an even one. Round-off in c_l and
@@ -161,10 +212,10 @@ class SectionPolar:
 
         lift, moment = self.lift.copy(), self.moment.copy()
         lift[0] = moment[0] = 0.0
-        return SectionPolar(self.incidence, self.drag, lift, moment, self.label)._both_halves()
+        return Polar(self.incidence, self.drag, lift, moment, self.label)._both_halves()
 
     @cached_property
-    def continued(self) -> SectionPolar:
+    def continued(self) -> Polar:
         """The polar, continued to alpha < 0 by symmetry where it starts at 0 without loads there.
 
         c_l and c_m are continued as odd functions about what a solver leaves of zero at zero
@@ -176,7 +227,7 @@ class SectionPolar:
             return self
         return self._both_halves()
 
-    def _both_halves(self) -> SectionPolar:
+    def _both_halves(self) -> Polar:
         """Return the polar with its reflection at zero incidence, where it starts."""
 
         def reflected(values: Floats) -> Floats:
@@ -184,7 +235,7 @@ class SectionPolar:
 
         drag = np.concatenate([self.drag[:0:-1], self.drag])
         lift, moment = reflected(self.lift), reflected(self.moment)
-        return SectionPolar(reflected(self.incidence), drag, lift, moment, self.label)
+        return Polar(reflected(self.incidence), drag, lift, moment, self.label)
 
     @property
     def incidence_range(self) -> tuple[float, float]:
@@ -241,3 +292,21 @@ class SectionPolar:
         """dc_m/dalpha (1/rad) at ``alpha`` (rad), about mid-chord, nose up."""
         self.require(alpha)
         return self._moment.slope(alpha)
+
+
+def _moment_axis(path: Path, known: PolarFormat, given: float | None) -> float:
+    """Return x/c of the point that the moments of a file are about."""
+    if given is not None and not 0.0 <= given <= 1.0:
+        raise PolarFileError(
+            f"{path}: moment_axis is {given!r}; wanted x/c from the leading edge, from 0 to 1 "
+            "(0.25 for the quarter chord)"
+        )
+    if known.moment_axis is None:
+        return MID_CHORD if given is None else given
+    if given is not None and given != known.moment_axis:
+        raise PolarFileError(
+            f"{path}: moment_axis is {given:g}, but moments of {known.name} are about "
+            f"{known.moment_axis:g}; leave moment_axis out, or give a CSV file with the moments "
+            "that you mean"
+        )
+    return known.moment_axis

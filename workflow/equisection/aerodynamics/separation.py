@@ -33,7 +33,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.aerodynamics.polar import SectionPolar, is_nil
+from equisection.aerodynamics.polar import Polar, is_nil
 
 Floats = NDArray[np.float64]
 
@@ -86,12 +86,12 @@ class SeparationLags:
 class Branches:
     """Attached branch and deficit of a polar; ``lift_slope`` a_l, ``moment_slope`` a_m (1/rad)."""
 
-    polar: SectionPolar
+    polar: Polar
     lift_slope: float
     moment_slope: float
 
     @classmethod
-    def from_polar(cls, polar: SectionPolar) -> Branches:
+    def from_polar(cls, polar: Polar) -> Branches:
         """Attached branch with the slopes that the polar has at zero lift.
 
         They do not depend on where incidence is counted from.
@@ -108,7 +108,7 @@ class Branches:
         return self.moment_slope * alpha - self.polar.moment_coefficient(alpha)
 
 
-def _zero_lift(polar: SectionPolar) -> float:
+def _zero_lift(polar: Polar) -> float:
     """Return the incidence (rad) of zero lift, of several that nearest to 0 at which it rises.
 
     That of the least lift, up or down, where the polar does not come to zero.

@@ -39,7 +39,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.indicial import IMMEDIATE_SHARE, JONES_AMPLITUDES, LAG_RATES
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, Branches, SeparationLags
 
 Floats = NDArray[np.float64]
@@ -63,9 +63,7 @@ class UnsteadyLoads:
     lags: SeparationLags
 
     @classmethod
-    def from_polar(
-        cls, polar: SectionPolar, lags: SeparationLags = IDENTIFIED_LAGS
-    ) -> UnsteadyLoads:
+    def from_polar(cls, polar: Polar, lags: SeparationLags = IDENTIFIED_LAGS) -> UnsteadyLoads:
         """Take the polar's own slopes at zero lift as the attached branch."""
         return cls(Branches.from_polar(polar), lags)
 

@@ -1,14 +1,14 @@
-"""The rows of a polar file, with refusals that name file and line.
+"""Points of a polar file as plain rows, and the checks that every format has in common.
 
-Nothing here loads numerics, so that the workflow can look at the files before any job starts. The
-format is that of :mod:`equisection.io.polar_file`.
+Nothing here loads numerics, so that the workflow can look at the files before any job starts.
+A reader of one format gives rows; :mod:`equisection.io.formats` finds the reader of a file.
 """
 
 from __future__ import annotations
 
-import csv
 import itertools
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,8 +17,9 @@ from equisection.errors import PolarFileError
 
 COLUMNS = ("incidence_deg", "cl", "cm", "cd")
 FEWEST_POINTS = 4
-#: What other programs separate columns by.
-_OTHER_SEPARATORS = set(";\t ")
+
+#: Lines of a text file without blanks at their ends, each with its number from 1.
+Lines = Sequence[tuple[int, str]]
 
 
 @dataclass(frozen=True)
@@ -34,77 +35,75 @@ class Row:
         return self.values[0]
 
 
-def read_rows(path: Path, symmetric: bool) -> list[Row]:
-    """Return the points of the file at ``path``.
+@dataclass(frozen=True)
+class PolarFormat:
+    """One format of polar files.
 
-    With ``symmetric`` they must be the half polar alpha >= 0 of a symmetric section.
+    Attributes
+    ----------
+    name
+        Name for messages.
+    recognises
+        Tells from path and lines whether a file is of this format.
+    read
+        Gives the rows of a file, or raises PolarFileError with file and line.
+    moment_axis
+        x/c from the leading edge of the point that moments of this format are about; None where
+        the format leaves it open.
+    """
+
+    name: str
+    recognises: Callable[[Path, Lines], bool]
+    read: Callable[[Path, Lines], list[Row]]
+    moment_axis: float | None
+
+
+@dataclass(frozen=True)
+class PolarRows:
+    """Points of a polar file that have passed the checks.
+
+    Attributes
+    ----------
+    rows
+        By ascending incidence.
+    half
+        True where they are the half alpha >= 0 of a symmetric section's polar.
+    format
+        Format that they were read in.
+    """
+
+    rows: list[Row]
+    half: bool
+    format: PolarFormat
+
+
+def text_lines(path: Path) -> Lines:
+    """Return the lines of a text file.
 
     Raises
     ------
     PolarFileError
-        The file cannot be used.
+        There is no such file, or it is no text.
     """
-    rows = _rows(path)
-    _check_points(path, rows, symmetric)
-    return rows
-
-
-def _rows(path: Path) -> list[Row]:
-    lines = [(number, text) for number, text in _lines(path) if text and not text.startswith("#")]
-    if not lines:
-        raise PolarFileError(
-            f"{path}, line 1: the file is empty (or all comment); wanted a header with columns "
-            f"{', '.join(COLUMNS)} and {FEWEST_POINTS} or more points"
-        )
-    (header_line, header), *points = lines
-    names = [_column(name) for name in _fields(header)]
-    missing = [name for name in COLUMNS if name not in names]
-    if missing:
-        advice = "others are ignored"
-        if len(names) == 1 and _OTHER_SEPARATORS & set(header):
-            advice = "separated by commas, with a point for decimals"
-        raise PolarFileError(
-            f"{path}, line {header_line}: no column {', '.join(missing)}; found "
-            f"{', '.join(names)}; wanted {', '.join(COLUMNS)} ({advice})"
-        )
-    return [_row(path, line, text, names) for line, text in points]
-
-
-def _lines(path: Path) -> list[tuple[int, str]]:
     try:
         text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise PolarFileError(
-            f"{path}: no such polar file (looked from {Path.cwd()}); check the path in the "
-            "configuration"
+            f"{path}: no such polar file (looked from {Path.cwd()}); check the path"
         ) from None
     except (OSError, UnicodeDecodeError) as error:
         raise PolarFileError(f"{path}: cannot be read as a text file: {error}") from error
     return [(number, line.strip()) for number, line in enumerate(text.splitlines(), start=1)]
 
 
-def _column(name: str) -> str:
-    """Return the name of a column, which may be written as the symbol is: c_l, C_L."""
-    name = name.strip().lower()
-    return name.replace("c_", "c", 1) if name.startswith("c_") else name
+def number(path: Path, line: int, name: str, text: str) -> float:
+    """Return a value of a row as a finite number.
 
-
-def _fields(text: str) -> list[str]:
-    return next(csv.reader([text], skipinitialspace=True))
-
-
-def _row(path: Path, line: int, text: str, names: list[str]) -> Row:
-    fields = _fields(text)
-    if len(fields) != len(names):
-        raise PolarFileError(
-            f"{path}, line {line}: {len(fields)} values under {len(names)} column names; wanted "
-            "one value for each column, separated by commas"
-        )
-    by_name = dict(zip(names, fields, strict=True))
-    return Row(line, tuple(_number(path, line, name, by_name[name]) for name in COLUMNS))
-
-
-def _number(path: Path, line: int, name: str, text: str) -> float:
+    Raises
+    ------
+    PolarFileError
+        It is none.
+    """
     try:
         value = float(text)
     except ValueError:
@@ -117,13 +116,25 @@ def _number(path: Path, line: int, name: str, text: str) -> float:
     return value
 
 
-def _check_points(path: Path, rows: list[Row], symmetric: bool) -> None:
+def check_points(path: Path, rows: Sequence[Row], symmetric: bool | None) -> bool:
+    """Refuse rows that make no polar; tell whether they are the half polar of a symmetric section.
+
+    Without ``symmetric`` the rows decide: with a negative angle they are a whole polar, from 0 on
+    without lift and moment there a half one, and anything else is refused as ambiguous.
+
+    Raises
+    ------
+    PolarFileError
+        With file and line.
+    """
     if len(rows) < FEWEST_POINTS:
         where = f", line {rows[-1].line}" if rows else ""
         raise PolarFileError(
             f"{path}{where}: the file ends after {len(rows)} points; {FEWEST_POINTS} or more are "
             "needed to interpolate"
         )
+    if symmetric is None:
+        symmetric = _decided(path, rows)
     if symmetric:
         _check_half(path, rows)
     for before, row in itertools.pairwise(rows):
@@ -134,15 +145,34 @@ def _check_points(path: Path, rows: list[Row], symmetric: bool) -> None:
                 f"{before.incidence_deg:g} of line {before.line}; sort the angles upwards, each "
                 "once"
             )
+    return symmetric
 
 
-def _check_half(path: Path, rows: list[Row]) -> None:
+def _decided(path: Path, rows: Sequence[Row]) -> bool:
+    """Tell whether rows are a half polar, where nobody has said so."""
+    if any(row.incidence_deg < 0 for row in rows):
+        return False
+    first = rows[0]
+    if first.incidence_deg != 0 or max(map(abs, first.values[1:3])) > SYMMETRY_TOLERANCE:
+        found = ", ".join(
+            f"{name} {value:g}" for name, value in zip(COLUMNS[:3], first.values, strict=False)
+        )
+        raise PolarFileError(
+            f"{path}, line {first.line}: no negative incidence, and the first point is {found}: "
+            "it is open whether the section is symmetric; give symmetric=False to take the polar "
+            "as it is, or let it start at 0 deg with cl = cm = 0 to have it mirrored"
+        )
+    return True
+
+
+def _check_half(path: Path, rows: Sequence[Row]) -> None:
     for row in rows:
         if row.incidence_deg < 0:
             raise PolarFileError(
                 f"{path}, line {row.line}: incidence_deg {row.incidence_deg:g} in the polar of a "
                 "symmetric section, which is given from 0 upwards; delete the negative angles, "
-                "or declare the section not symmetric (embedded.symmetric: false)"
+                "or declare the section not symmetric (embedded.symmetric: false; "
+                "symmetric=False in Python)"
             )
     first = rows[0]
     if first.incidence_deg != 0:
@@ -155,5 +185,5 @@ def _check_half(path: Path, rows: list[Row]) -> None:
             raise PolarFileError(
                 f"{path}, line {first.line}: {name} is {value:g} at 0 deg; that of a symmetric "
                 f"section vanishes there (up to {SYMMETRY_TOLERANCE:g}); correct it, or declare "
-                "the section not symmetric (embedded.symmetric: false)"
+                "the section not symmetric (embedded.symmetric: false; symmetric=False in Python)"
             )

@@ -118,14 +118,23 @@ def least_stable_eigenvalue(system: StripSystem) -> NDArray[np.complex128]:
     About static equilibrium; NaN where there is none inside the polar.
     """
     states, deficits = equilibrium(system)
-    found = np.asarray(np.isfinite(states).all(axis=1))
-    result = np.full(states.shape[0], np.nan + 0j, dtype=np.complex128)
-    if not found.any():
+    if not np.isfinite(states).all(axis=1).any():
         raise SolverError(
             "no lane has a static equilibrium inside the polar; extend the polar or stiffen it"
         )
-    linear = jacobian(system.of(found), states[found], deficits[found])
-    values = np.asarray(np.linalg.eigvals(linear), dtype=np.complex128)
-    chosen = np.take_along_axis(values, values.real.argmax(axis=1)[:, None], axis=1)[:, 0]
-    result[found] = chosen.real + 1j * np.abs(chosen.imag)
+    return least_stable(system, states, deficits)
+
+
+def least_stable(system: StripSystem, states: Floats, deficits: Floats) -> NDArray[np.complex128]:
+    """Eigenvalue sigma + i omega (per c/V, omega >= 0) of largest sigma about steady states, (N,).
+
+    NaN for a lane whose state is not finite, or too near the end of the polar for its slope.
+    """
+    result = np.full(states.shape[0], complex(np.nan, np.nan), dtype=np.complex128)
+    linear = jacobian(system, states, deficits)
+    found = np.isfinite(linear).all(axis=(1, 2))
+    if found.any():
+        values = np.asarray(np.linalg.eigvals(linear[found]), dtype=np.complex128)
+        chosen = np.take_along_axis(values, values.real.argmax(axis=1)[:, None], axis=1)[:, 0]
+        result[found] = chosen.real + 1j * np.abs(chosen.imag)
     return result

@@ -33,7 +33,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import PchipInterpolator, PPoly
 
-from equisection.aerodynamics.polar import SectionPolar, is_nil
+from equisection.aerodynamics.polar import Polar, is_nil
 from equisection.errors import DivergenceError, ReductionError
 
 Floats = NDArray[np.float64]
@@ -54,8 +54,8 @@ class CorrectionFactors:
         C_L, C_M of the rigid, untwisted beam.
     """
 
-    section: SectionPolar
-    beam: SectionPolar
+    section: Polar
+    beam: Polar
 
     def lift_factor(self, alpha: ArrayLike) -> Floats:
         """c_l/C_L (1) at ``alpha`` (rad, any shape): the factor of m_2D and k_w.
@@ -83,7 +83,7 @@ class CorrectionFactors:
         section, beam = self._covering(alpha)
         return _quotient(section.moment_cubic, beam.moment_cubic, alpha)
 
-    def _covering(self, alpha: ArrayLike) -> tuple[SectionPolar, SectionPolar]:
+    def _covering(self, alpha: ArrayLike) -> tuple[Polar, Polar]:
         """Return both polars, a half one continued by symmetry."""
         section, beam = self.section.continued, self.beam.continued
         section.require(alpha)
@@ -214,7 +214,7 @@ def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
     return secant
 
 
-def _first_twist(beam: SectionPolar, incidence_rad: float, k_star: float) -> float:
+def _first_twist(beam: Polar, incidence_rad: float, k_star: float) -> float:
     """First root theta of k* theta = C_M(theta_0 + theta) from zero on (rad)."""
     cubic = beam.moment_cubic
     moment, slope = float(cubic(incidence_rad)), float(cubic(incidence_rad, 1))
@@ -237,7 +237,7 @@ def _first_twist(beam: SectionPolar, incidence_rad: float, k_star: float) -> flo
     return float(np.min(ahead) * np.sign(moment))
 
 
-def _no_equilibrium(beam: SectionPolar, incidence_rad: float, k_star: float) -> ReductionError:
+def _no_equilibrium(beam: Polar, incidence_rad: float, k_star: float) -> ReductionError:
     cubic = beam.moment_cubic
     end = beam.incidence_range[0 if cubic(incidence_rad) < 0 else 1]
     has_a_way = abs(end - incidence_rad) > _NO_WAY
@@ -250,12 +250,12 @@ def _no_equilibrium(beam: SectionPolar, incidence_rad: float, k_star: float) -> 
     )
 
 
-def _diverges(beam: SectionPolar, incidence_rad: float, k_star: float) -> str:
+def _diverges(beam: Polar, incidence_rad: float, k_star: float) -> str:
     nothing = _nothing_inside(beam, incidence_rad, k_star)
     return f"{nothing}: the moment outgrows the stiffness (static divergence)"
 
 
-def _nothing_inside(beam: SectionPolar, incidence_rad: float, k_star: float) -> str:
+def _nothing_inside(beam: Polar, incidence_rad: float, k_star: float) -> str:
     least, greatest = np.degrees(beam.incidence_range)
     return (
         f"no static equilibrium at k* = {k_star:.4g} from theta_0 = "

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import xarray as xr
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.reduction.correction import CorrectionFactors
 
 _COEFFICIENTS = {"drag": "cd", "lift": "cl", "moment": "cm"}
@@ -73,7 +73,7 @@ def factors_to_dataset(factors: CorrectionFactors) -> xr.Dataset:
 def factors_from_dataset(dataset: xr.Dataset) -> CorrectionFactors:
     """Return the factors of ``steady/correction.nc``."""
     polars = {
-        whole: SectionPolar(
+        whole: Polar(
             incidence=np.radians(dataset[f"{whole}_incidence_deg"].values),
             drag=dataset[f"{whole}_cd"].values,
             lift=dataset[f"{whole}_cl"].values,

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 import xarray as xr
 
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.errors import ResultFileError
 from equisection.reduction.modal_load import modal_load
 from equisection.structure.mode_set import ModeSet
@@ -109,7 +109,7 @@ def _describe(polar: xr.Dataset) -> None:
         polar["span"].attrs = {"units": "1", "long_name": "position along the span z/L"}
 
 
-def given_polar(polar: SectionPolar, resolution: str) -> xr.Dataset:
+def given_polar(polar: Polar, resolution: str) -> xr.Dataset:
     """Return a polar that no solver of this run computed, as that of a resolution."""
     columns = {"cd": polar.drag, "cl": polar.lift, "cm": polar.moment}
     dataset = xr.Dataset(
@@ -157,7 +157,7 @@ def at_resolution(polar: xr.Dataset, resolution: str) -> xr.Dataset:
     return chosen.isel(span=chosen["cl_section"].notnull().any("incidence_deg").values)
 
 
-def polar_at(dataset: xr.Dataset, resolution: str, modes: ModeSet | None = None) -> SectionPolar:
+def polar_at(dataset: xr.Dataset, resolution: str, modes: ModeSet | None = None) -> Polar:
     """Return the polar of one resolution, without the incidences that failed.
 
     Parameters
@@ -188,7 +188,7 @@ def polar_at(dataset: xr.Dataset, resolution: str, modes: ModeSet | None = None)
         )
     if modes is not None:
         chosen = _as_modes_feel_it(chosen, modes)
-    return SectionPolar(
+    return Polar(
         incidence=np.radians(chosen["incidence_deg"].values[there]),
         drag=chosen["cd"].values[there],
         lift=chosen["cl"].values[there],

@@ -39,6 +39,19 @@ VERDICT_ATTRIBUTES = {
     "frequency_strouhal": "frequency of the twist f c/V",
     "growth_rate": "growth rate of the twist's amplitude (V/c)",
 }
+#: Their units; text has none.
+VERDICT_UNITS = {
+    "regime": "",
+    "reason": "",
+    "periods_used": "1",
+    "window_start": "c/V",
+    "mean_twist_deg": "deg",
+    "mean_deflection_chords": "c",
+    "mean_known": "1",
+    "twist_amplitude_deg": "deg",
+    "frequency_strouhal": "1",
+    "growth_rate": "V/c",
+}
 
 
 @dataclass(frozen=True)

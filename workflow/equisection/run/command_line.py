@@ -214,7 +214,7 @@ def _keep(run: Path, folder: Path | None) -> None:
 
 def _polar(results: Sequence[Path]) -> str:
     # Imported here, so that --help and --version come at once.
-    from equisection.io.polar_export import polar_csv  # noqa: PLC0415
+    from equisection.analysis.polar_of_results import polar_csv  # noqa: PLC0415
 
     return polar_csv(results)
 

@@ -14,6 +14,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.beam.section import Section
 from equisection.cases import Case, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady_result import Regime, UnsteadyResult
@@ -45,58 +46,110 @@ class TipMotion:
         return TipMotion(self.time[kept], self.twist[kept], self.deflection[kept])
 
 
-def criteria_of(case: UnsteadyCase) -> Criteria:
-    """Return the criteria that a case asks for."""
-    return Criteria(**case.criteria.model_dump(exclude={"rules"}))
-
-
 def pitch_frequency(case: UnsteadyCase) -> float:
     """Return the natural frequency f c/V of the pitch in vacuum."""
     if case.beam is not None:
         return case.beam.torsion_frequency[0] / (2 * math.pi)
     if case.section is None:
         return math.nan
-    return math.sqrt(case.section.torsional_stiffness / case.section.inertia) / (2 * math.pi)
+    return _of_section(case.section)
+
+
+def _of_section(section: Section) -> float:
+    return math.sqrt(section.torsional_stiffness / section.inertia) / (2 * math.pi)
+
+
+@dataclass(frozen=True)
+class Judge:
+    """Judge of one motion: its criteria, and the natural frequency f c/V of its pitch in vacuum."""
+
+    criteria: Criteria
+    natural_frequency: float
+
+    @classmethod
+    def of(cls, case: UnsteadyCase) -> Judge:
+        """Return the judge of a case."""
+        criteria = Criteria(**case.criteria.model_dump(exclude={"rules"}))
+        return cls(criteria, pitch_frequency(case))
+
+    @classmethod
+    def of_section(cls, section: Section, criteria: Criteria) -> Judge:
+        """Return the judge of a section in its flow."""
+        return cls(criteria, _of_section(section))
+
+    def attributes(self, tip: TipMotion, failure: str = "") -> dict[str, Any]:
+        """Return the attributes of the verdict on a run that has ended.
+
+        Parameters
+        ----------
+        tip
+            Its whole history.
+        failure
+            Why the run ended early, if it did. Its regime is then ``failed``, unless it had grown
+            beyond the bound before.
+        """
+        try:
+            verdict = assess(
+                tip.time,
+                tip.twist,
+                tip.deflection,
+                self.criteria,
+                final=True,
+                natural_frequency=self.natural_frequency,
+            )
+        except ResultFileError as error:
+            return _without_numbers(Regime.FAILED, failure or str(error))
+        if failure and not self._had_grown(tip, verdict):
+            return _without_numbers(Regime.FAILED, failure)
+        return {
+            "regime": str(Regime(verdict.regime)),
+            "reason": f"{verdict.reason}; {failure}" if failure else verdict.reason,
+            "periods_used": verdict.periods_used,
+            "window_start": verdict.start_time,
+            "mean_twist_deg": math.degrees(verdict.mean_twist),
+            "mean_deflection_chords": verdict.mean_deflection,
+            "mean_known": int(verdict.mean_known),
+            "twist_amplitude_deg": math.degrees(verdict.twist_amplitude),
+            "frequency_strouhal": verdict.frequency if verdict.periods_used else math.nan,
+            "growth_rate": verdict.growth_rate,
+        }
+
+    def is_decided(self, tip: TipMotion) -> bool:
+        """Tell whether the verdict on a run so far is in."""
+        return assess(tip.time, tip.twist, tip.deflection, self.criteria).decided
+
+    @property
+    def earliest(self) -> float:
+        """Time (c/V) at which a verdict rests on as many periods as it has to."""
+        return self.criteria.periods / self.natural_frequency
+
+    def may_be_beyond_bound(self, late: TipMotion) -> bool:
+        """Tell whether the last part of a motion swings so far that it may have grown enough."""
+        bound = math.radians(self.criteria.growing_amplitude_deg)
+        return float(np.ptp(late.twist)) > 2 * bound
+
+    def _had_grown(self, tip: TipMotion, verdict: Verdict) -> bool:
+        """Tell whether a motion was beyond the bound, not by a first swing that may be its last.
+
+        A heave that grows has no bound.
+        """
+        if heave_grows(tip.time, tip.twist, tip.deflection, self.natural_frequency):
+            return verdict.regime == "growing"
+        bound = math.radians(self.criteria.growing_amplitude_deg)
+        return (
+            verdict.regime == "growing"
+            and verdict.twist_amplitude > bound
+            and (
+                verdict.periods_used > 0
+                or self.is_decided(tip)
+                or swings_grow(tip.time, tip.twist, bound)
+            )
+        )
 
 
 def judge(case: UnsteadyCase, tip: TipMotion, failure: str = "") -> dict[str, Any]:
-    """Return the attributes of the verdict on a run that has ended.
-
-    Parameters
-    ----------
-    case
-        The case.
-    tip
-        Its whole history.
-    failure
-        Why the run ended early, if it did. Its regime is then ``failed``, unless it had grown
-        beyond the bound before.
-    """
-    try:
-        verdict = assess(
-            tip.time,
-            tip.twist,
-            tip.deflection,
-            criteria_of(case),
-            final=True,
-            natural_frequency=pitch_frequency(case),
-        )
-    except ResultFileError as error:
-        return _without_numbers(Regime.FAILED, failure or str(error))
-    if failure and not _had_grown(case, tip, verdict):
-        return _without_numbers(Regime.FAILED, failure)
-    return {
-        "regime": str(Regime(verdict.regime)),
-        "reason": f"{verdict.reason}; {failure}" if failure else verdict.reason,
-        "periods_used": verdict.periods_used,
-        "window_start": verdict.start_time,
-        "mean_twist_deg": math.degrees(verdict.mean_twist),
-        "mean_deflection_chords": verdict.mean_deflection,
-        "mean_known": int(verdict.mean_known),
-        "twist_amplitude_deg": math.degrees(verdict.twist_amplitude),
-        "frequency_strouhal": verdict.frequency if verdict.periods_used else math.nan,
-        "growth_rate": verdict.growth_rate,
-    }
+    """Return the attributes of the verdict on a run of a case (:meth:`Judge.attributes`)."""
+    return Judge.of(case).attributes(tip, failure)
 
 
 def refused(case: Case) -> UnsteadyResult:
@@ -118,7 +171,7 @@ def refused(case: Case) -> UnsteadyResult:
 
 
 def monitor_of(
-    cases: Sequence[UnsteadyCase], lane_of: Callable[[Any, UnsteadyCase, int, slice], TipMotion]
+    judges: Sequence[Judge], lane_of: Callable[[Any, int, slice], TipMotion]
 ) -> Callable[[Any, Indices], Indices]:
     """Return a monitor that ends each lane of a batch when its verdict is in.
 
@@ -129,13 +182,12 @@ def monitor_of(
 
     Parameters
     ----------
-    cases
-        Case of each lane.
+    judges
+        Judge of each lane.
     lane_of
         Gives the motion of the tip of a lane, or a part of it, from the histories of all.
     """
     due = 0.0
-    earliest = [case.criteria.periods / pitch_frequency(case) for case in cases]
 
     def monitor(histories: Any, active: Indices) -> Indices:
         nonlocal due
@@ -145,25 +197,21 @@ def monitor_of(
             due = LOOK_AGAIN * now
         late = slice(int(np.searchsorted(histories.time, now - LATE)), None)
         done = []
-        for lane in active:
-            case = cases[lane]
-            looks = (is_due and now >= earliest[lane]) or _may_be_beyond_bound(
-                case, lane_of(histories, case, int(lane), late)
+        for lane in map(int, active):
+            judge = judges[lane]
+            looks = (is_due and now >= judge.earliest) or judge.may_be_beyond_bound(
+                lane_of(histories, lane, late)
             )
-            if looks and is_decided(case, lane_of(histories, case, int(lane), slice(None))):
+            if looks and judge.is_decided(lane_of(histories, lane, slice(None))):
                 done.append(lane)
         return np.array(done, dtype=np.intp)
 
     return monitor
 
 
-def _may_be_beyond_bound(case: UnsteadyCase, late: TipMotion) -> bool:
-    return float(np.ptp(late.twist)) > 2 * math.radians(case.criteria.growing_amplitude_deg)
-
-
 def is_decided(case: UnsteadyCase, tip: TipMotion) -> bool:
-    """Tell whether the verdict on a run so far is in."""
-    return assess(tip.time, tip.twist, tip.deflection, criteria_of(case)).decided
+    """Tell whether the verdict on a run of a case so far is in."""
+    return Judge.of(case).is_decided(tip)
 
 
 def last_look(time: float) -> float:
@@ -182,25 +230,6 @@ def decided_at(case: UnsteadyCase, tip: TipMotion) -> float:
         if is_decided(case, tip.until(float(look))):
             return float(look)
     return math.inf
-
-
-def _had_grown(case: UnsteadyCase, tip: TipMotion, verdict: Verdict) -> bool:
-    """Tell whether a motion was beyond the bound, and not by a first swing that may be its last.
-
-    A heave that grows has no bound.
-    """
-    if heave_grows(tip.time, tip.twist, tip.deflection, pitch_frequency(case)):
-        return verdict.regime == "growing"
-    bound = math.radians(case.criteria.growing_amplitude_deg)
-    return (
-        verdict.regime == "growing"
-        and verdict.twist_amplitude > bound
-        and (
-            verdict.periods_used > 0
-            or is_decided(case, tip)
-            or swings_grow(tip.time, tip.twist, bound)
-        )
-    )
 
 
 def _without_numbers(regime: Regime, reason: str) -> dict[str, Any]:

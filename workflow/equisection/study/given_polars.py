@@ -8,7 +8,7 @@ from pathlib import Path
 from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE
 from equisection.errors import ConfigError, PolarFileError
-from equisection.io.polar_rows import read_rows
+from equisection.io.formats import read_rows
 from equisection.keys.checks import Problem
 
 
@@ -41,7 +41,7 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
         if path == FLAT_PLATE:
             continue
         try:
-            rows = read_rows(directory / path, config.embedded.symmetric)
+            rows = read_rows(directory / path, config.embedded.symmetric).rows
         except PolarFileError as error:
             yield _unreadable(f"embedded.polars.{name}", path, error)
             continue

@@ -18,13 +18,12 @@ from numpy.typing import NDArray
 
 from equisection.aerodynamics.induction import SpanStrips, cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
-from equisection.aerodynamics.polar import SectionPolar
+from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
-from equisection.io.polar_file import read_polar
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
@@ -44,7 +43,7 @@ class Adapter:
     version = "4"
     provides = frozenset({Capability.BATCH})
 
-    def __init__(self, polar: SectionPolar, strips: int, lags: SeparationLags) -> None:
+    def __init__(self, polar: Polar, strips: int, lags: SeparationLags) -> None:
         self._polar = polar
         self._strips = strips
         self._lags = lags
@@ -70,7 +69,7 @@ class Adapter:
         """Return the solver of a case, which runs in one thread."""
         del allocation
         data = settings["polar"]
-        polar = SectionPolar(
+        polar = Polar(
             np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
         )
         return cls(polar, settings["strips"], SeparationLags(**settings["separation"]))
@@ -185,7 +184,7 @@ class Adapter:
         return strips, matrix
 
 
-def read_section_polar(section: Embedded, resolution: str) -> SectionPolar:
+def read_section_polar(section: Embedded, resolution: str) -> Polar:
     """Return the section polar that a configuration names for a resolution.
 
     Raises
@@ -195,8 +194,8 @@ def read_section_polar(section: Embedded, resolution: str) -> SectionPolar:
     """
     source = section.polars[resolution]
     if source == FLAT_PLATE:
-        return SectionPolar.flat_plate(FLAT_PLATE_LIMIT)
-    return read_polar(Path(source), section.symmetric)
+        return Polar.flat_plate(FLAT_PLATE_LIMIT)
+    return Polar.read(source, symmetric=section.symmetric)
 
 
 def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TypedDict
 
 import numpy as np
@@ -11,19 +11,20 @@ from numpy.typing import NDArray
 
 from equisection.aerodynamics.induction import SpanStrips
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.beam.section import Section
 from equisection.cases import UnsteadyCase
 from equisection.motion.beams import BeamHistories, BeamParameters, release_beams
 from equisection.motion.march import Failure
 from equisection.motion.sections import SectionHistories, release_sections
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import Progress
-from equisection.solvers.verdicts import TipMotion, judge, monitor_of
+from equisection.solvers.verdicts import Judge, TipMotion, judge, monitor_of
 
 Floats = NDArray[np.float64]
 
 
-class _Settings(TypedDict):
-    """What the cases of one release share."""
+class ReleaseSettings(TypedDict):
+    """Rigid incidence (rad), and times (c/V), that the sections or beams of one release share."""
 
     incidence_rad: float
     duration: float
@@ -31,18 +32,46 @@ class _Settings(TypedDict):
     output_interval: float
 
 
+def release_judged(
+    sections: Sequence[Section],
+    judges: Sequence[Judge],
+    loads: UnsteadyLoads,
+    settings: ReleaseSettings,
+    progress: Progress | None = None,
+) -> list[UnsteadyResult]:
+    """Release sections in their flow, each until its own judge has decided.
+
+    Parameters
+    ----------
+    sections
+        The sections in their flow (:meth:`equisection.beam.section.Section.in_flow`).
+    judges
+        Judge of each.
+    loads, settings
+        What they share.
+    progress
+        Called with the time that has been reached and the last one.
+    """
+
+    def tip_of(histories: SectionHistories, lane: int, part: slice) -> TipMotion:
+        return _section_tip(histories, sections[lane], lane, part)
+
+    histories = release_sections(
+        sections, loads, **settings, monitor=monitor_of(judges, tip_of), progress=progress
+    )
+    return [
+        _section_result(histories, section, judge, lane, settings["incidence_rad"])
+        for lane, (section, judge) in enumerate(zip(sections, judges, strict=True))
+    ]
+
+
 def release_all_sections(
     cases: list[UnsteadyCase], loads: UnsteadyLoads, progress: Progress
 ) -> list[UnsteadyResult]:
     """Release the sections of some cases that share all but their structure."""
-    histories = release_sections(
-        [case.section for case in cases if case.section],
-        loads,
-        **_common_settings(cases[0]),
-        monitor=monitor_of(cases, _section_lane),
-        progress=progress,
-    )
-    return [_section_result(case, histories, lane) for lane, case in enumerate(cases)]
+    sections = [case.section for case in cases if case.section]
+    judges = [Judge.of(case) for case in cases]
+    return release_judged(sections, judges, loads, _common_settings(cases[0]), progress)
 
 
 def release_all_beams(
@@ -73,13 +102,13 @@ def release_all_beams(
         parameters,
         loads,
         **_common_settings(cases[0]),
-        monitor=monitor_of(cases, _beam_lane),
+        monitor=monitor_of([Judge.of(case) for case in cases], _beam_tip),
         progress=progress,
     )
     return [_beam_result(case, histories, lane) for lane, case in enumerate(cases)]
 
 
-def _common_settings(case: UnsteadyCase) -> _Settings:
+def _common_settings(case: UnsteadyCase) -> ReleaseSettings:
     return {
         "incidence_rad": math.radians(case.incidence_deg),
         "duration": case.duration,
@@ -88,27 +117,27 @@ def _common_settings(case: UnsteadyCase) -> _Settings:
     }
 
 
-def _section_lane(
-    histories: SectionHistories, case: UnsteadyCase, lane: int, part: slice
+def _section_tip(
+    histories: SectionHistories, section: Section, lane: int, part: slice
 ) -> TipMotion:
-    assert case.section is not None
     return TipMotion(
         histories.time[part],
-        histories.twist[part, lane] / case.section.twist_recovery,
-        histories.deflection[part, lane] / case.section.deflection_recovery,
+        histories.twist[part, lane] / section.twist_recovery,
+        histories.deflection[part, lane] / section.deflection_recovery,
     )
 
 
-def _beam_lane(histories: BeamHistories, case: UnsteadyCase, lane: int, part: slice) -> TipMotion:
-    del case
+def _beam_tip(histories: BeamHistories, lane: int, part: slice) -> TipMotion:
     return TipMotion(
         histories.time[part], histories.tip_twist[part, lane], histories.tip_deflection[part, lane]
     )
 
 
-def _section_result(case: UnsteadyCase, histories: SectionHistories, lane: int) -> UnsteadyResult:
+def _section_result(
+    histories: SectionHistories, section: Section, judge: Judge, lane: int, incidence_rad: float
+) -> UnsteadyResult:
     end = int(histories.samples[lane])
-    tip = _section_lane(histories, case, lane, slice(end))
+    tip = _section_tip(histories, section, lane, slice(end))
     twist = histories.twist[:end, lane]
     return UnsteadyResult(
         time=tip.time,
@@ -118,14 +147,14 @@ def _section_result(case: UnsteadyCase, histories: SectionHistories, lane: int) 
         tip_deflection=tip.deflection,
         lift=histories.lift_coefficient[:end, lane],
         moment=histories.moment_coefficient[:end, lane],
-        incidence=math.radians(case.incidence_deg) + twist,
-        verdict=judge(case, tip, _failure(histories.failures, lane)),
+        incidence=incidence_rad + twist,
+        verdict=judge.attributes(tip, _failure(histories.failures, lane)),
     )
 
 
 def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> UnsteadyResult:
     end = int(histories.samples[lane])
-    tip = _beam_lane(histories, case, lane, slice(end))
+    tip = _beam_tip(histories, lane, slice(end))
     return UnsteadyResult(
         time=tip.time,
         twist=tip.twist,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,6 +9,7 @@ from pathlib import Path
 import xarray as xr
 
 from equisection.errors import ResultFileError
+from equisection.io.csv_polar import csv_text
 from equisection.io.polar_rows import COLUMNS
 from equisection.results.netcdf import read_dataset
 
@@ -31,22 +30,24 @@ def polar_csv(paths: Sequence[Path]) -> str:
         (_steady(path) for path in paths), key=lambda data: data.attrs["incidence_deg"]
     )
     _require_one_polar(results)
-    text = io.StringIO()
-    text.write(f"# {results[0].attrs['solver_description']}.\n")
-    text.writelines(_flow(results[0]))
-    text.write(
-        "# Written by 'equisection polar' from steady results. Moment about mid-chord, nose up.\n"
+    comments = [f"{results[0].attrs['solver_description']}.", *_flow(results[0])]
+    comments.append(
+        "Written by 'equisection polar' from steady results. Moment about mid-chord, nose up."
     )
-    table = csv.writer(text, lineterminator="\n")
-    failed = [data for data in results if data.attrs["failure"]]
-    for data in failed:
-        text.write(f"# Left out: {data.attrs['incidence_deg']:g} deg, {data.attrs['failure']}\n")
-    table.writerow((*COLUMNS, "method"))
-    for data in results:
-        if not data.attrs["failure"]:
-            values = (f"{float(data[name]):.5f}" for name in COLUMNS[1:])
-            table.writerow((f"{data.attrs['incidence_deg']:g}", *values, data.attrs["method"]))
-    return text.getvalue()
+    comments += [
+        f"Left out: {data.attrs['incidence_deg']:g} deg, {data.attrs['failure']}"
+        for data in results
+        if data.attrs["failure"]
+    ]
+    points = [
+        (
+            (data.attrs["incidence_deg"], *(float(data[name]) for name in COLUMNS[1:])),
+            data.attrs["method"],
+        )
+        for data in results
+        if not data.attrs["failure"]
+    ]
+    return csv_text(points, comments)
 
 
 def _steady(path: Path) -> xr.Dataset:
@@ -68,7 +69,7 @@ def _flow(data: xr.Dataset) -> list[str]:
     reynolds = medium["density"] * medium["speed"] * geometry["chord"] / medium["dynamic_viscosity"]
     height = geometry["channel_height"]
     around = "free air" if height is None else f"channel {height:g} c high"
-    return [f"# Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}.\n"]
+    return [f"Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}."]
 
 
 def _require_one_polar(results: Sequence[xr.Dataset]) -> None:

@@ -1,0 +1,117 @@
+"""One section released in a flow, with the verdict on its motion, without a configuration."""
+
+from __future__ import annotations
+
+import math
+
+import xarray as xr
+
+from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
+from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.beam.section import Section
+from equisection.config.groups import Unsteady
+from equisection.conventions import STANDARD_AIR
+from equisection.errors import ArgumentError
+from equisection.solvers.embedded.releases import ReleaseSettings, release_judged
+from equisection.solvers.verdicts import Judge
+from equisection.verdict import Criteria
+
+#: As the configuration has them.
+_DEFAULTS = Unsteady()
+#: Fewest time steps in a natural period of the pitch.
+STEPS_A_PERIOD = 40
+#: Time steps in an interval of the history.
+STEPS_A_SAMPLE = 2
+#: Fewest intervals of a history.
+FEWEST_SAMPLES = 10
+
+
+def release(
+    section: Section,
+    polar: Polar,
+    *,
+    incidence_deg: float,
+    speed: float,
+    density: float = STANDARD_AIR,
+    lags: SeparationLags = IDENTIFIED_LAGS,
+    duration: float = _DEFAULTS.duration,
+) -> xr.Dataset:
+    """Motion of a section after its release, at rest and untwisted, in the steady flow around it.
+
+    The run ends when the verdict on it is in. Time step and criteria are those that the
+    configuration has by default; of a pitch with fewer than 40 steps in a period the step is
+    shorter.
+
+    Parameters
+    ----------
+    section
+        The section (SI).
+    polar
+        Steady coefficients of the section.
+    incidence_deg
+        Rigid incidence theta_0 (deg).
+    speed
+        Speed V (m/s).
+    density
+        Density of the fluid rho (kg/m^3); by default that of air at sea level.
+    lags
+        Lags of the separation bubble (:func:`equisection.motion.stability.stability`).
+    duration
+        The longest that the run may take (c/V).
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``time`` (s), with ``convective_time`` (c/V) beside it: ``twist`` (rad) and
+        ``deflection`` (m) of the section, ``tip_twist`` and ``tip_deflection`` of the beam that it
+        stands for, ``cl``, ``cm``, ``incidence`` (rad). The verdict is in the attributes:
+        ``regime`` (`settled`, `limit-cycle`, `growing`, `failed`), ``reason`` and its numbers.
+
+    Raises
+    ------
+    ArgumentError
+        An argument is not a number that makes sense.
+    IncidenceOutOfRangeError
+        The polar does not cover the rigid incidence.
+    """
+    for name, value, units in (
+        ("speed", speed, "m/s"),
+        ("density", density, "kg/m3"),
+        ("duration", duration, "c/V"),
+    ):
+        if not (0.0 < value < math.inf):
+            raise ArgumentError(f"{name} is {value!r}; wanted a number above 0 ({units})")
+    if not math.isfinite(incidence_deg):
+        raise ArgumentError(f"incidence_deg is {incidence_deg!r}; wanted a number (deg)")
+    rigid = math.radians(incidence_deg)
+    polar.require(rigid)
+    flowing = section.in_flow(density, speed)
+    judge = Judge.of_section(flowing, Criteria(**_DEFAULTS.verdict.model_dump()))
+    step = min(_DEFAULTS.time_step, 1.0 / (STEPS_A_PERIOD * judge.natural_frequency))
+    interval = STEPS_A_SAMPLE * step
+    if duration < FEWEST_SAMPLES * interval:
+        raise ArgumentError(
+            f"duration is {duration:g}; wanted {FEWEST_SAMPLES * interval:.3g} c/V or more, ten "
+            "samples of the history"
+        )
+    settings = ReleaseSettings(
+        incidence_rad=rigid, duration=duration, time_step=step, output_interval=interval
+    )
+    loads = UnsteadyLoads.from_polar(polar, lags)
+    result = release_judged([flowing], [judge], loads, settings)[0]
+    dataset = result.to_dataset(section.chord)
+    convective = dataset["time"].variable
+    seconds = convective.values * section.chord / speed
+    return dataset.assign_coords(
+        time=("time", seconds, {"units": "s", "long_name": "time from the release t"}),
+        convective_time=convective,
+    ).assign_attrs(
+        incidence_deg=incidence_deg,
+        speed=speed,
+        density=density,
+        k_star=section.k_star(density, speed),
+        time_step=step,
+        polar=polar.label,
+        lags=lags.provenance,
+    )
