@@ -13,7 +13,7 @@ from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
-from equisection.errors import ArgumentError, IncidenceOutOfRangeError
+from equisection.errors import ArgumentError, EquisectionError, IncidenceOutOfRangeError
 from equisection.motion.sections import section_system
 from equisection.motion.stability import critical_speed, stability
 from equisection.motion.static_branch import BranchEnd, StaticBranch, section_equilibrium
@@ -291,6 +291,18 @@ def test_arguments_that_make_no_sense_are_refused(changes, words):
 def test_a_range_is_two_rising_speeds(speed):
     with pytest.raises(ArgumentError, match="speed is"):
         critical_speed(PLATE, POLAR, incidence_deg=2.5, speed=speed)
+
+
+@pytest.mark.parametrize(
+    "member", [{"static_imbalance": 0.001}, {"elastic_axis": 0.35}, {"torsional_damping": 1e-4}]
+)
+def test_section_that_the_solver_cannot_move_is_refused_and_not_simplified(member):
+    section = PLATE.model_copy(update=member)
+    (name,) = member
+    with pytest.raises(EquisectionError, match=f"{name}.*allowed is"):
+        stability(section, POLAR, incidence_deg=2.5, speed=30.0)
+    with pytest.raises(EquisectionError, match=f"{name}.*allowed is"):
+        critical_speed(section, POLAR, incidence_deg=2.5, speed=(20.0, 30.0))
 
 
 def test_incidence_beyond_the_polar_is_refused():
