@@ -10,7 +10,7 @@ import pytest
 from scipy.optimize import brentq
 from tests.sample_cases import sections
 
-from equisection.aerodynamics.indicial import wagner
+from equisection.aerodynamics.indicial import JONES_AMPLITUDES, LAG_RATES, wagner
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import (
@@ -19,6 +19,7 @@ from equisection.aerodynamics.unsteady_loads import (
     UnsteadyLoads,
 )
 from equisection.beam.section import Section
+from equisection.errors import EquisectionError
 from equisection.motion.march import march
 from equisection.motion.sections import (
     release_sections,
@@ -78,6 +79,117 @@ def test_in_vacuo_the_energy_is_kept_and_the_frequencies_are_right():
     np.testing.assert_allclose(twist, 0.1 * np.cos(math.sqrt(20 / INERTIA) * run.time), atol=1e-7)
     omega_heave = math.sqrt(20 * STIFFNESS_RATIO / (INERTIA * MASS_RATIO))
     np.testing.assert_allclose(deflection, 0.2 * np.cos(omega_heave * run.time), atol=1e-7)
+
+
+def in_vacuo(section: Section) -> np.ndarray:
+    """Return the eigenvalues p (per c/V, Im p > 0) of a section too heavy for the air."""
+    names = ("torsional_stiffness", "flexural_stiffness", "inertia", "mass", "static_imbalance")
+    dampings = ("torsional_damping", "flexural_damping")
+    heavier = {name: 1e9 * getattr(section, name) for name in (*names, *dampings)}
+    system = section_system([Section(**{**dict(section), **heavier})], thin_plate(), 0.0)
+    values = np.linalg.eigvals(jacobian(system, *equilibrium(system))[0])
+    return np.sort_complex(values[values.imag > 1e-3])
+
+
+@pytest.mark.parametrize("imbalance", [0.0, 4.0, -12.0])
+def test_in_vacuo_imbalance_couples_and_dampers_damp(imbalance):
+    """det(p^2 M + p C + K) = 0; without dampers p = i omega of the coupled section."""
+    (plain,) = plate_sections(20.0)
+    free = Section(**{**dict(plain), "static_imbalance": imbalance})
+    p = in_vacuo(free)
+    np.testing.assert_allclose(np.sort(p.imag), free.natural_frequencies, rtol=1e-7)
+    np.testing.assert_allclose(p.real, 0.0, atol=1e-7)
+    damped = Section(**{**dict(free), "torsional_damping": 0.7, "flexural_damping": 2.0})
+    for root in in_vacuo(damped):
+        matrix = damped.stiffness_matrix + root * damped.damping_matrix
+        matrix = matrix + root**2 * damped.mass_matrix
+        assert abs(np.linalg.det(matrix)) < 1e-6 * np.linalg.det(damped.stiffness_matrix)
+        assert root.real < -0.01
+
+
+def test_imbalance_and_dampers_leave_the_static_twist():
+    (plain,) = plate_sections(10.0)
+    more = {"static_imbalance": 5.0, "torsional_damping": 0.3, "flexural_damping": 1.0}
+    both = [plain, Section(**{**dict(plain), **more})]
+    states, _ = equilibrium(section_system(both, measured(), INCIDENCE))
+    np.testing.assert_allclose(states[1], states[0], rtol=1e-9, atol=1e-12)
+
+
+def theodorsen_with_jones(p: complex) -> np.ndarray:
+    """Return Q(p) of a thin plate about mid-chord, with Jones' C (NACA Report 496, a = 0)."""
+    lag = 1.0 - sum(a * p / (p + rate) for a, rate in zip(JONES_AMPLITUDES, LAG_RATES, strict=True))
+    circulatory = np.outer([2 * math.pi, math.pi / 2], [-p, 1.0 + p / 4])
+    mass = -math.pi / 2 * np.array([[1.0, 0.0], [0.0, 1.0 / 32.0]]) * p**2
+    rate = math.pi / 2 * np.array([[0.0, 1.0], [0.0, -0.25]]) * p
+    return mass + rate + lag * circulatory
+
+
+@pytest.mark.parametrize("imbalance", [0.0, 6.0, -6.0])
+@pytest.mark.parametrize("damping", [0.0, 0.5])
+def test_section_with_imbalance_and_dampers_in_thin_plate_theory(imbalance, damping):
+    """Its eigenvalues solve det(p^2 M + p C + K - Q(p)) = 0 of (w/c, theta)."""
+    (plain,) = plate_sections(6.0)
+    section = Section(
+        **{
+            **dict(plain),
+            "static_imbalance": imbalance,
+            "torsional_damping": damping,
+            "flexural_damping": 3 * damping,
+        }
+    )
+    system = section_system([section], thin_plate(), 0.0)
+    values = np.linalg.eigvals(jacobian(system, *equilibrium(system))[0])
+    oscillating = values[values.imag > 1e-6]
+    assert oscillating.size == 2
+    for p in oscillating:
+        left = section.stiffness_matrix + p * section.damping_matrix
+        left = left + p**2 * section.mass_matrix - theodorsen_with_jones(p)
+        assert abs(np.linalg.det(left)) < 1e-8 * np.abs(left).max() ** 2
+
+
+@pytest.mark.parametrize(
+    ("damping_ratio", "onset", "onset_of_paper"),
+    [
+        (0.0, 8.710, 9.094),
+        (0.003, 8.039, 8.389),
+        (0.005, 7.685, 8.011),
+        (0.01, 6.999, 7.283),
+        (0.02, 6.095, 6.329),
+    ],
+)
+def test_dampers_lower_the_onset_of_the_papers_section(damping_ratio, onset, onset_of_paper):
+    """First k* of growth from above at 2.5 deg, by a code of its own with the same loads.
+
+    Ratios c^2 m/I and c^2 k_w/k_theta of the consistent section in closed form, and the paper's.
+    """
+    for ratios, expected in (((12.0, 0.247), onset), ((9.12, 0.183), onset_of_paper)):
+        (plain,) = sections(1.0, 20 / 3, *ratios)
+        pair = {
+            "torsional_damping": 2 * damping_ratio * math.sqrt(plain.inertia),
+            "flexural_damping": 2
+            * damping_ratio
+            * math.sqrt(plain.mass * plain.flexural_stiffness),
+        }
+        section = Section(**{**dict(plain), **pair})
+
+        def growth(k_star: float, section: Section = section) -> float:
+            system = section_system([section.scaled(k_star)], measured(), INCIDENCE)
+            return float(least_stable_eigenvalue(system)[0].real)
+
+        assert brentq(growth, 5.5, 12.0, xtol=1e-4) == pytest.approx(expected, abs=2e-3)
+
+
+def test_elastic_axis_off_mid_chord_is_refused():
+    (plain,) = plate_sections(10.0)
+    off = Section(**{**dict(plain), "elastic_axis": 0.33})
+    with pytest.raises(EquisectionError, match=r"the strip model takes no section with elastic_ax"):
+        section_system([plain, off], thin_plate(), 0.0)
+
+
+def test_section_in_si_units_is_refused():
+    (plain,) = plate_sections(10.0)
+    with pytest.raises(EquisectionError, match=r"section\.in_flow"):
+        section_system([Section(**{**dict(plain), "chord": 0.1})], thin_plate(), 0.0)
 
 
 def test_a_wing_started_from_rest_builds_its_lift_up_as_wagner_says():

@@ -13,7 +13,7 @@ from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
-from equisection.errors import ArgumentError, IncidenceOutOfRangeError
+from equisection.errors import ArgumentError, EquisectionError, IncidenceOutOfRangeError
 from equisection.motion.sections import section_system
 from equisection.motion.stability import critical_speed, stability
 from equisection.motion.static_branch import BranchEnd, StaticBranch, section_equilibrium
@@ -291,6 +291,61 @@ def test_arguments_that_make_no_sense_are_refused(changes, words):
 def test_a_range_is_two_rising_speeds(speed):
     with pytest.raises(ArgumentError, match="speed is"):
         critical_speed(PLATE, POLAR, incidence_deg=2.5, speed=speed)
+
+
+def damped(section: Section, ratio: float) -> Section:
+    """The section with the same part of critical damping in twist and in deflection."""
+    k_theta, k_w = section.torsional_stiffness, section.flexural_stiffness
+    return section.model_copy(
+        update={
+            "torsional_damping": 2 * ratio * math.sqrt(k_theta * section.inertia),
+            "flexural_damping": 2 * ratio * math.sqrt(k_w * section.mass),
+        }
+    )
+
+
+@pytest.mark.parametrize(
+    ("ratio", "k_star"), [(0.003, 8.039), (0.005, 7.685), (0.01, 6.999), (0.02, 6.095)]
+)
+def test_onset_of_the_damped_plate(ratio, k_star):
+    """By an independent assembly of the equations with the same polar and lags."""
+    onset = critical_speed(
+        damped(PLATE, ratio), POLAR, incidence_deg=2.5, speed=(10.0, 80.0), density=DENSITY
+    )
+    assert float(onset["k_star"]) == pytest.approx(k_star, abs=1e-3)
+
+
+def test_damped_deck_flutters_a_little_later():
+    """77.24 m/s at 0.3 per cent by Theodorsen's function, 76.679 with Jones's two states."""
+    onset = critical_speed(
+        damped(DECK, 0.003),
+        THIN,
+        incidence_deg=0.0,
+        speed=(20.0, 120.0),
+        density=1.22,
+        lags=ATTACHED,
+    )
+    assert float(onset["critical_speed"]) == pytest.approx(76.679, abs=1e-3)
+    assert float(onset["critical_speed"]) == pytest.approx(77.24, rel=0.01)
+
+
+def test_imbalance_and_dampers_leave_the_equilibrium_as_it_is():
+    other = damped(PLATE, 0.01).model_copy(update={"static_imbalance": 0.1 * PLATE.mass * CHORD})
+    speeds = [10.0, 20.0, 30.0]
+    one, two = (
+        stability(section, POLAR, incidence_deg=2.5, speed=speeds) for section in (PLATE, other)
+    )
+    for name in ("equilibrium_twist", "equilibrium_deflection"):
+        np.testing.assert_array_equal(one[name], two[name])
+    assert (one["growth_rate"] != two["growth_rate"]).all()
+
+
+def test_section_that_the_solver_cannot_move_is_refused_and_not_simplified():
+    section = PLATE.model_copy(update={"elastic_axis": 0.35})
+    with pytest.raises(EquisectionError, match=r"elastic_axis 0\.35 \(allowed is 0\.5\)"):
+        stability(section, POLAR, incidence_deg=2.5, speed=30.0)
+    with pytest.raises(EquisectionError, match=r"elastic_axis 0\.35 \(allowed is 0\.5\)"):
+        critical_speed(section, POLAR, incidence_deg=2.5, speed=(20.0, 30.0))
 
 
 def test_incidence_beyond_the_polar_is_refused():

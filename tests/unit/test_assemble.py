@@ -20,7 +20,12 @@ from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import REDUCTIONS, reduce_beam
 from equisection.results.correction_dataset import factors_from_dataset, factors_to_dataset
 from equisection.results.modes_dataset import modes_to_dataset
-from equisection.results.section_dataset import equivalent_to_dataset, nominal_k_star
+from equisection.results.section_dataset import (
+    equivalent_to_dataset,
+    nominal_k_star,
+    section_from_dataset,
+    section_in_flow,
+)
 from equisection.solvers.registry import solver_from_config
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import compute_modes
@@ -304,3 +309,58 @@ def test_point_of_a_speed_is_the_beam_as_given_at_that_speed(
     assert beam.beam.torsion_frequency == pytest.approx(
         ratio * np.array(as_given.torsion_frequency), rel=1e-12
     )
+
+
+@pytest.mark.parametrize("member", ["static_imbalance", "flexural_damping", "torsional_damping"])
+def test_what_a_section_has_beyond_its_springs_is_put_into_its_case(
+    member: str, data: dict[str, xr.Dataset]
+) -> None:
+    """Stiffer by 4, a damper weighs twice as much in the flow, and an imbalance the same."""
+    value = 1e-3
+    equivalent = data["equivalent"].assign({member: ("reduction", [value, value])})
+    soft, stiff = (case("2d", k_star, {**data, "equivalent": equivalent}) for k_star in (5.0, 20.0))
+    assert soft.section is not None
+    assert stiff.section is not None
+    ratio = getattr(stiff.section, member) / getattr(soft.section, member)
+    assert ratio == pytest.approx(1.0 if member == "static_imbalance" else 2.0)
+    assert case_hash(soft) != case_hash(case("2d", 5.0, data))
+    assert section_from_dataset(equivalent, "consistent").model_dump()[member] == value
+
+
+@pytest.mark.parametrize(("member", "value"), [("static_imbalance", 1e-3), ("elastic_axis", 0.3)])
+def test_correction_of_a_section_with_an_offset_is_refused_in_its_case(
+    member: str, value: float, data: dict[str, xr.Dataset]
+) -> None:
+    """Eq. 20 scales rows, and rows of other scales that share an imbalance are no body."""
+    equivalent = data["equivalent"].assign({member: ("reduction", [value, value])})
+    refused = case("2d-corrected", 9.0, {**data, "equivalent": equivalent})
+    assert refused.section is None
+    assert f"the correction for the finite span takes no section with {member}" in refused.refusal
+
+
+def test_section_in_the_flow_is_the_one_in_si_units(data: dict[str, xr.Dataset]) -> None:
+    flow = Config().flow
+    for reduction in REDUCTIONS:
+        here = section_from_dataset(data["equivalent"], reduction)
+        there = section_in_flow(data["equivalent"], reduction)
+        assert here.chord == 0.1
+        assert there == here.in_flow(flow.density, flow.speed)
+
+
+def test_correction_keeps_the_damping_ratios(data: dict[str, xr.Dataset]) -> None:
+    dampings = {"flexural_damping": 0.02, "torsional_damping": 1e-4}
+    damped = {name: ("reduction", [value, value]) for name, value in dampings.items()}
+    both = {**data, "equivalent": data["equivalent"].assign(damped)}
+    plain, corrected = (case(name, 9.0, both).section for name in ("2d", "2d-corrected"))
+    assert plain is not None
+    assert corrected is not None
+    assert corrected.mass != plain.mass
+    for damper, spring, inertia in (
+        ("flexural_damping", "flexural_stiffness", "mass"),
+        ("torsional_damping", "torsional_stiffness", "inertia"),
+    ):
+        here, there = (
+            getattr(one, damper) / math.sqrt(getattr(one, spring) * getattr(one, inertia))
+            for one in (plain, corrected)
+        )
+        assert here == pytest.approx(there, rel=1e-12)

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY
 
+from equisection.beam.section import MORE_THAN_SPRINGS, Section
 from equisection.config import load_config
-from equisection.errors import ConfigError, SolverError
+from equisection.errors import ConfigError, EquisectionError, SolverError
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.case_folder import (
     drop_broken_states,
@@ -86,6 +87,15 @@ def test_section_has_half_of_each_reduced_quantity(tmp_path: Path) -> None:
     text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
     for line in ("mass 40;", "momentOfInertia (1 1 3.35);", "stiffness 0.45;", "stiffness 3.22;"):
         assert line in text
+
+
+@pytest.mark.parametrize("member", sorted(MORE_THAN_SPRINGS))
+def test_section_that_its_rigid_body_has_no_place_for_is_refused(
+    member: str, tmp_path: Path
+) -> None:
+    section = Section(**{**dict(UNSTEADY.section or {}), member: 0.3})
+    with pytest.raises(EquisectionError, match=f"OpenFOAM takes no section with {member} 0.3"):
+        write_motion(tmp_path, section, 4.0)
 
 
 def test_loads_are_written_at_each_step_in_time_and_iterations() -> None:

@@ -167,11 +167,14 @@ def test_only_what_differs_from_mass_and_springs_is_written_down() -> None:
     ],
 )
 def test_models_without_a_member_refuse_it_by_name(member: str, value: float) -> None:
-    PLAIN.require_springs_alone("the strip model")
+    PLAIN.require_defaults("the strip model")
     assert member in MORE_THAN_SPRINGS
     section = Section(**{**dict(PLAIN), member: value})
-    with pytest.raises(EquisectionError, match=f"the strip model .* has {member} 0.3 .allowed is"):
-        section.require_springs_alone("the strip model")
+    said = f"the strip model takes no section with {member} 0.3 .allowed is"
+    for members in (MORE_THAN_SPRINGS, [member]):
+        with pytest.raises(EquisectionError, match=said):
+            section.require_defaults("the strip model", members)
+    section.require_defaults("the strip model", set(MORE_THAN_SPRINGS) - {member})
 
 
 def test_si_units_are_refused_where_none_are_wanted() -> None:

@@ -63,7 +63,13 @@ def unexplained_damping(history: ReferenceHistory, start: float) -> float:
     Least squares of I* theta'' + k* theta - c_m = d theta' (plus a constant) after ``start``
     (c/V). It is 0 for a flow solver whose coupling conserves energy; d > 0 adds d/(2 I*) to the
     growth rate of the twist.
+
+    Raises
+    ------
+    EquisectionError
+        The section has dampers, or an imbalance or an axis by which the lift turns it.
     """
+    history.section.require_defaults("the balance of the moment alone")
     rate = np.gradient(history.twist, history.time_step)
     acceleration = np.gradient(rate, history.time_step)
     imbalance = (

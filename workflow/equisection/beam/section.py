@@ -20,6 +20,7 @@ rho/2, V and c. Then it has the chord 1 and the numbers of Eq. 18, with w in cho
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import Annotated, Any
 
 import numpy as np
@@ -235,26 +236,25 @@ class Section(BaseModel):
                 "section.in_flow(density, speed), which has the chord 1"
             )
 
-    def require_springs_alone(self, mover: str) -> None:
-        """Refuse a section that is more than a mass on two springs at mid-chord.
+    def require_defaults(self, model: str, members: Iterable[str] = MORE_THAN_SPRINGS) -> None:
+        """Refuse a section with more than a model has a place for.
 
         Parameters
         ----------
-        mover
-            The model that has no more, as the message names it.
+        model
+            The model, as the message names it.
+        members
+            Members that it takes at their defaults alone: those of :data:`MORE_THAN_SPRINGS`.
 
         Raises
         ------
         EquisectionError
-            A member of :data:`MORE_THAN_SPRINGS` is not at its default.
+            One of them is not at its default.
         """
         more = [
-            f"{name} {getattr(self, name):g} (allowed is {default:g})"
-            for name, default in MORE_THAN_SPRINGS.items()
-            if getattr(self, name) != default
+            f"{name} {getattr(self, name):g} (allowed is {MORE_THAN_SPRINGS[name]:g})"
+            for name in members
+            if getattr(self, name) != MORE_THAN_SPRINGS[name]
         ]
         if more:
-            raise EquisectionError(
-                f"{mover} moves a section of mass and springs about mid-chord alone; this one has "
-                f"{', '.join(more)}"
-            )
+            raise EquisectionError(f"{model} takes no section with {', '.join(more)}")

@@ -98,6 +98,9 @@ class BeamParameters:
             torsion_stiffness=torsion_inertia * torsion_frequencies**2,
             bending_mass=bending_mass,
             bending_stiffness=bending_mass * bending_frequencies**2,
+            imbalance=np.zeros((*torsion_inertia.shape, bending_mass.shape[1])),
+            torsion_damping=np.zeros_like(torsion_inertia),
+            bending_damping=np.zeros_like(bending_mass),
             induction=np.zeros((strips, strips)) if induction is None else induction,
         )
         return cls(

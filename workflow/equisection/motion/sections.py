@@ -1,8 +1,10 @@
 """Sections with two degrees of freedom, released from the rigid steady state.
 
-    I* theta'' + k* theta = c_m,    m* (w/c)'' + k_w* (w/c) = c_l
+    I* theta'' - S* (w/c)'' + c_theta* theta' + k* theta = c_m
+    m* (w/c)'' - S* theta'' + c_w* (w/c)'     + k_w* (w/c) = c_l
 
-with the unsteady loads of ``aerodynamics.unsteady_loads``; any number of cases in one run.
+with the unsteady loads of ``aerodynamics.unsteady_loads`` and the elastic axis at mid-chord; any
+number of cases in one run.
 """
 
 from __future__ import annotations
@@ -79,11 +81,11 @@ def section_system(
     Raises
     ------
     EquisectionError
-        A section is in SI units, or more than a mass on springs about mid-chord.
+        A section is in SI units, or its elastic axis is not at mid-chord.
     """
     for section in sections:
         section.require_in_flow()
-        section.require_springs_alone("the strip model")
+        section.require_defaults("the strip model", ["elastic_axis"])
     one = np.ones((1, 1))
     structure = StripStructure(
         torsion_shapes=one,
@@ -93,6 +95,9 @@ def section_system(
         torsion_stiffness=_column(sections, "torsional_stiffness"),
         bending_mass=_column(sections, "mass"),
         bending_stiffness=_column(sections, "flexural_stiffness"),
+        imbalance=_column(sections, "static_imbalance")[:, :, None],
+        torsion_damping=_column(sections, "torsional_damping"),
+        bending_damping=_column(sections, "flexural_damping"),
         induction=np.zeros((1, 1)),
     )
     return assemble(structure, loads, incidence_rad)

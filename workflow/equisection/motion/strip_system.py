@@ -6,12 +6,13 @@ A section is one strip with one mode of each kind. A beam has S strips with
 
 and per mode, with the weights h_s of the strips (sum 1) and ' = d/ds,
 
-    I_i Theta_i'' + K_i Theta_i = sum_s h_s f_si c_m,s
-    m_j W_j''     + k_j W_j     = sum_s h_s g_sj c_l,s.
+    I_i Theta_i'' - sum_j S_ij W_j''     + C_i Theta_i' + K_i Theta_i = sum_s h_s f_si c_m,s
+    m_j W_j''     - sum_i S_ij Theta_i'' + c_j W_j'     + k_j W_j     = sum_s h_s g_sj c_l,s.
 
-I_i, K_i are generalised inertia and stiffness over (rho/2) c^4 and q c^2, m_j, k_j over
-(rho/2) c^2 and q: I*, k*, m*, k_w* where there is one strip. The induced incidence is
-quasi-steady,
+I_i, C_i, K_i are generalised inertia, damping and stiffness over (rho/2) c^4, (rho/2) V c^3 and
+q c^2, m_j, c_j, k_j over (rho/2) c^2, (rho/2) V c and q, the imbalances S_ij over (rho/2) c^3.
+With one strip they are those of the section (:mod:`equisection.beam.section`). The induced
+incidence is quasi-steady,
 
     alpha_i = D (a_l alpha_E - Delta_l(x)),
 
@@ -59,6 +60,10 @@ class StripStructure:
         I_i, K_i, shape (N, n_t).
     bending_mass, bending_stiffness
         m_j, k_j, shape (N, n_b).
+    imbalance
+        S_ij, shape (N, n_t, n_b).
+    torsion_damping, bending_damping
+        C_i, shape (N, n_t), and c_j, shape (N, n_b).
     induction
         D (rad), shape (S, S); all zero for a section.
     """
@@ -70,6 +75,9 @@ class StripStructure:
     torsion_stiffness: Floats
     bending_mass: Floats
     bending_stiffness: Floats
+    imbalance: Floats
+    torsion_damping: Floats
+    bending_damping: Floats
     induction: Floats
 
     @property
@@ -281,14 +289,38 @@ def _accelerations(
         weighted_g.T @ structure.bending_shapes
     )
     torque = (
-        weighted_f.T @ rows.moment - structure.torsion_stiffness[:, :, None] * unit[layout.twist]
+        weighted_f.T @ rows.moment
+        - structure.torsion_stiffness[:, :, None] * unit[layout.twist]
+        - structure.torsion_damping[:, :, None] * unit[layout.twist_rate]
     )
     force = (
-        weighted_g.T @ rows.lift - structure.bending_stiffness[:, :, None] * unit[layout.deflection]
+        weighted_g.T @ rows.lift
+        - structure.bending_stiffness[:, :, None] * unit[layout.deflection]
+        - structure.bending_damping[:, :, None] * unit[layout.deflection_rate]
     )
+    if structure.imbalance.any():
+        return _coupled(inertia, mass, structure.imbalance, torque, force)
     twist = np.asarray(np.linalg.solve(inertia, torque), dtype=np.float64)
     deflection = np.asarray(np.linalg.solve(mass, force), dtype=np.float64)
     return twist, deflection
+
+
+def _coupled(
+    inertia: Floats, mass: Floats, imbalance: Floats, torque: Floats, force: Floats
+) -> tuple[Floats, Floats]:
+    """Theta'' and W'' of twist and deflection that the imbalance couples."""
+    across = -imbalance
+    matrix = np.concatenate(
+        [
+            np.concatenate([inertia, across], axis=2),
+            np.concatenate([across.transpose(0, 2, 1), mass], axis=2),
+        ],
+        axis=1,
+    )
+    both = np.asarray(
+        np.linalg.solve(matrix, np.concatenate([torque, force], axis=1)), dtype=np.float64
+    )
+    return both[:, : torque.shape[1]], both[:, torque.shape[1] :]
 
 
 def _diagonal(values: Floats) -> Floats:

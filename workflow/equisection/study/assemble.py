@@ -186,12 +186,13 @@ def _corrected(config: Config, section: Section, correction: xr.Dataset) -> Sect
     Raises
     ------
     EquisectionError
-        The section is more than a mass on springs about mid-chord: factors on its rows would not
-        leave it a body, or move its moment to another axis.
+        The section has an imbalance or its axis off mid-chord: with a factor on each row it would
+        be no body, or have its moment about another point.
     ReductionError
         There is no equilibrium inside the polars.
     """
-    section.require_springs_alone("the correction for the finite span")
+    offsets = ("static_imbalance", "elastic_axis")
+    section.require_defaults("the correction for the finite span", offsets)
     equilibrium = corrected_equilibrium(
         factors_from_dataset(correction),
         math.radians(config.flow.incidence_deg),
@@ -206,6 +207,8 @@ def _corrected(config: Config, section: Section, correction: xr.Dataset) -> Sect
         flexural_stiffness=lift_factor * section.flexural_stiffness,
         inertia=moment_factor * section.inertia,
         mass=lift_factor * section.mass,
+        torsional_damping=moment_factor * section.torsional_damping,
+        flexural_damping=lift_factor * section.flexural_damping,
         twist_recovery=section.twist_recovery,
         deflection_recovery=section.deflection_recovery,
     )

@@ -175,7 +175,7 @@ class Adapter:
         from equisection.solvers.openfoam.section.section_motion import MOVER  # noqa: PLC0415
 
         if case.section is not None:  # before the steady flow, which takes long
-            case.section.require_springs_alone(MOVER)
+            case.section.require_defaults(MOVER)
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun

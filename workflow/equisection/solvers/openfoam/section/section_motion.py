@@ -67,7 +67,7 @@ def rigid_body(section: Section, rigid_within: float, still: float) -> dict[str,
     EquisectionError
         The section is more than a mass on springs about mid-chord.
     """
-    section.require_springs_alone(MOVER)
+    section.require_defaults(MOVER)
     return {
         "patches": [PLATE],
         "innerDistance": rigid_within,
