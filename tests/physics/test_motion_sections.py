@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.integrate import cumulative_trapezoid
 from scipy.optimize import brentq
 from tests.sample_cases import sections
 
@@ -179,11 +180,88 @@ def test_dampers_lower_the_onset_of_the_papers_section(damping_ratio, onset, ons
         assert brentq(growth, 5.5, 12.0, xtol=1e-4) == pytest.approx(expected, abs=2e-3)
 
 
-def test_elastic_axis_off_mid_chord_is_refused():
-    (plain,) = plate_sections(10.0)
-    off = Section(**{**dict(plain), "elastic_axis": 0.33})
-    with pytest.raises(EquisectionError, match=r"the strip model takes no section with elastic_ax"):
-        section_system([plain, off], thin_plate(), 0.0)
+def offset(section: Section, axis: float, imbalance: float = 0.0) -> Section:
+    return Section(**{**dict(section), "elastic_axis": axis, "static_imbalance": imbalance})
+
+
+@pytest.mark.parametrize("axis", [0.25, 0.33, 0.5, 0.66])
+@pytest.mark.parametrize("imbalance", [0.0, 6.0, -6.0])
+def test_section_with_its_axis_anywhere_in_thin_plate_theory(axis, imbalance):
+    """det(p^2 M + p C + K - Q(p)) = 0 with Theodorsen's loads about the axis (a = 2 x_ea)."""
+    x = axis - 0.5
+    (plain,) = plate_sections(6.0)
+    section = offset(plain, axis, imbalance)
+    section = Section(**{**dict(section), "torsional_damping": 0.4, "flexural_damping": 1.0})
+    values = np.linalg.eigvals(
+        jacobian(s := section_system([section], thin_plate(), 0.0), *equilibrium(s))[0]
+    )
+    oscillating = values[values.imag > 1e-6]
+    assert oscillating.size == 2
+    for p in oscillating:
+        lag = 1.0 - sum(
+            a * p / (p + rate) for a, rate in zip(JONES_AMPLITUDES, LAG_RATES, strict=True)
+        )
+        loads = 2 * math.pi * lag * np.outer([1.0, 0.25 + x], [-p, 1.0 + (0.25 - x) * p])
+        loads = loads - math.pi / 2 * p**2 * np.array([[1.0, x], [x, 1.0 / 32.0 + x * x]])
+        loads = loads + math.pi / 2 * p * np.array([[0.0, 1.0], [0.0, x - 0.25]])
+        left = section.stiffness_matrix + p * section.damping_matrix
+        left = left + p**2 * section.mass_matrix - loads
+        assert abs(np.linalg.det(left)) < 1e-8 * np.abs(left).max() ** 2
+
+
+def test_motion_described_from_another_axis_has_the_same_flow():
+    """Mid-chord moves by w + x_ea theta, and with it all that is not of the structure."""
+    (plain,) = plate_sections(8.0)
+    system = section_system([plain], measured(), INCIDENCE)
+    moved = section_system([offset(plain, 0.3)], measured(), INCIDENCE)
+    layout = system.layout
+    rng = np.random.default_rng(1)
+    states = 0.02 * rng.standard_normal((1, layout.size))
+    deficits = 0.01 * rng.standard_normal((1, 3))
+    x = -0.2
+    # mid-chord moves by w_m = w + x theta, and everything else of the flow is the same
+    there = states.copy()
+    there[:, 2] -= x * states[:, 0]
+    there[:, 3] -= x * states[:, 1]
+    here = np.concatenate([states, deficits[:, :2], np.ones((1, 1))], axis=1)
+    seen = np.concatenate([there, deficits, np.ones((1, 1))], axis=1)
+    for rows, others in ((system.probe, moved.probe), (system.rates[:, 4:], moved.rates[:, 4:])):
+        np.testing.assert_allclose(rows[0] @ here[0], others[0] @ seen[0], rtol=1e-12, atol=1e-14)
+
+
+def test_sections_with_other_axes_run_together():
+    (plain,) = plate_sections(8.0)
+    mixed = [plain, offset(plain, 0.33, 3.0), offset(plain, 0.6)]
+    together = release_sections(mixed, measured(), INCIDENCE, 40.0)
+    for lane, section in enumerate(mixed):
+        alone = release_sections([section], measured(), INCIDENCE, 40.0)
+        np.testing.assert_allclose(together.twist[:, lane], alone.twist[:, 0], rtol=0, atol=1e-11)
+        np.testing.assert_allclose(
+            together.moment_coefficient[:, lane], alone.moment_coefficient[:, 0], atol=1e-9
+        )
+        about = together.axis_moment_coefficient[:, lane]
+        if section is plain:
+            np.testing.assert_allclose(about, together.moment_coefficient[:, 0])
+            assert alone.axis_moment_coefficient is None
+
+
+def test_work_of_the_moment_about_the_axis_is_the_energy_of_the_section():
+    """The loads that are recorded are those that move it: energy rises by their work."""
+    (plain,) = plate_sections(6.0)
+    section = offset(plain, 0.35, 4.0)
+    history = release_sections(
+        [section], measured(), INCIDENCE, 60.0, time_step=0.005, output_interval=0.01
+    )
+    w, w_rate, twist, rate = (
+        getattr(history, name)[:, 0]
+        for name in ("deflection", "deflection_rate", "twist", "twist_rate")
+    )
+    moved, motion = np.stack([w, twist]), np.stack([w_rate, rate])
+    energy = 0.5 * np.einsum("in,ij,jn->n", motion, section.mass_matrix, motion)
+    energy += 0.5 * np.einsum("in,ij,jn->n", moved, section.stiffness_matrix, moved)
+    power = history.lift_coefficient[:, 0] * w_rate + history.axis_moment_coefficient[:, 0] * rate
+    work = cumulative_trapezoid(power, history.time, initial=0.0)
+    np.testing.assert_allclose(energy, work, atol=1e-4 * energy.max())
 
 
 def test_section_in_si_units_is_refused():

@@ -13,11 +13,11 @@ from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
-from equisection.errors import ArgumentError, EquisectionError, IncidenceOutOfRangeError
+from equisection.errors import ArgumentError, IncidenceOutOfRangeError
 from equisection.motion.sections import section_system
 from equisection.motion.stability import critical_speed, stability
 from equisection.motion.static_branch import BranchEnd, StaticBranch, section_equilibrium
-from equisection.motion.steady_states import jacobian
+from equisection.motion.steady_states import equilibrium, jacobian
 
 POLARS = Path(__file__).parents[2] / "config/polars"
 POLAR = Polar.read(POLARS / "plate_2d_11136.csv")
@@ -340,12 +340,124 @@ def test_imbalance_and_dampers_leave_the_equilibrium_as_it_is():
     assert (one["growth_rate"] != two["growth_rate"]).all()
 
 
-def test_section_that_the_solver_cannot_move_is_refused_and_not_simplified():
-    section = PLATE.model_copy(update={"elastic_axis": 0.35})
-    with pytest.raises(EquisectionError, match=r"elastic_axis 0\.35 \(allowed is 0\.5\)"):
-        stability(section, POLAR, incidence_deg=2.5, speed=30.0)
-    with pytest.raises(EquisectionError, match=r"elastic_axis 0\.35 \(allowed is 0\.5\)"):
-        critical_speed(section, POLAR, incidence_deg=2.5, speed=(20.0, 30.0))
+#: Likeness of both shapes of Goland's wing, by which its section's imbalance is smaller.
+COS_PHI = 0.958641
+
+
+def goland(imbalance: float = COS_PHI, axis: float = 0.33, pair: int = 1) -> Section:
+    """Section (SI) of Goland's wing (J. Appl. Mech. 12, 1945), about its elastic axis.
+
+    With a part of its imbalance; of the n-th pair of modes of such a wing between forks, whose
+    natural frequencies go with n^2 in bending and with n in torsion.
+    """
+    mass, inertia, chord = 35.717, 8.642, 1.8288
+    return Section(
+        mass=mass,
+        inertia=inertia,
+        static_imbalance=imbalance * 0.1 * chord * mass,
+        flexural_stiffness=mass * (49.4923 * pair**2) ** 2,
+        torsional_stiffness=inertia * (87.1081 * pair) ** 2,
+        chord=chord,
+        elastic_axis=axis,
+    )
+
+
+def pitch_and_plunge() -> Section:
+    """Section of SU2's tutorial of fluid-structure interaction with Theodorsen's axis at -1/2.
+
+    Mass ratio 100, x_alpha 0.25, r_alpha^2 0.25, omega_alpha 45 rad/s, omega_h 0.3185 of it; for
+    a fluid of density 1 kg/m^3 and the semi-chord 0.5 m.
+    """
+    mass = 100 * math.pi * 0.25
+    return Section(
+        mass=mass,
+        inertia=0.25 * mass * 0.25,
+        static_imbalance=0.25 * mass * 0.5,
+        flexural_stiffness=mass * (0.3185 * 45.0) ** 2,
+        torsional_stiffness=0.25 * mass * 0.25 * 45.0**2,
+        elastic_axis=0.25,
+    )
+
+
+@pytest.mark.parametrize(
+    ("section", "density", "jones", "exact", "mechanism"),
+    [
+        (goland(), 1.225, 133.954, 133.297, "flutter"),
+        (goland(1.0), 1.225, None, 132.567, "flutter"),
+        (goland(1.0, pair=2), 1.225, None, 120.575, "flutter"),
+        (goland(0.0), 1.225, None, 252.35, "divergence"),
+        (pitch_and_plunge(), 1.0, 127.61, 126.91, "flutter"),
+    ],
+)
+def test_speeds_of_sections_with_their_axes_apart(section, density, jones, exact, mechanism):
+    """By an independent Theodorsen code: C(k) exact, and with the two states of Jones."""
+    onset = critical_speed(
+        section, THIN, incidence_deg=0.0, speed=(20.0, 400.0), density=density, lags=ATTACHED
+    )
+    assert float(onset["critical_speed"]) == pytest.approx(exact, rel=0.01)
+    if jones is not None:
+        assert float(onset["critical_speed"]) == pytest.approx(jones, rel=5e-5)
+    assert str(onset["mechanism"].values) == mechanism
+
+
+def test_thin_plate_with_its_axis_at_the_quarter_chord_never_diverges():
+    """There its lift acts (Glauert), so that the flow does not turn it."""
+    speeds = [10.0, 100.0, 1000.0, 10000.0]
+    section = stiff_in_bending().model_copy(update={"elastic_axis": 0.25})
+    found = stability(section, THIN, incidence_deg=0.0, speed=speeds, lags=ATTACHED)
+    assert (found["growth_rate"].values < 0.0).all()
+    ahead = section.model_copy(update={"elastic_axis": 0.2})
+    found = stability(ahead, THIN, incidence_deg=1.0, speed=speeds, lags=ATTACHED)
+    assert "divergence" not in found["mechanism"].values
+
+
+@pytest.mark.parametrize("axis", [0.2, 0.33, 0.7])
+def test_section_diverges_where_the_moment_about_its_axis_outgrows_the_spring(axis):
+    """k* = c_m' + x_ea (c_l' + c_d) at zero incidence, of a polar with drag."""
+    degrees = np.linspace(-20.0, 20.0, 161)
+    alpha = np.radians(degrees)
+    draggy = Polar(alpha, 0.4 + alpha**2, 4.0 * alpha, 1.5 * alpha, "draggy")
+    section = stiff_in_bending().model_copy(update={"elastic_axis": axis})
+    slope = 1.5 + (axis - 0.5) * (4.0 + 0.4)
+    onset = critical_speed(
+        section, draggy, incidence_deg=0.0, speed=(10.0, 400.0), density=DENSITY, lags=ATTACHED
+    )
+    assert float(onset["k_star"]) == pytest.approx(slope, rel=1e-4)
+    assert str(onset["mechanism"].values) == "divergence"
+
+
+@pytest.mark.parametrize("axis", [0.25, 0.4, 0.62])
+def test_equilibrium_about_an_axis_is_that_of_the_equations_of_motion(axis):
+    """The branch, which solves the statics of the polar, and Newton's method on the system."""
+    section = PLATE.model_copy(update={"elastic_axis": axis})
+    rigid = math.radians(3.0)
+    k_star = np.array([6.0, 12.0, 40.0])
+    flowing = [section.in_flow(DENSITY, speed_of(section, k)) for k in k_star]
+    system = section_system(flowing, UnsteadyLoads.from_polar(POLAR), rigid)
+    branch = StaticBranch.from_rest(POLAR, rigid, section.axis_behind_mid_chord)
+    alpha = branch.incidence(k_star)
+    states, _ = equilibrium(system)
+    np.testing.assert_allclose(states[:, 0], alpha - rigid, atol=2e-8)  # the polar's table
+    known, _ = section_equilibrium(system, alpha)
+    np.testing.assert_allclose(states[:, 2], known[:, 2], atol=2e-7)
+    normal = POLAR.lift_cubic(alpha) * np.cos(alpha)
+    normal += POLAR.drag_coefficient(alpha) * np.sin(alpha)
+    moment = POLAR.moment_cubic(alpha) + (axis - 0.5) * normal
+    np.testing.assert_allclose(k_star * (alpha - rigid), moment, atol=1e-8)
+
+
+def test_polar_about_another_point_is_the_formula_between_its_points_too():
+    alpha = np.linspace(*POLAR.incidence_range, 4001)
+    for axis in (-0.25, 0.1):
+        normal = POLAR.lift_cubic(alpha) * np.cos(alpha)
+        normal += POLAR._drag.cubic(alpha) * np.sin(alpha)
+        np.testing.assert_allclose(
+            POLAR.moment_cubic_about(axis)(alpha),
+            POLAR.moment_cubic(alpha) + axis * normal,
+            rtol=0,
+            atol=1e-11,
+        )
+    assert POLAR.moment_cubic_about(0.0) is POLAR.moment_cubic
 
 
 def test_incidence_beyond_the_polar_is_refused():

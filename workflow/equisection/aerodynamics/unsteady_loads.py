@@ -51,6 +51,9 @@ APPARENT_INERTIA = math.pi / 64
 """Moment against pitch acceleration: -(pi/64) theta''."""
 
 
+REAR_POINT = 0.25
+"""Chords from mid-chord back to the point whose incidence sets the circulation."""
+
 LEADING_EDGE_ARM = 0.25
 """Incidence of the leading edge against pitch rate: alpha_S = alpha_E - theta'/4."""
 
@@ -125,7 +128,7 @@ def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads) -> LoadHistory:
     step = motion.time_step
     pitch_rate = np.gradient(motion.incidence, step)
     heave_rate = np.gradient(motion.deflection, step)
-    rear = motion.incidence + 0.25 * pitch_rate - heave_rate
+    rear = motion.incidence + REAR_POINT * pitch_rate - heave_rate
     effective = IMMEDIATE_SHARE * rear
     for amplitude, rate in zip(JONES_AMPLITUDES, LAG_RATES, strict=True):
         effective = effective + amplitude * follow(rear, rate, step)

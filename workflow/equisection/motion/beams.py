@@ -101,6 +101,9 @@ class BeamParameters:
             imbalance=np.zeros((*torsion_inertia.shape, bending_mass.shape[1])),
             torsion_damping=np.zeros_like(torsion_inertia),
             bending_damping=np.zeros_like(bending_mass),
+            axis=np.zeros(inertia.size),
+            lift_factor=np.ones(inertia.size),
+            moment_factor=np.ones(inertia.size),
             induction=np.zeros((strips, strips)) if induction is None else induction,
         )
         return cls(

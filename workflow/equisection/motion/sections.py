@@ -1,10 +1,10 @@
 """Sections with two degrees of freedom, released from the rigid steady state.
 
-    I* theta'' - S* (w/c)'' + c_theta* theta' + k* theta = c_m
+    I* theta'' - S* (w/c)'' + c_theta* theta' + k* theta = c_m,ea
     m* (w/c)'' - S* theta'' + c_w* (w/c)'     + k_w* (w/c) = c_l
 
-with the unsteady loads of ``aerodynamics.unsteady_loads`` and the elastic axis at mid-chord; any
-number of cases in one run.
+with the unsteady loads of ``aerodynamics.unsteady_loads``, and the moment transferred from
+mid-chord to the elastic axis (``motion.strip_system``); any number of cases in one run.
 """
 
 from __future__ import annotations
@@ -45,6 +45,8 @@ class SectionHistories:
         w/c, d(w/c)/ds.
     lift_coefficient, moment_coefficient
         c_l, and c_m about the moving mid-chord.
+    axis_moment_coefficient
+        c_m about the elastic axis; None where that is mid-chord in all sections.
     samples
         Number of valid times of each section, shape (N,).
     failures
@@ -58,6 +60,7 @@ class SectionHistories:
     deflection_rate: Floats
     lift_coefficient: Floats
     moment_coefficient: Floats
+    axis_moment_coefficient: Floats | None
     samples: Indices
     failures: tuple[Failure, ...]
 
@@ -81,11 +84,10 @@ def section_system(
     Raises
     ------
     EquisectionError
-        A section is in SI units, or its elastic axis is not at mid-chord.
+        A section is in SI units.
     """
     for section in sections:
         section.require_in_flow()
-        section.require_defaults("the strip model", ["elastic_axis"])
     one = np.ones((1, 1))
     structure = StripStructure(
         torsion_shapes=one,
@@ -98,6 +100,9 @@ def section_system(
         imbalance=_column(sections, "static_imbalance")[:, :, None],
         torsion_damping=_column(sections, "torsional_damping"),
         bending_damping=_column(sections, "flexural_damping"),
+        axis=_column(sections, "axis_behind_mid_chord")[:, 0],
+        lift_factor=np.ones(len(sections)),
+        moment_factor=np.ones(len(sections)),
         induction=np.zeros((1, 1)),
     )
     return assemble(structure, loads, incidence_rad)
@@ -126,7 +131,10 @@ def release_sections(
     """
     system = section_system(sections, loads, incidence_rad)
     states = np.eye(4, system.rates.shape[2])[None].repeat(system.structure.lanes, axis=0)
-    outputs = np.concatenate([states, system.strip_loads], axis=1)
+    loads_of_strip = [system.strip_loads]
+    if system.structure.is_offset:
+        loads_of_strip.append(system.axis_moments)
+    outputs = np.concatenate([states, *loads_of_strip], axis=1)
     recording = march(
         system,
         rigid_state(system),
@@ -152,7 +160,7 @@ def _on_recording(monitor: SectionMonitor | None) -> Monitor | None:
 
 
 def _histories(recording: Recording) -> SectionHistories:
-    # rows: Theta, Theta', W, W' as in the layout of the states, then c_l, c_m
+    # rows: Theta, Theta', W, W' as in the layout of the states, then c_l, c_m and c_m,ea
     rows = np.moveaxis(recording.values[: recording.recorded], 2, 0)
     return SectionHistories(
         time=recording.time[: recording.recorded],
@@ -162,6 +170,7 @@ def _histories(recording: Recording) -> SectionHistories:
         deflection_rate=rows[3],
         lift_coefficient=rows[4],
         moment_coefficient=rows[5],
+        axis_moment_coefficient=rows[6] if len(rows) > 6 else None,
         samples=recording.samples,
         failures=tuple(recording.failures),
     )

@@ -236,7 +236,7 @@ class _Air:
     def points(self, incidence_deg: float, speeds: Floats) -> _Points:
         """Equilibrium and least stable motion at speeds (m/s)."""
         rigid = math.radians(incidence_deg)
-        branch = StaticBranch.from_rest(self.polar, rigid)
+        branch = StaticBranch.from_rest(self.polar, rigid, self.section.axis_behind_mid_chord)
         alpha = branch.incidence(self.k_star(speeds))
         system = section_system(
             [self.section.in_flow(self.density, float(speed)) for speed in speeds],

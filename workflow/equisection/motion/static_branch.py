@@ -1,7 +1,7 @@
 r"""Static equilibria of a section on the branch that comes from rest, and where it ends.
 
 A section is in equilibrium at the incidence alpha = theta_0 + theta where its spring carries the
-moment of the polar,
+moment of the polar about the elastic axis,
 
     k* (alpha - theta_0) = c_m(alpha),    k* = k_theta/(q c^2).
 
@@ -22,6 +22,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -60,6 +61,8 @@ class StaticBranch:
         What ends it there.
     k_star_end
         k* at its end, the least that it has; 0 where it has none.
+    axis
+        x_ea, chords from mid-chord back to the elastic axis.
     """
 
     polar: Polar
@@ -67,10 +70,15 @@ class StaticBranch:
     stop: float
     end: BranchEnd
     k_star_end: float
+    axis: float = 0.0
+
+    @cached_property
+    def _moment(self) -> PPoly:
+        return self.polar.moment_cubic_about(self.axis)
 
     @classmethod
-    def from_rest(cls, polar: Polar, incidence_rad: float) -> StaticBranch:
-        """Follow the branch from theta_0 (rad) to its end.
+    def from_rest(cls, polar: Polar, incidence_rad: float, axis: float = 0.0) -> StaticBranch:
+        """Follow the branch from theta_0 (rad) to its end, with the axis x_ea behind mid-chord.
 
         Raises
         ------
@@ -78,10 +86,10 @@ class StaticBranch:
             The polar does not cover theta_0.
         """
         polar.require(incidence_rad)
-        cubic = polar.moment_cubic
+        cubic = polar.moment_cubic_about(axis)
         moment = float(cubic(incidence_rad))
         if moment == 0.0:
-            return cls(polar, incidence_rad, incidence_rad, BranchEnd.NONE, 0.0)
+            return cls(polar, incidence_rad, incidence_rad, BranchEnd.NONE, 0.0, axis)
         way = math.copysign(1.0, moment)
         limit = polar.incidence_range[1 if way > 0 else 0]
         ends = {
@@ -92,7 +100,7 @@ class StaticBranch:
         end = min(ends, key=lambda each: way * ends[each])
         stop = ends[end]
         k_star_end = 0.0 if end is BranchEnd.NONE else float(cubic(stop)) / (stop - incidence_rad)
-        return cls(polar, incidence_rad, stop, end, k_star_end)
+        return cls(polar, incidence_rad, stop, end, k_star_end, axis)
 
     def incidence(self, k_star: ArrayLike) -> Floats:
         """Incidence alpha (rad) of equilibrium at k* (-), any shape; NaN beyond the end."""
@@ -104,14 +112,14 @@ class StaticBranch:
         way = math.copysign(1.0, self.stop - self.start)
         for _ in range(HALVINGS):
             middle = 0.5 * (near + far)
-            carried = way * (wanted * (middle - self.start) - self.polar.moment_cubic(middle))
+            carried = way * (wanted * (middle - self.start) - self._moment(middle))
             near = np.where(carried < 0.0, middle, near)
             far = np.where(carried < 0.0, far, middle)
         return np.where(wanted > self.k_star_end, 0.5 * (near + far), np.nan)
 
 
 def section_equilibrium(system: StripSystem, incidence_rad: Floats) -> tuple[Floats, Floats]:
-    """States Y (N, n) and deficits u (N, 2) of N sections in equilibrium at known incidences.
+    """States Y (N, n) and deficits u (N, d) of N sections in equilibrium at known incidences.
 
     Every lag has come to rest at alpha, and the springs carry lift and moment of the polar there.
 

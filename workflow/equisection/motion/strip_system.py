@@ -6,13 +6,28 @@ A section is one strip with one mode of each kind. A beam has S strips with
 
 and per mode, with the weights h_s of the strips (sum 1) and ' = d/ds,
 
-    I_i Theta_i'' - sum_j S_ij W_j''     + C_i Theta_i' + K_i Theta_i = sum_s h_s f_si c_m,s
+    I_i Theta_i'' - sum_j S_ij W_j''     + C_i Theta_i' + K_i Theta_i = sum_s h_s f_si c_m,ea,s
     m_j W_j''     - sum_i S_ij Theta_i'' + c_j W_j'     + k_j W_j     = sum_s h_s g_sj c_l,s.
 
 I_i, C_i, K_i are generalised inertia, damping and stiffness over (rho/2) c^4, (rho/2) V c^3 and
 q c^2, m_j, c_j, k_j over (rho/2) c^2, (rho/2) V c and q, the imbalances S_ij over (rho/2) c^3.
-With one strip they are those of the section (:mod:`equisection.beam.section`). The induced
-incidence is quasi-steady,
+With one strip they are those of the section (:mod:`equisection.beam.section`).
+
+The elastic axis is x_ea chords behind mid-chord. w is its deflection, so that mid-chord moves by
+w + x_ea theta, and with this the formulas of :mod:`equisection.aerodynamics.unsteady_loads` stay:
+alpha_34 has (1/4 - x_ea) theta', the apparent lift (pi/2) (theta' - w'' - x_ea theta''). The moment
+c_m about mid-chord is transferred to the axis with the force normal to the chord,
+
+    c_m,ea = c_m + x_ea (c_l + n(x)),    n(alpha) = c_l (cos alpha - 1) + c_d sin alpha,
+
+where n is that of the steady polar and follows the bubble, as the drag of separated flow does. At
+rest c_m,ea is therefore the polar's, and a section diverges where k* is the slope of
+c_m + x_ea (c_l cos alpha + c_d sin alpha): c_m' + x_ea (c_l' + c_d) at small incidence. With the
+slopes of a thin plate, no drag and no deficit this is Theodorsen's theory about x_ea (NACA Report
+496, a = 2 x_ea).
+
+The correction for the finite span multiplies c_l and n by one factor and c_m by another, before the
+transfer. The induced incidence is quasi-steady,
 
     alpha_i = D (a_l alpha_E - Delta_l(x)),
 
@@ -20,7 +35,8 @@ and is solved with the rest instead of lagging a step behind (docs/embedded.md o
 quasi-steady induced incidence leaves out).
 
 With the states Y = (Theta, Theta', W, W', z_1, z_2, y, c) and the deficits
-u = (Delta_l(x), Delta_m(x)) of all strips everything else is linear:
+u = (Delta_l(x), Delta_m(x)) of all strips, with n(x) where an axis is off mid-chord, everything
+else is linear:
 
     Y' = A Y + B u + e,    x = C Y + E u + g.
 
@@ -40,6 +56,7 @@ from equisection.aerodynamics.unsteady_loads import (
     APPARENT_INERTIA,
     APPARENT_MASS,
     LEADING_EDGE_ARM,
+    REAR_POINT,
     UnsteadyLoads,
 )
 
@@ -64,6 +81,10 @@ class StripStructure:
         S_ij, shape (N, n_t, n_b).
     torsion_damping, bending_damping
         C_i, shape (N, n_t), and c_j, shape (N, n_b).
+    axis
+        x_ea, chords from mid-chord back to the elastic axis, shape (N,).
+    lift_factor, moment_factor
+        Factors of c_l and of c_m about mid-chord (-), shape (N,): 1 without a correction.
     induction
         D (rad), shape (S, S); all zero for a section.
     """
@@ -78,7 +99,20 @@ class StripStructure:
     imbalance: Floats
     torsion_damping: Floats
     bending_damping: Floats
+    axis: Floats
+    lift_factor: Floats
+    moment_factor: Floats
     induction: Floats
+
+    @property
+    def is_offset(self) -> bool:
+        """Whether the elastic axis of a lane is off mid-chord."""
+        return bool(self.axis.any())
+
+    @property
+    def deficits_of_a_strip(self) -> int:
+        """Number d of deficits of a strip: Delta_l, Delta_m, and n off mid-chord."""
+        return 3 if self.is_offset else 2
 
     @property
     def lanes(self) -> int:
@@ -141,6 +175,8 @@ class StateLayout:
 class StripSystem:
     """The system Y' = A Y + B u + e of N lanes, with n states and columns [Y | u | 1].
 
+    A strip has d deficits (:attr:`StripStructure.deficits_of_a_strip`).
+
     Parameters
     ----------
     layout
@@ -150,11 +186,14 @@ class StripSystem:
     incidence
         theta_0 (rad), shape (N,).
     rates
-        [A | B | e], shape (N, n, n + 2 S + 1).
+        [A | B | e], shape (N, n, n + d S + 1).
     probe
-        [C | E | g], the incidences x of the bubbles, shape (N, S, n + 2 S + 1).
+        [C | E | g], the incidences x of the bubbles, shape (N, S, n + d S + 1).
     strip_loads
-        c_l and c_m of the strips, shape (N, 2 S, n + 2 S + 1).
+        c_l and c_m of the strips, without a correction, shape (N, 2 S, n + d S + 1); c_m is about
+        the moving mid-chord, wherever the axis is.
+    axis_moments
+        c_m,ea of the strips, those of the equations of motion, shape (N, S, n + d S + 1).
     """
 
     layout: StateLayout
@@ -164,19 +203,23 @@ class StripSystem:
     rates: Floats
     probe: Floats
     strip_loads: Floats
+    axis_moments: Floats
 
     def deficits(self, x: Floats) -> Floats:
-        """Deficits u, shape (N, 2 S), at bubble incidences x (rad), shape (N, S)."""
+        """Deficits u, shape (N, d S), at bubble incidences x (rad), shape (N, S)."""
         strips = x.shape[1]
-        u = np.empty((x.shape[0], 2 * strips))
-        u[:, :strips] = self.loads.branches.lift_deficit(x)
-        u[:, strips:] = self.loads.branches.moment_deficit(x)
+        branches = self.loads.branches
+        u = np.empty((x.shape[0], self.structure.deficits_of_a_strip * strips))
+        u[:, :strips] = branches.lift_deficit(x)
+        u[:, strips : 2 * strips] = branches.moment_deficit(x)
+        if self.structure.is_offset:
+            u[:, 2 * strips :] = branches.polar.normal_rise(x)
         return u
 
     def deficit_slopes(self, x: Floats) -> Floats:
-        """Slopes du/dx (1/rad) at x, by central differences, shape (N, 2 S, S)."""
+        """Slopes du/dx (1/rad) at x, by central differences, shape (N, d S, S)."""
         rise = self.deficits(x + SLOPE_HALF_STEP) - self.deficits(x - SLOPE_HALF_STEP)
-        own_strip = np.vstack([np.eye(x.shape[1])] * 2)
+        own_strip = np.vstack([np.eye(x.shape[1])] * self.structure.deficits_of_a_strip)
         return rise[:, :, None] / (2 * SLOPE_HALF_STEP) * own_strip
 
     def of(self, lanes: NDArray[np.bool_]) -> StripSystem:
@@ -187,6 +230,7 @@ class StripSystem:
             rates=self.rates[lanes],
             probe=self.probe[lanes],
             strip_loads=self.strip_loads[lanes],
+            axis_moments=self.axis_moments[lanes],
         )
 
 
@@ -213,22 +257,29 @@ def assemble(
         rate = 1.0 / lag if lag > 0.0 else 1.0  # without lag the state is not read
         rates[:, layout.lag(number)] = rate * (target - unit[layout.lag(number)])
     strip_loads = np.empty((lanes, 2 * strips, rows.columns))
-    shapes_g, shapes_f = structure.bending_shapes, structure.torsion_shapes
-    strip_loads[:, :strips] = rows.lift - APPARENT_MASS * (shapes_g @ deflection_acceleration)
-    strip_loads[:, strips:] = rows.moment - APPARENT_INERTIA * (shapes_f @ twist_acceleration)
-    probe = np.broadcast_to(rows.bubble, (lanes, *rows.bubble.shape)).copy()
+    rise = structure.torsion_shapes @ twist_acceleration
+    heave = structure.bending_shapes @ deflection_acceleration
+    axis = structure.axis[:, None, None]
+    strip_loads[:, :strips] = rows.lift - APPARENT_MASS * (heave + axis * rise)
+    strip_loads[:, strips:] = rows.moment - APPARENT_INERTIA * rise
+    axis_moments = structure.moment_factor[:, None, None] * strip_loads[:, strips:] + axis * (
+        structure.lift_factor[:, None, None] * (strip_loads[:, :strips] + rows.normal_rise)
+    )
+    probe = np.broadcast_to(rows.bubble, (lanes, *rows.bubble.shape[1:])).copy()
     constant = np.broadcast_to(np.asarray(incidence_rad, dtype=np.float64), (lanes,))
-    for matrix in (rates, probe, strip_loads):
+    for matrix in (rates, probe, strip_loads, axis_moments):
         matrix[:, :, -1] *= constant[:, None]
-    return StripSystem(layout, structure, loads, constant, rates, probe, strip_loads)
+    return StripSystem(layout, structure, loads, constant, rates, probe, strip_loads, axis_moments)
 
 
 @dataclass(frozen=True)
 class _StripRows:
-    """Linear expressions in [Y | u | theta_0] at the strips, each of shape (S, columns).
+    """Linear expressions in [Y | u | theta_0] at the strips.
 
-    ``rear`` is alpha_34, ``leading`` alpha_S, ``bubble`` x, ``target`` what the circulatory
-    lift c follows; ``lift`` and ``moment`` lack the terms with accelerations.
+    Each has the shape (N, S, columns), or (1, S, columns) where all lanes have one axis. ``rear``
+    is alpha_34, ``leading`` alpha_S, ``bubble`` x, ``target`` what the circulatory lift c follows;
+    ``lift`` and ``moment`` (about mid-chord) lack the terms with accelerations. ``normal_rise`` is
+    n(x), of shape (S, columns).
     """
 
     columns: int
@@ -238,19 +289,24 @@ class _StripRows:
     target: Floats
     lift: Floats
     moment: Floats
+    normal_rise: Floats
 
 
 def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyLoads) -> _StripRows:
     strips = layout.strips
-    columns = layout.size + 2 * strips + 1
+    columns = layout.size + structure.deficits_of_a_strip * strips + 1
     unit = np.eye(columns)
     lift_deficit = unit[layout.size : layout.size + strips]
     moment_deficit = unit[layout.size + strips : layout.size + 2 * strips]
+    normal_rise = (
+        unit[layout.size + 2 * strips : -1] if structure.is_offset else np.zeros((strips, columns))
+    )
     twist_rate = structure.torsion_shapes @ unit[layout.twist_rate]
+    axes = structure.axis[:1] if np.ptp(structure.axis) == 0.0 else structure.axis
     geometric = (
         unit[-1]
         + structure.torsion_shapes @ unit[layout.twist]
-        + 0.25 * twist_rate
+        + (REAR_POINT - axes[:, None, None]) * twist_rate
         - structure.bending_shapes @ unit[layout.deflection_rate]
     )
     lagging = sum(
@@ -269,10 +325,10 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
         follower = unit[layout.lag(2)]
         bubble = follower - (lags.delay / lags.relaxation) * (leading - follower)
     target = slope * effective - lift_deficit
-    circulatory = unit[layout.lag(3)] if lags.lift_lag > 0.0 else target
+    circulatory = unit[None, layout.lag(3)] if lags.lift_lag > 0.0 else target
     lift = circulatory + APPARENT_MASS * twist_rate
     moment = loads.branches.moment_slope * leading - moment_deficit
-    return _StripRows(columns, rear, leading, bubble, target, lift, moment)
+    return _StripRows(columns, rear, leading, bubble, target, lift, moment, normal_rise)
 
 
 def _accelerations(
@@ -282,34 +338,43 @@ def _accelerations(
     unit = np.eye(layout.size, rows.columns)
     weighted_f = structure.weights[:, None] * structure.torsion_shapes
     weighted_g = structure.weights[:, None] * structure.bending_shapes
-    inertia = _diagonal(structure.torsion_inertia) + APPARENT_INERTIA * (
-        weighted_f.T @ structure.torsion_shapes
+    axis, lift_factor, moment_factor = (
+        values[:, None, None]
+        for values in (structure.axis, structure.lift_factor, structure.moment_factor)
     )
-    mass = _diagonal(structure.bending_mass) + APPARENT_MASS * (
+    both_f = weighted_f.T @ structure.torsion_shapes
+    inertia = (
+        _diagonal(structure.torsion_inertia)
+        + moment_factor * APPARENT_INERTIA * both_f
+        + lift_factor * APPARENT_MASS * axis**2 * both_f
+    )
+    mass = _diagonal(structure.bending_mass) + lift_factor * APPARENT_MASS * (
         weighted_g.T @ structure.bending_shapes
     )
+    across = lift_factor * APPARENT_MASS * axis * (weighted_f.T @ structure.bending_shapes)
+    lift = lift_factor * rows.lift
     torque = (
-        weighted_f.T @ rows.moment
+        weighted_f.T
+        @ (moment_factor * rows.moment + axis * (lift + lift_factor * rows.normal_rise))
         - structure.torsion_stiffness[:, :, None] * unit[layout.twist]
         - structure.torsion_damping[:, :, None] * unit[layout.twist_rate]
     )
     force = (
-        weighted_g.T @ rows.lift
+        weighted_g.T @ lift
         - structure.bending_stiffness[:, :, None] * unit[layout.deflection]
         - structure.bending_damping[:, :, None] * unit[layout.deflection_rate]
     )
-    if structure.imbalance.any():
-        return _coupled(inertia, mass, structure.imbalance, torque, force)
+    if structure.imbalance.any() or structure.is_offset:
+        return _coupled(inertia, mass, across - structure.imbalance, torque, force)
     twist = np.asarray(np.linalg.solve(inertia, torque), dtype=np.float64)
     deflection = np.asarray(np.linalg.solve(mass, force), dtype=np.float64)
     return twist, deflection
 
 
 def _coupled(
-    inertia: Floats, mass: Floats, imbalance: Floats, torque: Floats, force: Floats
+    inertia: Floats, mass: Floats, across: Floats, torque: Floats, force: Floats
 ) -> tuple[Floats, Floats]:
-    """Theta'' and W'' of twist and deflection that the imbalance couples."""
-    across = -imbalance
+    """Theta'' and W'' of twist and deflection that imbalance and apparent mass couple."""
     matrix = np.concatenate(
         [
             np.concatenate([inertia, across], axis=2),

@@ -70,6 +70,8 @@ class UnsteadyResult:
         c_l and c_m about the moving mid-chord (2D), C_L and C_M (3D), shape (n,).
     incidence
         theta_0 + twist of the section or tip (rad), shape (n,).
+    axis_moment
+        c_m or C_M about the elastic axis where that is off mid-chord, shape (n,); else empty.
     torsion_amplitudes, bending_amplitudes
         Theta_i (rad) and W_i (chords), shape (modes, n); empty in 2D.
     torsion_loads, bending_loads
@@ -92,6 +94,7 @@ class UnsteadyResult:
     moment: NDArray[np.float64]
     incidence: NDArray[np.float64]
     verdict: dict[str, str | float | int]
+    axis_moment: NDArray[np.float64] = field(default_factory=lambda: np.empty(0))
     torsion_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     bending_amplitudes: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     torsion_loads: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
@@ -114,6 +117,9 @@ class UnsteadyResult:
             "cm": (self.moment, "1", "moment coefficient about the moving mid-chord, nose up"),
             "incidence": (self.incidence, "rad", "rigid incidence plus twist"),
         }
+        if self.axis_moment.size:
+            text = "moment coefficient about the elastic axis, nose up"
+            data["cm_axis"] = (self.axis_moment, "1", text)
         variables = {
             name: (("time",), values, {"units": units, "long_name": text})
             for name, (values, units, text) in data.items()

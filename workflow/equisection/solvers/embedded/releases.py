@@ -139,6 +139,8 @@ def _section_result(
     end = int(histories.samples[lane])
     tip = _section_tip(histories, section, lane, slice(end))
     twist = histories.twist[:end, lane]
+    about_axis = histories.axis_moment_coefficient
+    is_offset = about_axis is not None and section.axis_behind_mid_chord != 0.0
     return UnsteadyResult(
         time=tip.time,
         twist=twist,
@@ -149,6 +151,7 @@ def _section_result(
         moment=histories.moment_coefficient[:end, lane],
         incidence=incidence_rad + twist,
         verdict=judge.attributes(tip, _failure(histories.failures, lane)),
+        axis_moment=about_axis[:end, lane] if is_offset and about_axis is not None else np.empty(0),
     )
 
 
