@@ -229,6 +229,21 @@ def test_motion_described_from_another_axis_has_the_same_flow():
         np.testing.assert_allclose(rows[0] @ here[0], others[0] @ seen[0], rtol=1e-12, atol=1e-14)
 
 
+def test_factor_of_the_loads_is_its_inverse_on_mass_spring_and_damper():
+    """Eq. 20 the other way round, where nothing couples the rows but the air."""
+    (plain,) = plate_sections(8.0)
+    lift, moment = 0.7, 0.8
+    members = {"lift": ("mass", "flexural_stiffness"), "moment": ("inertia", "torsional_stiffness")}
+    factors = {"lift": lift, "moment": moment}
+    corrected = {
+        name: getattr(plain, name) / factors[load] for load in members for name in members[load]
+    }
+    scaled = section_system([Section(**{**dict(plain), **corrected})], measured(), INCIDENCE)
+    loaded = section_system([plain], measured(), INCIDENCE, np.array([[lift, moment]]))
+    np.testing.assert_allclose(loaded.rates, scaled.rates, rtol=1e-12, atol=1e-13)
+    np.testing.assert_allclose(loaded.strip_loads, scaled.strip_loads, rtol=1e-12, atol=1e-13)
+
+
 def test_sections_with_other_axes_run_together():
     (plain,) = plate_sections(8.0)
     mixed = [plain, offset(plain, 0.33, 3.0), offset(plain, 0.6)]

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.optimize import brentq
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
@@ -17,7 +18,7 @@ from equisection.errors import ArgumentError, IncidenceOutOfRangeError
 from equisection.motion.sections import section_system
 from equisection.motion.stability import critical_speed, stability
 from equisection.motion.static_branch import BranchEnd, StaticBranch, section_equilibrium
-from equisection.motion.steady_states import equilibrium, jacobian
+from equisection.motion.steady_states import equilibrium, jacobian, least_stable_eigenvalue
 
 POLARS = Path(__file__).parents[2] / "config/polars"
 POLAR = Polar.read(POLARS / "plate_2d_11136.csv")
@@ -398,6 +399,21 @@ def test_speeds_of_sections_with_their_axes_apart(section, density, jones, exact
     if jones is not None:
         assert float(onset["critical_speed"]) == pytest.approx(jones, rel=5e-5)
     assert str(onset["mechanism"].values) == mechanism
+
+
+def test_flutter_of_goland_under_the_loads_of_a_finite_wing():
+    """Loads over 1.449 (c_l) and 1.290 (c_m about mid-chord): 148.5 m/s by an independent code.
+
+    That is with C(k) exact. A factor on the moment about the axis would give 154.4 m/s.
+    """
+
+    def growth(speed: float) -> float:
+        flowing = [goland().in_flow(1.225, speed)]
+        factors = np.array([[1 / 1.449, 1 / 1.290]])
+        loads = UnsteadyLoads.from_polar(THIN, ATTACHED)
+        return float(least_stable_eigenvalue(section_system(flowing, loads, 0.0, factors))[0].real)
+
+    assert brentq(growth, 120.0, 180.0) == pytest.approx(148.5, rel=0.01)
 
 
 def test_thin_plate_with_its_axis_at_the_quarter_chord_never_diverges():

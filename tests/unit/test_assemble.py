@@ -328,14 +328,25 @@ def test_what_a_section_has_beyond_its_springs_is_put_into_its_case(
 
 
 @pytest.mark.parametrize(("member", "value"), [("static_imbalance", 1e-3), ("elastic_axis", 0.3)])
-def test_correction_of_a_section_with_an_offset_is_refused_in_its_case(
+def test_correction_of_a_section_with_an_offset_is_that_of_its_loads(
     member: str, value: float, data: dict[str, xr.Dataset]
 ) -> None:
     """Eq. 20 scales rows, and rows of other scales that share an imbalance are no body."""
     equivalent = data["equivalent"].assign({member: ("reduction", [value, value])})
-    refused = case("2d-corrected", 9.0, {**data, "equivalent": equivalent})
-    assert refused.section is None
-    assert f"the correction for the finite span takes no section with {member}" in refused.refusal
+    both = {**data, "equivalent": equivalent}
+    plain, corrected = (case(name, 9.0, both) for name in ("2d", "2d-corrected"))
+    assert corrected.section == plain.section
+    assert (plain.lift_factor, plain.moment_factor) == (1.0, 1.0)
+    assert 0.3 < corrected.lift_factor < 1.0
+    assert 0.3 < corrected.moment_factor < 1.0
+    scaled = case("2d-corrected", 9.0, data)
+    assert scaled.section is not None
+    assert plain.section is not None
+    if member == "static_imbalance":  # the same equilibrium, and so the same factors
+        assert 1 / corrected.lift_factor == pytest.approx(scaled.section.mass / plain.section.mass)
+    assert "lift_factor" not in plain.model_dump()
+    assert "lift_factor" not in scaled.model_dump()
+    assert UnsteadyCase.model_validate_json(corrected.model_dump_json()) == corrected
 
 
 def test_section_in_the_flow_is_the_one_in_si_units(data: dict[str, xr.Dataset]) -> None:

@@ -151,6 +151,11 @@ class Section(BaseModel):
         """Chords from mid-chord back to the elastic axis, x_ea (-)."""
         return self.elastic_axis - 0.5
 
+    @property
+    def has_offset(self) -> bool:
+        """Whether its centre of mass is off the elastic axis, or the axis off mid-chord."""
+        return self.static_imbalance != 0.0 or self.axis_behind_mid_chord != 0.0
+
     def in_flow(self, density: float, speed: float) -> Section:
         """Return the section in units of rho/2, V and c: k*, k_w*, I*, m* and the rest.
 

@@ -6,9 +6,15 @@ share its result, and nothing that was edited around the solver asks for a new o
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    SerializerFunctionWrapHandler,
+    model_serializer,
+    model_validator,
+)
 
 from equisection.beam.section import Section
 
@@ -16,9 +22,21 @@ SCHEMA_VERSION = 1
 
 
 class Block(BaseModel):
-    """Base of the parts of a case."""
+    """Base of the parts of a case.
+
+    Fields in ``left_out`` are not written down at their defaults, so that cases from before they
+    were there keep their hashes.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+    left_out: ClassVar[frozenset[str]] = frozenset()
+
+    @model_serializer(mode="wrap")
+    def _without_defaults(self, dump: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        values: dict[str, Any] = dump(self)
+        fields = type(self).model_fields
+        at_default = {n for n in self.left_out if getattr(self, n) == fields[n].default}
+        return {name: value for name, value in values.items() if name not in at_default}
 
 
 class SolverBlock(Block):
@@ -117,9 +135,13 @@ class EndCriteria(Block):
 class UnsteadyCase(Case):
     """Free section (`2d`) or free beam (`3d`), released from the rigid steady state."""
 
+    left_out = frozenset({"lift_factor", "moment_factor"})
+
     kind: Literal["unsteady"] = "unsteady"
     k_star: float  # structural, uncorrected
     section: Section | None = None  # in its flow; the corrected one in `2d-corrected`
+    lift_factor: float = 1.0  # of c_l, where the correction is of the loads and not of the section
+    moment_factor: float = 1.0  # of c_m about mid-chord, the same
     beam: BeamModes | None = None
     duration: float  # c/V
     time_step: float  # c/V

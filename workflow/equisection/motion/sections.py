@@ -46,7 +46,7 @@ class SectionHistories:
     lift_coefficient, moment_coefficient
         c_l, and c_m about the moving mid-chord.
     axis_moment_coefficient
-        c_m about the elastic axis; None where that is mid-chord in all sections.
+        c_m about the elastic axis, with the load factors; None where all axes are at mid-chord.
     samples
         Number of valid times of each section, shape (N,).
     failures
@@ -70,7 +70,10 @@ SectionMonitor = Callable[[SectionHistories, Indices], Indices]
 
 
 def section_system(
-    sections: Sequence[Section], loads: UnsteadyLoads, incidence_rad: float | Floats
+    sections: Sequence[Section],
+    loads: UnsteadyLoads,
+    incidence_rad: float | Floats,
+    load_factors: Floats | None = None,
 ) -> StripSystem:
     """System of N sections at rigid incidence theta_0 (rad), one value or one per section.
 
@@ -80,6 +83,8 @@ def section_system(
         The sections in their flow (:meth:`equisection.beam.section.Section.in_flow`).
     loads, incidence_rad
         What they are in.
+    load_factors
+        Factors of c_l and of c_m about mid-chord (-), shape (N, 2); None for 1.
 
     Raises
     ------
@@ -89,6 +94,7 @@ def section_system(
     for section in sections:
         section.require_in_flow()
     one = np.ones((1, 1))
+    factors = np.ones((len(sections), 2)) if load_factors is None else load_factors
     structure = StripStructure(
         torsion_shapes=one,
         bending_shapes=one,
@@ -101,8 +107,8 @@ def section_system(
         torsion_damping=_column(sections, "torsional_damping"),
         bending_damping=_column(sections, "flexural_damping"),
         axis=_column(sections, "axis_behind_mid_chord")[:, 0],
-        lift_factor=np.ones(len(sections)),
-        moment_factor=np.ones(len(sections)),
+        lift_factor=factors[:, 0],
+        moment_factor=factors[:, 1],
         induction=np.zeros((1, 1)),
     )
     return assemble(structure, loads, incidence_rad)
@@ -119,6 +125,7 @@ def release_sections(
     incidence_rad: float | Floats,
     duration: float,
     *,
+    load_factors: Floats | None = None,
     time_step: float = SECTION_TIME_STEP,
     output_interval: float = OUTPUT_INTERVAL,
     monitor: SectionMonitor | None = None,
@@ -126,10 +133,11 @@ def release_sections(
 ) -> SectionHistories:
     """Release N sections, at rest and untwisted, from steady flow at theta_0 (rad).
 
-    ``duration``, ``time_step`` and ``output_interval`` are convective times. A section whose
+    ``load_factors`` are those of :func:`section_system`; the loads of the histories are without
+    them. ``duration``, ``time_step`` and ``output_interval`` are convective times. A section whose
     bubble leaves the polar ends there and is named in ``failures``; the others go on.
     """
-    system = section_system(sections, loads, incidence_rad)
+    system = section_system(sections, loads, incidence_rad, load_factors)
     states = np.eye(4, system.rates.shape[2])[None].repeat(system.structure.lanes, axis=0)
     loads_of_strip = [system.strip_loads]
     if system.structure.is_offset:

@@ -18,7 +18,16 @@ at the aeroelastic equilibrium, where the corrected section obeys
     (c_m/C_M) k* theta = c_m(theta_0 + theta)     or     k* theta = C_M(theta_0 + theta),
     (c_l/C_L) k_w* w/c = c_l(theta_0 + theta)     or     k_w* w/c = C_L(theta_0 + theta),
 
-so the equilibrium follows from the beam's polar alone. Of several roots the one is taken that is
+so the equilibrium follows from the beam's polar alone.
+
+A section with an imbalance couples both rows, and one factor on each would leave no body; about an
+axis off mid-chord c_m,ea/C_M,ea means nothing near the quarter chord, where both vanish. Of such a
+section the loads are multiplied instead, by C_L/c_l and by C_M/c_m about mid-chord, before the
+moment is transferred to the axis x_ea chords behind mid-chord. Its equilibrium is at
+
+    k* theta = C_M + x_ea (C_L cos alpha + C_D sin alpha).
+
+Of several roots the one is taken that is
 met first when theta grows from zero in the direction of the moment. There k* exceeds the slope
 of C_M: it is statically stable. No root inside the polar means divergence, or a short polar.
 Without a moment at theta_0 the section stays there, or diverges where k* does not exceed the slope;
@@ -115,7 +124,11 @@ class CorrectedEquilibrium:
 
 
 def corrected_equilibrium(
-    factors: CorrectionFactors, incidence_rad: float, k_star: ArrayLike, stiffness_ratio: float
+    factors: CorrectionFactors,
+    incidence_rad: float,
+    k_star: ArrayLike,
+    stiffness_ratio: float,
+    axis: float = 0.0,
 ) -> CorrectedEquilibrium:
     """Find the static equilibrium of the corrected section, and the factors there.
 
@@ -129,6 +142,8 @@ def corrected_equilibrium(
         k* (1), scalar or shape (m,).
     stiffness_ratio
         c^2 k_w/k_theta = k_w*/k* (1).
+    axis
+        x_ea, chords from mid-chord back to the elastic axis.
 
     Raises
     ------
@@ -142,7 +157,7 @@ def corrected_equilibrium(
     stiffness = np.atleast_1d(np.asarray(k_star, dtype=np.float64))
     section, beam = factors.section.continued, factors.beam.continued
     beam.require(incidence_rad)
-    twist = np.array([_first_twist(beam, incidence_rad, float(k)) for k in stiffness])
+    twist = np.array([_first_twist(beam, incidence_rad, float(k), axis) for k in stiffness])
     incidence = incidence_rad + twist
     lift_factor, moment_factor = factors.lift_factor(incidence), factors.moment_factor(incidence)
     _require_factor(lift_factor, section.lift_cubic, beam.lift_cubic, incidence, "C_L")
@@ -192,7 +207,7 @@ def _vanishes_at_zero(curve: PchipInterpolator) -> bool:
     return _is_nil(curve, 0.0)
 
 
-def _is_nil(curve: PchipInterpolator, alpha: float) -> bool:
+def _is_nil(curve: PPoly, alpha: float) -> bool:
     """Tell whether a curve vanishes at ``alpha`` (rad), but for what a solver leaves of zero."""
     return is_nil(float(curve(alpha)), curve(curve.x))
 
@@ -214,9 +229,9 @@ def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
     return secant
 
 
-def _first_twist(beam: Polar, incidence_rad: float, k_star: float) -> float:
+def _first_twist(beam: Polar, incidence_rad: float, k_star: float, axis: float) -> float:
     """First root theta of k* theta = C_M(theta_0 + theta) from zero on (rad)."""
-    cubic = beam.moment_cubic
+    cubic = beam.moment_cubic_about(axis)
     moment, slope = float(cubic(incidence_rad)), float(cubic(incidence_rad, 1))
     if _is_nil(cubic, incidence_rad):
         if k_star > slope:
@@ -233,12 +248,13 @@ def _first_twist(beam: Polar, incidence_rad: float, k_star: float) -> float:
     twists = (roots - incidence_rad) * np.sign(moment)
     ahead = twists[twists > 0]
     if ahead.size == 0:
-        raise _no_equilibrium(beam, incidence_rad, k_star)
+        raise _no_equilibrium(beam, cubic, incidence_rad, k_star)
     return float(np.min(ahead) * np.sign(moment))
 
 
-def _no_equilibrium(beam: Polar, incidence_rad: float, k_star: float) -> ReductionError:
-    cubic = beam.moment_cubic
+def _no_equilibrium(
+    beam: Polar, cubic: PPoly, incidence_rad: float, k_star: float
+) -> ReductionError:
     end = beam.incidence_range[0 if cubic(incidence_rad) < 0 else 1]
     has_a_way = abs(end - incidence_rad) > _NO_WAY
     if has_a_way and float(cubic(end, 1)) >= k_star:  # the gap still widens where the polar ends

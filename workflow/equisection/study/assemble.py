@@ -94,11 +94,12 @@ def unsteady_case(
     """
     stiffness_scale = k_star / k_star_as_given(config, data["equivalent"])
     section, beam, refusal, diverges = None, None, "", False
+    factors = (1.0, 1.0)
     if model.dimension == "3d":
         beam = _beam_modes(config, data["modes"], stiffness_scale)
     else:
         try:
-            section = _section(config, model, data, stiffness_scale)
+            section, factors = _section(config, model, data, stiffness_scale)
         except EquisectionError as error:
             refusal = str(error)
             diverges = isinstance(error, DivergenceError)
@@ -111,6 +112,8 @@ def unsteady_case(
         geometry=_geometry(config),
         medium=_medium(config),
         section=section,
+        lift_factor=factors[0],
+        moment_factor=factors[1],
         beam=beam,
         duration=unsteady.duration,
         time_step=unsteady.time_step,
@@ -172,37 +175,41 @@ def k_star_as_given(config: Config, equivalent: xr.Dataset) -> float:
 
 def _section(
     config: Config, model: Model, data: Mapping[str, xr.Dataset], stiffness_scale: float
-) -> Section:
-    """Return the section of a model in the flow."""
+) -> tuple[Section, tuple[float, float]]:
+    """Return the section of a model in the flow, and the factors of its c_l and c_m."""
     reduction: Reduction = "paper" if model.reduction == "paper" else "consistent"
     section = section_from_dataset(data["equivalent"], reduction).scaled(stiffness_scale)
     in_flow = section.in_flow(config.flow.density, config.flow.speed)
-    return _corrected(config, in_flow, data["correction"]) if model.corrected else in_flow
+    return _corrected(config, in_flow, data["correction"]) if model.corrected else (in_flow, (1, 1))
 
 
-def _corrected(config: Config, section: Section, correction: xr.Dataset) -> Section:
-    """Return the section (in the flow) with the factors of Eq. 20 at the aeroelastic equilibrium.
+def _corrected(
+    config: Config, section: Section, correction: xr.Dataset
+) -> tuple[Section, tuple[float, float]]:
+    """Return a section (in the flow) corrected by Eq. 20 at the aeroelastic equilibrium.
+
+    The factors multiply its masses and stiffnesses; where it has an imbalance or its axis off
+    mid-chord they divide its loads instead, and come back beside it as factors of c_l and c_m
+    (:mod:`equisection.reduction.correction`).
 
     Raises
     ------
-    EquisectionError
-        The section has an imbalance or its axis off mid-chord: with a factor on each row it would
-        be no body, or have its moment about another point.
     ReductionError
         There is no equilibrium inside the polars.
     """
-    offsets = ("static_imbalance", "elastic_axis")
-    section.require_defaults("the correction for the finite span", offsets)
     equilibrium = corrected_equilibrium(
         factors_from_dataset(correction),
         math.radians(config.flow.incidence_deg),
         section.torsional_stiffness,
         section.stiffness_ratio,
+        section.axis_behind_mid_chord,
     )
     lift_factor, moment_factor = (
         float(factor[0]) for factor in (equilibrium.lift_factor, equilibrium.moment_factor)
     )
-    return Section(
+    if section.has_offset:
+        return section, (1.0 / lift_factor, 1.0 / moment_factor)
+    corrected = Section(
         torsional_stiffness=moment_factor * section.torsional_stiffness,
         flexural_stiffness=lift_factor * section.flexural_stiffness,
         inertia=moment_factor * section.inertia,
@@ -212,6 +219,7 @@ def _corrected(config: Config, section: Section, correction: xr.Dataset) -> Sect
         twist_recovery=section.twist_recovery,
         deflection_recovery=section.deflection_recovery,
     )
+    return corrected, (1.0, 1.0)
 
 
 def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> BeamModes:

@@ -202,7 +202,7 @@ def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:
     """Group cases that differ in their structure's numbers alone, a bounded number at a time."""
 
     def what_they_share(case: UnsteadyCase) -> str:
-        shared = case.model_dump(exclude={"k_star", "section"})
+        shared = case.model_dump(exclude={"k_star", "section", "lift_factor", "moment_factor"})
         for lane in ("torsion_frequency", "bending_frequency"):
             (shared["beam"] or {}).pop(lane, None)
         return json.dumps(shared, sort_keys=True)

@@ -37,7 +37,9 @@ def release_judged(
     judges: Sequence[Judge],
     loads: UnsteadyLoads,
     settings: ReleaseSettings,
+    *,
     progress: Progress | None = None,
+    load_factors: Floats | None = None,
 ) -> list[UnsteadyResult]:
     """Release sections in their flow, each until its own judge has decided.
 
@@ -51,13 +53,20 @@ def release_judged(
         What they share.
     progress
         Called with the time that has been reached and the last one.
+    load_factors
+        Factors of c_l and c_m of each (:func:`equisection.motion.sections.section_system`).
     """
 
     def tip_of(histories: SectionHistories, lane: int, part: slice) -> TipMotion:
         return _section_tip(histories, sections[lane], lane, part)
 
     histories = release_sections(
-        sections, loads, **settings, monitor=monitor_of(judges, tip_of), progress=progress
+        sections,
+        loads,
+        **settings,
+        load_factors=load_factors,
+        monitor=monitor_of(judges, tip_of),
+        progress=progress,
     )
     return [
         _section_result(histories, section, judge, lane, settings["incidence_rad"])
@@ -71,7 +80,11 @@ def release_all_sections(
     """Release the sections of some cases that share all but their structure."""
     sections = [case.section for case in cases if case.section]
     judges = [Judge.of(case) for case in cases]
-    return release_judged(sections, judges, loads, _common_settings(cases[0]), progress)
+    factors = np.array([(case.lift_factor, case.moment_factor) for case in cases])
+    settings = _common_settings(cases[0])
+    return release_judged(
+        sections, judges, loads, settings, progress=progress, load_factors=factors
+    )
 
 
 def release_all_beams(
