@@ -171,3 +171,32 @@ class TestFromYaml:
     def test_missing_file(self, file):
         with pytest.raises(ConfigError, match=r"my-beam\.yaml: cannot be read \(No such file"):
             Beam.from_yaml(file)
+
+
+def test_inertia_of_a_plate_on_an_axis_elsewhere_is_moved_there():
+    """Steiner: rho_s c^3 h/12 + m d^2, and S = m d."""
+    on_axis = Beam(elastic_axis=0.3)
+    distance = 0.2 * on_axis.chord
+    assert on_axis.axes_apart == pytest.approx(distance)
+    assert on_axis.imbalance_per_length == pytest.approx(0.472 * distance)
+    assert on_axis.inertia_per_length == pytest.approx(
+        PAPER.inertia_per_length + 0.472 * distance**2
+    )
+    assert on_axis.axes_in_words == ("elastic axis at 30 % and centre of mass at 50 % of the chord")
+    assert PAPER.imbalance_per_length == 0.0
+
+
+def test_inertia_as_given_is_that_about_the_elastic_axis():
+    section = {**DECK, "inertia_per_length": 2.47e6}
+    deck = Beam(
+        chord=31.0,
+        length=1624.0,
+        thickness=4.0,
+        cross_section=section,
+        elastic_axis=0.45,
+        mass_axis=0.5,
+    )
+    assert deck.inertia_per_length == 2.47e6
+    assert deck.imbalance_per_length == pytest.approx(22740.0 * 0.05 * 31.0)
+    with pytest.raises(ValueError, match=r"inertia_per_length: .* above m d2 = "):
+        Beam(**{**dict(deck), "mass_axis": 0.9})

@@ -29,7 +29,62 @@ DECK = {
     "inertia_per_length": 2.5e6,
 }
 #: The configuration, the key's path, the value as shown, and what is allowed.
+AXES = {"beam": {"cross_section": DECK, "chord": 31, "length": 900, "thickness": 4}}
 MALFORMED = [
+    # axes and damping
+    (
+        {"beam": {"elastic_axis": 33}},
+        "beam.elastic_axis",
+        "33",
+        "write 0.33 for an axis at 33 % of the chord",
+    ),
+    (
+        {"beam": {"mass_axis": "43"}},
+        "beam.mass_axis",
+        "43",
+        "write 0.43 for a centre of mass at 43 % of the chord",
+    ),
+    (
+        {"beam": {"elastic_axis": -0.17}},
+        "beam.elastic_axis",
+        "-0.17",
+        "counted from mid-chord it would be an axis at 33 % of the chord, 0.33",
+    ),
+    ({"beam": {"elastic_axis": 600}}, "beam.elastic_axis", "600", "a number from 0 to 1"),
+    ({"beam": {"elastic_axis": "33 %"}}, "beam.elastic_axis", "'33 %'", "without its unit"),
+    ({"beam": {"elastic_axis": 0.33}}, "beam.elastic_axis", "0.33", "structure.method 'solid' is"),
+    (
+        {"beam": {"mass_axis": 0.43}, "structure": {"method": "beam"}},
+        "beam.mass_axis",
+        "0.43",
+        "allowed is 0.5 without beam.cross_section",
+    ),
+    (
+        {
+            "beam": {**AXES["beam"], "mass_axis": 0.9},
+            "structure": {"method": "beam"},
+            "embedded": {"polars": {"coarse": "flat-plate"}},
+        },
+        "beam.cross_section.inertia_per_length",
+        "2.5e+06",
+        "above m d2 = 3.497e+06 kg m2/m: it is about the elastic axis, at 50 % of the chord, and "
+        "the centre of mass is at 90 %",
+    ),
+    (
+        {"beam": {"damping": {"torsion": -0.01}}},
+        "beam.damping.torsion",
+        "-0.01",
+        "of at least 0 and below 0.2",
+    ),
+    ({"beam": {"damping": {"bending": 0.2}}}, "beam.damping.bending", "0.2", "and below 0.2"),
+    ({"beam": {"damping": 0.01}}, "beam.damping", "0.01", "the keys bending, torsion"),
+    (
+        {"beam": {"damping": {"bending": 0.01}}, "solver": "openfoam"},
+        "beam.damping.bending",
+        "0.01",
+        "with solver 'openfoam' is 0",
+    ),
+    ({"embedded": {"moment_axis": 25}}, "embedded.moment_axis", "25", "from 0 to 1, or null"),
     # numbers
     ({"beam": {"chord": -0.1}}, "beam.chord", "-0.1", "a number above 0"),
     ({"beam": {"chord": 0}}, "beam.chord", "0", "a number above 0"),

@@ -11,6 +11,7 @@ import pytest
 
 from equisection.config import load_config
 from equisection.errors import ConfigError
+from equisection.solvers.embedded.adapter import read_section_polar
 from equisection.study.given_polars import check_polars
 
 ROOT = Path(__file__).parents[2]
@@ -65,3 +66,38 @@ def test_looking_at_polars_loads_no_numerics() -> None:
         [sys.executable, "-c", code], capture_output=True, text=True, check=True
     ).stdout
     assert said.strip() == "False"
+
+
+LEVEL = "incidence_deg,cl,cm,cd\n0,0,0,0.01\n4,0.42,-0.004,0.01\n8,0.8,-0.01,0.02\n12,1,-0.03,0.1\n"
+
+
+def test_moments_that_may_be_about_the_quarter_chord_are_not_taken_silently(tmp_path: Path) -> None:
+    (tmp_path / "airfoil.csv").write_text(LEVEL)
+    raw: dict[str, Any] = {"embedded": {"polars": {"coarse": "airfoil.csv"}}}
+    (line,) = lines_of(raw, tmp_path)
+    assert line.startswith("config: embedded.polars.coarse: 'airfoil.csv': allowed is such a polar")
+    assert "its lift rises by 6 per rad and its moment by -0.057 only" in line
+    for axis in (0.25, 0.5):
+        raw["embedded"]["moment_axis"] = axis
+        check_polars(load_config(raw), tmp_path)
+
+
+def test_moment_axis_is_that_of_the_polar_that_the_solver_reads(tmp_path: Path) -> None:
+    """About mid-chord c_m = c_m,1/4 + (c_l cos alpha + c_d sin alpha)/4."""
+    (tmp_path / "airfoil.csv").write_text(LEVEL)
+    path = str(tmp_path / "airfoil.csv")
+    raw = {"embedded": {"polars": {"coarse": path}, "moment_axis": 0.25}}
+    polar = read_section_polar(load_config(raw).embedded, "coarse")
+    angle = math.radians(8)
+    normal = 0.8 * math.cos(angle) + 0.02 * math.sin(angle)
+    assert float(polar.moment_cubic(angle)) == pytest.approx(-0.01 + normal / 4)
+
+
+def test_moment_axis_that_a_format_has_elsewhere_is_refused(tmp_path: Path) -> None:
+    points = "".join(f"  {a} {0.1 * a} 0.01 0.005 {-0.001 * a}\n" for a in range(0, 10, 2))
+    (tmp_path / "a.pol").write_text(f"XFOIL\n alpha CL CD CDp CM\n ------\n{points}")
+    raw: dict[str, Any] = {"embedded": {"polars": {"coarse": "a.pol"}}}
+    check_polars(load_config(raw), tmp_path)
+    raw["embedded"]["moment_axis"] = 0.5
+    (line,) = lines_of(raw, tmp_path)
+    assert "moment_axis is 0.5, but moments of XFOIL are about 0.25" in line

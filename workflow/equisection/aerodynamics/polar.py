@@ -24,14 +24,11 @@ from numpy.typing import ArrayLike, NDArray
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from equisection.conventions import SYMMETRY_TOLERANCE
-from equisection.errors import IncidenceOutOfRangeError, PolarFileError
+from equisection.errors import IncidenceOutOfRangeError
 from equisection.io.formats import read_rows
-from equisection.io.polar_rows import PolarFormat
+from equisection.io.polar_rows import MID_CHORD
 
 Floats = NDArray[np.float64]
-
-MID_CHORD = 0.5
-"""x/c from the leading edge of the point that every polar here has its moment about."""
 
 TABLE_STEP = 1e-4
 """Step h of the reading table (rad), 0.0057 deg."""
@@ -175,7 +172,7 @@ class Polar:
         """
         path = Path(path)
         points = read_rows(path, symmetric)
-        axis = _moment_axis(path, points.format, moment_axis)
+        axis = points.format.axis_of(path, moment_axis)
         incidence_deg, lift, moment, drag = np.array([row.values for row in points.rows]).T
         incidence = np.radians(incidence_deg)
         if axis != MID_CHORD:
@@ -339,21 +336,3 @@ class Polar:
         """dc_m/dalpha (1/rad) at ``alpha`` (rad), about mid-chord, nose up."""
         self.require(alpha)
         return self._moment.slope(alpha)
-
-
-def _moment_axis(path: Path, known: PolarFormat, given: float | None) -> float:
-    """Return x/c of the point that the moments of a file are about."""
-    if given is not None and not 0.0 <= given <= 1.0:
-        raise PolarFileError(
-            f"{path}: moment_axis is {given!r}; wanted x/c from the leading edge, from 0 to 1 "
-            "(0.25 for the quarter chord)"
-        )
-    if known.moment_axis is None:
-        return MID_CHORD if given is None else given
-    if given is not None and given != known.moment_axis:
-        raise PolarFileError(
-            f"{path}: moment_axis is {given:g}, but moments of {known.name} are about "
-            f"{known.moment_axis:g}; leave moment_axis out, or give a CSV file with the moments "
-            "that you mean"
-        )
-    return known.moment_axis

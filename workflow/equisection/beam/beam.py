@@ -1,7 +1,8 @@
 """The beam: a flat plate or a cross-section as given, and how its two ends are held.
 
 It is the section ``beam`` of the configuration too, whose keys are its members, in SI units. It is
-homogeneous, of a rectangular section, unless ``cross_section`` says what its section is.
+homogeneous, of a rectangular section, unless ``cross_section`` says what its section is. Elastic
+axis and mass axis are parallel lines along the span, each at a part of the chord.
 
 Each boundary is a pair of end conditions for bending and one for torsion. A *fork* holds the
 deflection and the twist of a section and leaves its bending slope free, which is what a pinned
@@ -15,12 +16,12 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Annotated, Literal, get_args
 
-from pydantic import Field, ValidationInfo, model_validator
+from pydantic import Field, JsonValue, ValidationInfo, model_validator
 
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.group_file import read_group
-from equisection.keys.values import NULLABLE, NUMBER, Positive
+from equisection.keys.values import NULLABLE, NUMBER, Number, Positive
 
 Boundary = Literal[
     "clamped-free",
@@ -58,14 +59,33 @@ FREE_TIP: frozenset[str] = frozenset({"clamped-free", "spring-root"})
 _THIN = 0.1
 
 
+#: What a place along the chord may be, for the schema; :func:`_axes` refuses others.
+_PLACE: dict[str, JsonValue] = {"minimum": 0, "maximum": 1}
+MID_CHORD = 0.5
+
+DampingRatio = Annotated[float, Field(ge=0, lt=0.2, allow_inf_nan=False), NUMBER]
+
+
+class Damping(KeyGroup):
+    """Structural damping: viscous, the same part of critical in each mode of a kind."""
+
+    bending: DampingRatio = Field(
+        0.0, description="Damping ratio zeta_w of the bending modes (of critical)."
+    )
+    torsion: DampingRatio = Field(
+        0.0, description="Damping ratio zeta_theta of the torsion modes (of critical)."
+    )
+
+
 class CrossSection(KeyGroup):
-    """Rigidities, mass and inertia of the beam's section, about axes at mid-chord."""
+    """Rigidities, mass and inertia of the beam's section, about its elastic axis."""
 
     bending_rigidity: Positive = Field(description="E I (N m2) of the deflection across the chord.")
     torsional_rigidity: Positive = Field(description="G J (N m2).")
     mass_per_length: Positive = Field(description="Mass m (kg/m).")
     inertia_per_length: Positive = Field(
-        description="Polar moment of inertia about mid-chord (kg m2/m)."
+        description="Polar moment of inertia about the elastic axis (kg m2/m), I_cg + m d2 with "
+        "the distance d between the axes."
     )
 
 
@@ -108,6 +128,19 @@ class Beam(KeyGroup):
         "`poisson_ratio` and `density` make. `thickness` stays the body's in the flow. Needs "
         "`structure.method` `beam` or `analytic`.",
     )
+    elastic_axis: Number = Field(
+        MID_CHORD,
+        json_schema_extra=_PLACE,
+        description="Place of the elastic axis, about which the section turns and whose deflection "
+        "is w (x/c from the leading edge).",
+    )
+    mass_axis: Number = Field(
+        MID_CHORD,
+        json_schema_extra=_PLACE,
+        description="Place of the centre of mass (x/c from the leading edge); that of a "
+        "homogeneous rectangle is at mid-chord.",
+    )
+    damping: Damping = Field(Damping(), description="Structural damping.")
 
     @model_validator(mode="after")
     def _agree(self, info: ValidationInfo) -> Beam:
@@ -176,10 +209,32 @@ class Beam(KeyGroup):
 
     @property
     def inertia_per_length(self) -> float:
-        """Polar inertia about mid-chord rho_s c^3 h/12 (kg m^2/m), Eq. 5 (h^2 against c^2 left)."""
+        """Polar inertia I about the elastic axis (kg m^2/m).
+
+        That of a rectangle is rho_s c^3 h/12, Eq. 5 (h^2 against c^2 left), and m d^2 (Steiner).
+        """
         if self.cross_section is not None:
             return self.cross_section.inertia_per_length
-        return self.density * self.chord**3 * self.thickness / 12.0
+        about_centre = self.density * self.chord**3 * self.thickness / 12.0
+        return about_centre + self.mass_per_length * self.axes_apart**2
+
+    @property
+    def axes_apart(self) -> float:
+        """Distance d of the centre of mass behind the elastic axis (m)."""
+        return (self.mass_axis - self.elastic_axis) * self.chord
+
+    @property
+    def imbalance_per_length(self) -> float:
+        """Static imbalance S = m d (kg), positive with the centre of mass behind the axis."""
+        return self.mass_per_length * self.axes_apart
+
+    @property
+    def axes_in_words(self) -> str:
+        """Places of both axes, for people to read them back."""
+        return (
+            f"elastic axis at {_percent(self.elastic_axis)} and centre of mass at "
+            f"{_percent(self.mass_axis)} of the chord"
+        )
 
     @property
     def bending_ends(self) -> tuple[BendingEnd, BendingEnd]:
@@ -230,6 +285,66 @@ def _torsional_spring(stiffness: float | None, boundary: str) -> Iterator[Proble
 @check("beam.root_bending_stiffness", "beam.boundary")
 def _bending_spring(stiffness: float | None, boundary: str) -> Iterator[Problem]:
     yield from _spring("beam.root_bending_stiffness", stiffness, boundary)
+
+
+def _percent(place: float) -> str:
+    return f"{100 * place:.4g} %"
+
+
+@check("beam.elastic_axis")
+def _elastic_axis_on_chord(place: float) -> Iterator[Problem]:
+    yield from _on_chord("beam.elastic_axis", place, "an axis")
+
+
+@check("beam.mass_axis")
+def _mass_axis_on_chord(place: float) -> Iterator[Problem]:
+    yield from _on_chord("beam.mass_axis", place, "a centre of mass")
+
+
+def _on_chord(key: str, place: float, what: str) -> Iterator[Problem]:
+    """Refuse a place beyond the chord; one in per cent, or from mid-chord, is read back."""
+    if 0.0 <= place <= 1.0:
+        return
+    allowed = "allowed is a number from 0 to 1, x/c from the leading edge"
+    if 1.0 < place <= 100.0:
+        meant = place / 100
+        allowed += f"; write {meant:.4g} for {what} at {_percent(meant)} of the chord"
+    elif -MID_CHORD <= place < 0.0:
+        meant = MID_CHORD + place
+        allowed += (
+            f"; counted from mid-chord it would be {what} at {_percent(meant)} of the chord, "
+            f"{meant:.4g}"
+        )
+    yield Problem(key, place, allowed)
+
+
+@check("beam.mass_axis", "beam.cross_section")
+def _centre_of_a_rectangle(mass_axis: float, given: CrossSection | None) -> Iterator[Problem]:
+    if given is None and 0.0 <= mass_axis <= 1.0 and mass_axis != MID_CHORD:
+        yield Problem(
+            "beam.mass_axis",
+            mass_axis,
+            f"allowed is {MID_CHORD:g} without beam.cross_section: a homogeneous rectangle has its "
+            "centre of mass at mid-chord; give the section as it is (beam.cross_section)",
+        )
+
+
+@check("beam.cross_section", "beam.mass_axis", "beam.elastic_axis", "beam.chord")
+def _inertia_of_a_body(
+    given: CrossSection | None, mass_axis: float, elastic_axis: float, chord: float
+) -> Iterator[Problem]:
+    """Refuse an inertia about the elastic axis that is less than that of the mass at its centre."""
+    if given is None or not (0.0 <= mass_axis <= 1.0 and 0.0 <= elastic_axis <= 1.0):
+        return
+    least = given.mass_per_length * ((mass_axis - elastic_axis) * chord) ** 2
+    if given.inertia_per_length <= least:
+        yield Problem(
+            "beam.cross_section.inertia_per_length",
+            given.inertia_per_length,
+            f"allowed is a number above m d2 = {least:.4g} kg m2/m: it is about the elastic axis, "
+            f"at {_percent(elastic_axis)} of the chord, and the centre of mass is at "
+            f"{_percent(mass_axis)}",
+        )
 
 
 def _spring(key: str, stiffness: float | None, boundary: str) -> Iterator[Problem]:

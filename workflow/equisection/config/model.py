@@ -12,7 +12,9 @@ from pydantic import Field, ValidationInfo, model_validator
 
 from equisection.config.groups import (
     FREE_TIP,
+    MID_CHORD,
     Beam,
+    Damping,
     Embedded,
     Flow,
     KeyGroup,
@@ -176,6 +178,25 @@ def _tip_needs_room(gap: float | None, boundary: str) -> Iterator[Problem]:
             gap,
             f"allowed is a number above 0 with the free tip of boundary '{boundary}'",
         )
+
+
+@check("beam.elastic_axis", "beam.mass_axis", "beam.damping", "solver")
+def _structure_of_the_solver(
+    elastic_axis: float, mass_axis: float, damping: Damping, solver: str
+) -> Iterator[Problem]:
+    """Refuse what OpenFOAM's bodies do not have, before anything is run."""
+    if solver != "openfoam":
+        return
+    for key, value, default in (
+        ("beam.elastic_axis", elastic_axis, MID_CHORD),
+        ("beam.mass_axis", mass_axis, MID_CHORD),
+        ("beam.damping.bending", damping.bending, 0.0),
+        ("beam.damping.torsion", damping.torsion, 0.0),
+    ):
+        if value != default:
+            yield Problem(
+                key, value, f"allowed with solver 'openfoam' is {default:g}; 'embedded' takes it"
+            )
 
 
 @check("steady.resolution", "steady.study", "embedded.polars", "openfoam.meshes", "solver")

@@ -17,6 +17,8 @@ from equisection.errors import PolarFileError
 
 COLUMNS = ("incidence_deg", "cl", "cm", "cd")
 FEWEST_POINTS = 4
+#: x/c from the leading edge of the point that every polar here has its moment about.
+MID_CHORD = 0.5
 
 #: Lines of a text file without blanks at their ends, each with its number from 1.
 Lines = Sequence[tuple[int, str]]
@@ -56,6 +58,36 @@ class PolarFormat:
     recognises: Callable[[Path, Lines], bool]
     read: Callable[[Path, Lines], list[Row]]
     moment_axis: float | None
+
+    def axis_of(self, path: Path, given: float | None) -> float:
+        """Return x/c of the point that the moments of a file are about.
+
+        Parameters
+        ----------
+        path
+            The file, for messages.
+        given
+            x/c that the user gives; None for what the format says, else mid-chord.
+
+        Raises
+        ------
+        PolarFileError
+            The format has its moments about another point than the given one.
+        """
+        if given is not None and not 0.0 <= given <= 1.0:
+            raise PolarFileError(
+                f"{path}: moment_axis is {given!r}; wanted x/c from the leading edge, from 0 to 1 "
+                "(0.25 for the quarter chord)"
+            )
+        if self.moment_axis is None:
+            return MID_CHORD if given is None else given
+        if given is not None and given != self.moment_axis:
+            raise PolarFileError(
+                f"{path}: moment_axis is {given:g}, but moments of {self.name} are about "
+                f"{self.moment_axis:g}; leave moment_axis out, or give a CSV file with the moments "
+                "that you mean"
+            )
+        return self.moment_axis
 
 
 @dataclass(frozen=True)
@@ -146,6 +178,20 @@ def check_points(path: Path, rows: Sequence[Row], symmetric: bool | None) -> boo
                 "once"
             )
     return symmetric
+
+
+def slopes(rows: Sequence[Row]) -> tuple[float, float]:
+    """Return the slopes of c_l and c_m (1/rad) between the points around zero lift.
+
+    Of several such pairs the one nearest to zero incidence counts; without one, the two points of
+    least lift.
+    """
+    pairs = list(itertools.pairwise(rows))
+    around = [pair for pair in pairs if pair[0].values[1] <= 0.0 <= pair[1].values[1]]
+    one, two = min(around or pairs, key=lambda pair: max(abs(row.values[1]) for row in pair))
+    lift, moment = (two.values[place] - one.values[place] for place in (1, 2))
+    step = math.radians(two.incidence_deg - one.incidence_deg)
+    return lift / step, moment / step
 
 
 def _decided(path: Path, rows: Sequence[Row]) -> bool:

@@ -9,7 +9,14 @@ from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE
 from equisection.errors import ConfigError, PolarFileError
 from equisection.io.formats import read_rows
+from equisection.io.polar_rows import PolarRows, slopes
 from equisection.keys.checks import Problem
+
+#: Slope of the lift (1/rad) above which a section is a lifting one; 2 pi of a thin airfoil.
+LIFTING = 2.0
+#: Slope of the moment over that of the lift below which it may be about the quarter chord; about
+#: mid-chord it is 1/4 of a thin airfoil.
+LEVEL = 0.05
 
 
 def check_polars(config: Config, directory: Path | None = None) -> None:
@@ -41,10 +48,13 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
         if path == FLAT_PLATE:
             continue
         try:
-            rows = read_rows(directory / path, config.embedded.symmetric).rows
+            points = read_rows(directory / path, config.embedded.symmetric)
+            points.format.axis_of(directory / path, config.embedded.moment_axis)
         except PolarFileError as error:
             yield _unreadable(f"embedded.polars.{name}", path, error)
             continue
+        rows = points.rows
+        yield from _moment_left_open(config, name, path, points)
         last = max(row.incidence_deg for row in rows)
         first = -last if config.embedded.symmetric else min(row.incidence_deg for row in rows)
         incidence = config.flow.incidence_deg
@@ -54,6 +64,21 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
                 incidence,
                 f"allowed is {first:g} to {last:g} deg, what {path} covers (is it in degrees?)",
             )
+
+
+def _moment_left_open(config: Config, name: str, path: str, points: PolarRows) -> Iterator[Problem]:
+    """Refuse moments that look as if they were about the quarter chord, where nobody says so."""
+    if config.embedded.moment_axis is not None or points.format.moment_axis is not None:
+        return
+    lift, moment = slopes(points.rows)
+    if lift > LIFTING and abs(moment) < LEVEL * lift:
+        yield Problem(
+            f"embedded.polars.{name}",
+            path,
+            "allowed is such a polar with embedded.moment_axis: its lift rises by "
+            f"{lift:.2g} per rad and its moment by {moment:.2g} only, as about the quarter chord; "
+            "say embedded.moment_axis: 0.25, or 0.5 if it is about mid-chord",
+        )
 
 
 def _unreadable(key: str, path: str, error: PolarFileError) -> Problem:

@@ -3,7 +3,7 @@
 Units stand in the description of each key; a name without a unit suffix is SI.
 """
 
-from equisection.beam.beam import FREE_TIP, Beam, Boundary, CrossSection
+from equisection.beam.beam import FREE_TIP, MID_CHORD, Beam, Boundary, CrossSection, Damping
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
 from equisection.config.groups.openfoam_keys import OpenFoam
@@ -16,10 +16,12 @@ from equisection.keys.group import KeyGroup
 __all__ = [
     "FLAT_PLATE",
     "FREE_TIP",
+    "MID_CHORD",
     "Beam",
     "Boundary",
     "Channel",
     "CrossSection",
+    "Damping",
     "Elements",
     "Embedded",
     "Flow",

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
-from equisection.keys.values import WHOLE, Name, NotNegative, Number, Truth
+from equisection.keys.values import NULLABLE, NUMBER, WHOLE, Name, NotNegative, Number, Truth
 
 #: Stands in the place of a polar file for thin-plate theory.
 FLAT_PLATE = "flat-plate"
@@ -61,6 +61,14 @@ class Embedded(KeyGroup):
         description="Whether the section is symmetric: its files hold incidences from 0 deg on "
         "and are mirrored. With `false` they are taken as they are, and `steady.incidence_deg` "
         "needs angles on both sides of `flow.incidence_deg`.",
+    )
+    moment_axis: Annotated[
+        Annotated[float, Field(ge=0, le=1, allow_inf_nan=False), NUMBER] | None, NULLABLE
+    ] = Field(
+        None,
+        description="Point that the moments of the polar files are about (x/c from the leading "
+        "edge, 0.25 for the quarter chord). With null it is what a file's format says (0.25 for "
+        "XFOIL), else mid-chord, 0.5.",
     )
     separation: Separation = Field(Separation(), description="Lags of the separation bubble.")
     identification: Identification = Field(

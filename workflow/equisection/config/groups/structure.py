@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from equisection.beam.beam import BOUNDARIES, CrossSection
+from equisection.beam.beam import BOUNDARIES, MID_CHORD, CrossSection
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.values import WHOLE
@@ -78,6 +78,18 @@ def _held_by_the_method(boundary: str, method: str) -> Iterator[Problem]:
             f"allowed with structure.method 'solid' are {allowed}; or give structure.method: beam "
             "or analytic",
         )
+
+
+@check("beam.elastic_axis", "beam.mass_axis", "structure.method")
+def _axes_by_the_method(elastic_axis: float, mass_axis: float, method: str) -> Iterator[Problem]:
+    for key, place in (("beam.elastic_axis", elastic_axis), ("beam.mass_axis", mass_axis)):
+        if method == "solid" and 0.0 <= place <= 1.0 and place != MID_CHORD:
+            yield Problem(
+                key,
+                place,
+                f"allowed with structure.method 'solid' is {MID_CHORD:g}, where a homogeneous "
+                "plate has its axes; or give structure.method: beam or analytic",
+            )
 
 
 @check("beam.cross_section", "structure.method")
