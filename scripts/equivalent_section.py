@@ -5,11 +5,12 @@ from pathlib import Path
 
 from equisection.beam.beam import Beam
 from equisection.config.groups import Flow
+from equisection.reduction.flutter_bias import flutter_bias
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import REDUCTIONS, reduce_beam, validity_warnings
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
-from equisection.results.section_dataset import equivalent_to_dataset
+from equisection.results.section_dataset import equivalent_to_dataset, with_flutter
 from equisection.run.script import logged
 
 
@@ -18,17 +19,24 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
     modes = modes_from_dataset(read_dataset(modes_file))
     count = min(modes.kind.count("bending"), modes.kind.count("torsion"))
     integrals = span_integrals(beam, modes, count)
-    warnings = (*beam.warnings, *validity_warnings(integrals))
+    sections = {reduction: reduce_beam(beam, modes, reduction) for reduction in REDUCTIONS}
+    flutter = {
+        reduction: flutter_bias(section, beam, modes, flow.density)
+        for reduction, section in sections.items()
+    }
+    poor = (warning for name, found in flutter.items() for warning in found.warnings(name))
+    warnings = tuple(dict.fromkeys([*beam.warnings, *poor, *validity_warnings(integrals)]))
+    logging.info(beam.axes_in_words)
     for warning in warnings:
         logging.warning(warning)
     dataset = equivalent_to_dataset(
-        {reduction: reduce_beam(beam, modes, reduction) for reduction in REDUCTIONS},
+        sections,
         integrals,
         warnings,
         density=flow.density,
         speed=flow.speed,
     )
-    write_dataset(output, dataset)
+    write_dataset(output, with_flutter(dataset, flutter))
 
 
 if __name__ == "__main__":

@@ -19,7 +19,10 @@ rule equivalent_section:
     params:
         code=code(
             "beam",
+            "motion/beam_flutter.py",
+            "motion/linear_flutter.py",
             "reduction",
+            "structure/modal_matrices.py",
             "results/modes_dataset.py",
             "results/section_dataset.py",
         ),

@@ -180,6 +180,19 @@ def _tip_needs_room(gap: float | None, boundary: str) -> Iterator[Problem]:
         )
 
 
+@check("beam.elastic_axis", "beam.mass_axis", "reduction")
+def _reduction_with_imbalance(
+    elastic_axis: float, mass_axis: float, reduction: str
+) -> Iterator[Problem]:
+    if reduction == "paper" and elastic_axis != mass_axis:
+        yield Problem(
+            "reduction",
+            reduction,
+            "allowed is consistent where beam.elastic_axis and beam.mass_axis differ: Eq. 17 "
+            "has no static imbalance; to have it all the same name 2d-paper in sweep.models",
+        )
+
+
 @check("beam.elastic_axis", "beam.mass_axis", "beam.damping", "solver")
 def _structure_of_the_solver(
     elastic_axis: float, mass_axis: float, damping: Damping, solver: str

@@ -27,6 +27,7 @@ import itertools
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -63,6 +64,29 @@ _LEAST_PART, _LARGEST_PART = 0.25, 1.5
 
 class FlutterIterationError(EquisectionError):
     """The p-k iteration found no frequency that its loads belong to."""
+
+
+@dataclass(frozen=True)
+class FlutterEquations:
+    """Equations M q'' + sqrt(s) C q' + s K q = Q q of n motions in a flow, ' = d/ds (-).
+
+    Attributes
+    ----------
+    mass, damping, stiffness
+        M, C, K, shape (n, n).
+    influence
+        Q at a frequency omega c/V, shape (n, n).
+    """
+
+    mass: Floats
+    damping: Floats
+    stiffness: Floats
+    influence: Callable[[float], Complexes]
+
+    @cached_property
+    def is_damped(self) -> bool:
+        """Whether there are dampers."""
+        return bool(self.damping.any())
 
 
 class _Flow:
@@ -131,34 +155,48 @@ def flutter(section: Section) -> Neutral | None:
         The section is in SI units.
     """
     flow = _Flow(section)
-    found = [
-        neutral
-        for branch in range(2)
-        for low, high in itertools.pairwise(_FREQUENCIES)
-        if (neutral := _neutral_between(flow, branch, 2.0 * low, 2.0 * high)) is not None
-    ]
-    return max(found, key=lambda neutral: neutral.scale, default=None)
+    equations = FlutterEquations(flow.mass, flow.damping, flow.stiffness, flow.air.influence)
+    return neutral_oscillation(equations)
 
 
-def _neutral_between(flow: _Flow, branch: int, low: float, high: float) -> Neutral | None:
-    """Return the oscillation between two frequencies at which s of a branch is real."""
-    start = _scales(flow, low)[branch]
+def neutral_oscillation(equations: FlutterEquations) -> Neutral | None:
+    """Return the neutral oscillation of the largest s of any number of motions (k method).
+
+    None if there is none at reduced frequencies k from 0.001 to 10.
+    """
+    frequencies = 2.0 * _FREQUENCIES
+    scales = [_scales(equations, float(omega)) for omega in frequencies]
+    found = []
+    for place, (low, high) in enumerate(itertools.pairwise(frequencies)):
+        for start in scales[place]:
+            end = _nearest(scales[place + 1], start)
+            if start.imag * end.imag < 0.0:
+                found.append(_neutral_between(equations, start, float(low), float(high)))
+    neutral = (each for each in found if each is not None)
+    return max(neutral, key=lambda each: each.scale, default=None)
+
+
+def _nearest(values: Complexes, wanted: complex) -> complex:
+    return complex(values[np.argmin(np.abs(values - wanted))])
+
+
+def _neutral_between(
+    equations: FlutterEquations, start: complex, low: float, high: float
+) -> Neutral | None:
+    """Return the oscillation between two frequencies at which s, from a start on, is real."""
 
     def followed(omega: float) -> complex:
-        values = _scales(flow, omega)
-        return complex(values[np.argmin(np.abs(values - start))])
+        return _nearest(_scales(equations, omega), start)
 
-    if followed(low).imag * followed(high).imag >= 0.0:
-        return None
     omega = float(brentq(lambda value: followed(value).imag, low, high, xtol=1e-13))
     scale = followed(omega)
     is_root = abs(scale.imag) < 1e-6 * abs(scale) and scale.real > 0.0
     return Neutral(scale.real, omega) if is_root else None
 
 
-def _scales(flow: _Flow, omega: float) -> Complexes:
-    """Return both s of the k method at a frequency, by ascending absolute value."""
-    matrix = omega**2 * flow.mass + flow.air.influence(omega)
+def _scales(flow: FlutterEquations, omega: float) -> Complexes:
+    """Return the s of the k method at a frequency, by ascending absolute value."""
+    matrix = omega**2 * flow.mass + flow.influence(omega)
     by_place = np.asarray(np.linalg.solve(flow.stiffness, matrix), dtype=np.complex128)
     if flow.is_damped:
         by_rate = -1j * omega * np.linalg.inv(flow.stiffness) @ flow.damping
@@ -169,8 +207,9 @@ def _scales(flow: _Flow, omega: float) -> Complexes:
 
 
 def _quadratic_roots(by_rate: Floats | Complexes, by_place: Floats | Complexes) -> Complexes:
-    """Return the four x of det(x^2 - x ``by_rate`` - ``by_place``) = 0."""
-    above = np.concatenate([np.zeros((2, 2)), np.eye(2)], axis=1)
+    """Return the 2 n values x of det(x^2 - x ``by_rate`` - ``by_place``) = 0."""
+    size = len(by_place)
+    above = np.concatenate([np.zeros((size, size)), np.eye(size)], axis=1)
     return np.asarray(
         np.linalg.eigvals(np.concatenate([above, np.concatenate([by_place, by_rate], axis=1)])),
         dtype=np.complex128,
@@ -178,8 +217,8 @@ def _quadratic_roots(by_rate: Floats | Complexes, by_place: Floats | Complexes) 
 
 
 def _of_positive_real_part(roots: Complexes) -> Complexes:
-    """Return the two sqrt(s) that are a speed; without dampers the others are their negatives."""
-    return roots[np.argsort(roots.real)[2:]]
+    """Return the half of all sqrt(s) that are speeds; without dampers the others are negatives."""
+    return roots[np.argsort(roots.real)[roots.size // 2 :]]
 
 
 def growth_and_frequency(section: Section, scales: Floats) -> Complexes:

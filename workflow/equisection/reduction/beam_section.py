@@ -5,9 +5,11 @@ from __future__ import annotations
 import warnings
 from typing import Literal
 
-from equisection.beam.beam import Beam
+from equisection.beam.beam import MID_CHORD, Beam
 from equisection.beam.section import Section
-from equisection.errors import ModesError
+from equisection.conventions import STANDARD_AIR
+from equisection.errors import ModesError, ReductionError
+from equisection.reduction.flutter_bias import flutter_bias, refusal
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import Reduction, reduce_beam, validity_warnings
 from equisection.structure.modes import modes_of_kinds
@@ -22,10 +24,12 @@ def reduce(
     reduction: Reduction = "consistent",
     method: Literal["solid", "beam", "analytic"] = "solid",
     elements: tuple[int, int, int] = (24, 89, 1),
+    density: float = STANDARD_AIR,
 ) -> Section:
     """Equivalent section of a beam, per unit span.
 
-    Where the section is a poor stand-in for the beam a ``UserWarning`` says so.
+    Where the section is a poor stand-in for the beam a ``UserWarning`` says so, with the difference
+    of their flutter speeds by linear theory.
 
     Parameters
     ----------
@@ -41,21 +45,35 @@ def reduce(
     elements
         Elements along chord, span and thickness; ``beam`` and ``analytic`` use those along the
         span alone.
+    density
+        Density of the fluid rho (kg/m^3) in which section and beam are compared; by default that of
+        air at sea level. It does not change the section.
 
     Raises
     ------
     ModesError
         The method cannot have this beam; the message says which can.
     ReductionError
-        The beam has no equivalent section.
+        The beam has no equivalent section: nothing restrains it, or the section would flutter at a
+        speed that is 15 % or more off the beam's.
     """
     if method == "solid" and beam.cross_section is not None:
         raise ModesError(
             "method is 'solid', which meshes a homogeneous plate, and the beam has a "
             "cross_section; give method='beam' or 'analytic'"
         )
+    if method == "solid" and (beam.elastic_axis, beam.mass_axis) != (MID_CHORD, MID_CHORD):
+        raise ModesError(
+            "method is 'solid', which meshes a homogeneous plate, and the beam has its "
+            f"{beam.axes_in_words}; give method='beam' or 'analytic'"
+        )
     modes = modes_of_kinds(beam, method, elements, (1, 1), COUNT)
     section = reduce_beam(beam, modes, reduction)
-    for text in (*beam.warnings, *validity_warnings(span_integrals(beam, modes, count=1))):
+    compared = flutter_bias(section, beam, modes, density)
+    reason = refusal(compared.bias, reduction)
+    if reason:
+        raise ReductionError(reason)
+    poor = compared.warnings(reduction)
+    for text in (*beam.warnings, *poor, *validity_warnings(span_integrals(beam, modes, count=1))):
         warnings.warn(text, stacklevel=2)
     return section

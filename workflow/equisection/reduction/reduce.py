@@ -6,11 +6,24 @@ takes K_theta from the slope of the shape (Eq. 7), which is what makes the plate
 "k* = 21", and reads the section's motion as the tip's.
 ``consistent`` divides each pair by its own A, takes both stiffnesses from the natural
 frequencies, and recovers the tip from the section through a and b (see docs/errata.md).
+
+Each row of the equations of motion is divided by its own D: the torsion row by D_theta =
+A_theta,theta, the bending row by D_w, A_w,w in the consistent form and A_theta,w in the paper's.
+The static imbalance belongs to both rows and gets
+
+    S_2D = S A_theta,w / sqrt(D_w D_theta),
+
+the only one that keeps the coupled frequencies of the beam's first two modes: S_2D^2/(m_2D I_2D) is
+then the beam's. In the consistent form it is S cos(phi). Dampers are those of the damping ratios of
+the first modes. Neither changes k*.
 """
 
 from __future__ import annotations
 
+import math
 from typing import Literal
+
+import numpy as np
 
 from equisection.beam.beam import Beam
 from equisection.beam.section import Section
@@ -62,7 +75,10 @@ def _paper_section(beam: Beam, integrals: Integrals) -> Section:
             f"A_theta,w is {a_tw:.1e}: first twist and first deflection have orthogonal shapes, "
             "and the paper's reduction divides by it; use reduction 'consistent'"
         )
-    return Section(
+    return _section(
+        beam,
+        divisors=(a_tw, a_tt),
+        a_tw=a_tw,
         torsional_stiffness=beam.torsional_rigidity
         / beam.length**2
         * float(integrals.strain_theta[0, 0] / a_tt),
@@ -71,7 +87,6 @@ def _paper_section(beam: Beam, integrals: Integrals) -> Section:
         * float(integrals.stiffness_w[0, 0] / a_tw),
         inertia=beam.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
         mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / a_tw),
-        chord=beam.chord,
         twist_recovery=1.0,
         deflection_recovery=1.0,
     )
@@ -85,7 +100,10 @@ def _consistent_section(beam: Beam, integrals: Integrals) -> Section:
                 f"{name}, the span mean of the first shape, is {mean:.1e}: a uniform load does "
                 "not move this mode and the section cannot stand for the beam"
             )
-    return Section(
+    return _section(
+        beam,
+        divisors=(a_ww, a_tt),
+        a_tw=integrals.a_theta_w[0, 0],
         torsional_stiffness=beam.torsional_rigidity
         / beam.length**2
         * float(integrals.stiffness_theta[0, 0] / a_tt),
@@ -94,9 +112,30 @@ def _consistent_section(beam: Beam, integrals: Integrals) -> Section:
         * float(integrals.stiffness_w[0, 0] / a_ww),
         inertia=beam.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
         mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / a_ww),
-        chord=beam.chord,
         twist_recovery=float(a_tt / integrals.f_mean[0]),
         deflection_recovery=float(a_ww / integrals.g_mean[0]),
+    )
+
+
+def _section(
+    beam: Beam, *, divisors: tuple[float, float], a_tw: float, **members: float
+) -> Section:
+    """Return a section with the imbalance, the dampers and the axis of its beam.
+
+    ``divisors`` are D_w and D_theta, ``members`` the others of :class:`Section`.
+    """
+    imbalance = beam.imbalance_per_length
+    return Section(
+        **members,
+        static_imbalance=imbalance * float(a_tw / np.sqrt(np.prod(divisors))) if imbalance else 0.0,
+        flexural_damping=2.0
+        * beam.damping.bending
+        * math.sqrt(members["flexural_stiffness"] * members["mass"]),
+        torsional_damping=2.0
+        * beam.damping.torsion
+        * math.sqrt(members["torsional_stiffness"] * members["inertia"]),
+        chord=beam.chord,
+        elastic_axis=beam.elastic_axis,
     )
 
 

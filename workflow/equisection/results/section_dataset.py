@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from equisection.beam.section import Section
 from equisection.conventions import dynamic_pressure
+from equisection.reduction.flutter_bias import FlutterBias
 from equisection.reduction.integrals import Integrals
 
 #: Members of :class:`Section` with units and meaning.
@@ -108,6 +109,44 @@ def equivalent_to_dataset(
             "dynamic_pressure": dynamic_pressure(density, speed),
             "warnings": "; ".join(warnings),
         },
+    )
+
+
+def with_flutter(equivalent: xr.Dataset, found: Mapping[str, FlutterBias]) -> xr.Dataset:
+    """Return ``structure/equivalent.nc`` with flutter by linear theory, of sections and beam.
+
+    Parameters
+    ----------
+    equivalent
+        The data set.
+    found
+        Flutter of each section and of the beam, by reduction, in its order.
+    """
+    each = list(found.values())
+    beam = each[0]
+    speed = "speed of flutter by linear theory"
+    variables = {
+        "flutter_speed": ("reduction", [one.section.speed for one in each], "m s-1", speed),
+        "flutter_bias": (
+            "reduction",
+            [one.bias for one in each],
+            "1",
+            "speed of flutter of the section over that of the beam's first pair of modes, less 1",
+        ),
+        "pair_flutter_speed": ((), beam.pair.speed, "m s-1", f"{speed}, first pair of modes"),
+        "beam_flutter_speed": ((), beam.beam.speed, "m s-1", f"{speed}, all modes of the beam"),
+        "critical_pair": (
+            (),
+            beam.critical_pair,
+            "1",
+            "number of the pair of modes that flutters first; 0 where none does",
+        ),
+    }
+    return equivalent.assign(
+        {
+            name: (dims, values, {"units": units, "long_name": text, "missing_allowed": "1"})
+            for name, (dims, values, units, text) in variables.items()
+        }
     )
 
 

@@ -21,8 +21,9 @@ from equisection.cases import (
     UnsteadyCase,
 )
 from equisection.config import Config
-from equisection.errors import ConfigError, DivergenceError, EquisectionError
+from equisection.errors import ConfigError, DivergenceError, EquisectionError, ReductionError
 from equisection.reduction.correction import corrected_equilibrium
+from equisection.reduction.flutter_bias import refusal as bias_refusal
 from equisection.reduction.reduce import Reduction
 from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
@@ -178,6 +179,11 @@ def _section(
 ) -> tuple[Section, tuple[float, float]]:
     """Return the section of a model in the flow, and the factors of its c_l and c_m."""
     reduction: Reduction = "paper" if model.reduction == "paper" else "consistent"
+    if "flutter_bias" in data["equivalent"]:
+        bias = data["equivalent"]["flutter_bias"].sel(reduction=reduction)
+        reason = bias_refusal(float(bias), reduction)
+        if reason:
+            raise ReductionError(reason)
     section = section_from_dataset(data["equivalent"], reduction).scaled(stiffness_scale)
     in_flow = section.in_flow(config.flow.density, config.flow.speed)
     return _corrected(config, in_flow, data["correction"]) if model.corrected else (in_flow, (1, 1))
