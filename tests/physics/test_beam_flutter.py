@@ -9,10 +9,17 @@ import math
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
+from equisection.aerodynamics.induction import cosine_strips
+from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.separation import SeparationLags
+from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.beam import Beam
 from equisection.errors import ModesError, ReductionError
 from equisection.motion.beam_flutter import FlutterOnset, beam_flutter, section_flutter
+from equisection.motion.beams import BeamParameters, beam_system
+from equisection.motion.steady_states import least_stable_eigenvalue
 from equisection.reduction.beam_section import reduce
 from equisection.reduction.flutter_bias import FlutterBias, flutter_bias, refusal
 from equisection.reduction.reduce import reduce_beam
@@ -144,6 +151,50 @@ class TestFlutterOfTheBeam:
         for second in (matrices.pair(2), matrices):
             assert onset(second).speed == pytest.approx(120.575, rel=1e-4)
             assert onset(second).omega == pytest.approx(227.264, rel=1e-4)
+
+
+def embedded_flutter(beam: Beam, number: int, speeds: tuple[float, float]) -> float:
+    """Speed (m/s) at which the least stable motion on the strips of the embedded solver grows."""
+    modes, chord = modes_of(beam, number), beam.chord
+    strips = cosine_strips(40)
+    loads = UnsteadyLoads.from_polar(Polar.flat_plate(10.0), SeparationLags.none())
+
+    def growth(speed: float) -> float:
+        to_reduced = 2 * math.pi * chord / speed
+        parameters = BeamParameters.from_modes(
+            span=modes.span,
+            torsion_shapes=modes.torsion(number).shape,
+            torsion_frequencies=to_reduced * modes.torsion(number).frequency[None],
+            inertia=np.array([beam.inertia_per_length / (0.5 * AIR * chord**4)]),
+            bending_shapes=modes.bending(number).shape,
+            bending_frequencies=to_reduced * modes.bending(number).frequency[None],
+            mass=np.array([beam.mass_per_length / (0.5 * AIR * chord**2)]),
+            stations=strips.stations,
+            weights=strips.weights,
+            imbalance=np.array([beam.imbalance_per_length / (0.5 * AIR * chord**3)]),
+            damping_ratios=(beam.damping.bending, beam.damping.torsion),
+            axis=beam.elastic_axis - 0.5,
+        )
+        return float(least_stable_eigenvalue(beam_system(parameters, loads, 0.0))[0].real)
+
+    return float(brentq(growth, *speeds, xtol=1e-4))
+
+
+class TestEmbeddedBeam:
+    def test_goland_with_the_states_of_jones(self):
+        """137.379 m/s with Jones in the place of C(k), 136.996 exact, both with 8 + 8 modes."""
+        assert embedded_flutter(goland(), 4, (120.0, 150.0)) == pytest.approx(137.379, rel=2e-3)
+
+    def test_pinned_beam_flutters_by_its_second_pair(self):
+        beam = goland(boundary="pinned-pinned")
+        found = embedded_flutter(beam, 3, (110.0, 128.0))
+        assert found == pytest.approx(120.575, rel=0.01)
+
+    def test_damping_raises_the_speed(self):
+        """139.819 m/s at 1 % with C(k) exact; from one to the other Jones' states add 0.2 %."""
+        damped = embedded_flutter(goland(damping=0.01), 4, (120.0, 150.0))
+        assert damped == pytest.approx(139.819, rel=4e-3)
+        assert damped > embedded_flutter(goland(), 4, (120.0, 150.0)) + 2.0
 
 
 class TestSection:

@@ -14,8 +14,9 @@ from tests.sample_cases import STEADY
 from equisection.aerodynamics.polar import Polar
 from equisection.cases import UnsteadyCase, case_hash
 from equisection.config import Config, load_config
-from equisection.errors import ConfigError
+from equisection.errors import ConfigError, EquisectionError
 from equisection.reduction.correction import CorrectionFactors
+from equisection.reduction.flutter_bias import flutter_bias
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import REDUCTIONS, reduce_beam
 from equisection.results.correction_dataset import factors_from_dataset, factors_to_dataset
@@ -25,10 +26,11 @@ from equisection.results.section_dataset import (
     nominal_k_star,
     section_from_dataset,
     section_in_flow,
+    with_flutter,
 )
 from equisection.solvers.registry import solver_from_config
 from equisection.structure.mode_set import frequency_constants
-from equisection.structure.modes import compute_modes
+from equisection.structure.modes import compute_modes, modes_of_kinds
 from equisection.study import plan
 from equisection.study.assemble import case_at, k_star_as_given, steady_case, unsteady_case
 from equisection.study.axes import INCIDENCE, K_STAR, SPEED, Axis, Point
@@ -375,3 +377,98 @@ def test_correction_keeps_the_damping_ratios(data: dict[str, xr.Dataset]) -> Non
             for one in (plain, corrected)
         )
         assert here == pytest.approx(there, rel=1e-12)
+
+
+WING: dict[str, Any] = {
+    "beam": {
+        "chord": 1.8288,
+        "length": 6.096,
+        "thickness": 0.1,
+        "elastic_axis": 0.33,
+        "mass_axis": 0.43,
+        "damping": {"bending": 0.01, "torsion": 0.02},
+        "cross_section": {
+            "bending_rigidity": 9.773e6,
+            "torsional_rigidity": 9.876e5,
+            "mass_per_length": 35.717,
+            "inertia_per_length": 8.642,
+        },
+    },
+    "flow": {"speed": 100.0, "density": 1.225, "incidence_deg": 1.0, "channel": None},
+    "structure": {"method": "analytic", "bending_modes": 2, "torsion_modes": 2},
+    "embedded": {"polars": {"thin": "flat-plate"}},
+    "steady": {"resolution": "thin"},
+}
+
+
+def wing(**changes: Any) -> tuple[Config, dict[str, xr.Dataset]]:
+    """Return Goland's wing, changed, with its modes and sections as the workflow makes them."""
+    config = load_config(WING | {"beam": {**WING["beam"], **changes}})
+    modes = modes_of_kinds(config.beam, "analytic", (8, 40, 1), (2, 2), 4)
+    sections = {name: reduce_beam(config.beam, modes, name) for name in REDUCTIONS}
+    integrals = span_integrals(config.beam, modes, 2)
+    speeds = {"density": config.flow.density, "speed": config.flow.speed}
+    flutter = {
+        name: flutter_bias(section, config.beam, modes, config.flow.density)
+        for name, section in sections.items()
+    }
+    equivalent = with_flutter(equivalent_to_dataset(sections, integrals, (), **speeds), flutter)
+    return config, {"modes": modes_to_dataset(modes, [0.0] * 4), "equivalent": equivalent}
+
+
+def test_beam_with_axes_and_damping_has_them_in_its_case_at_any_k_star() -> None:
+    config, made = wing()
+    for k_star in (2.0, 8.0):
+        found = case("3d", k_star, made, config)
+        assert found.beam is not None
+        assert found.beam.imbalance == pytest.approx(
+            35.717 * 0.1 * 1.8288 / (0.5 * 1.225 * 1.8288**3)
+        )
+        assert (found.beam.bending_damping, found.beam.torsion_damping) == (0.01, 0.02)
+        assert found.beam.elastic_axis == 0.33
+        assert UnsteadyCase.model_validate_json(found.model_dump_json()) == found
+    with pytest.raises(
+        EquisectionError, match=r"takes no beam with bending_damping 0\.01 "
+    ):
+        found.beam.require_defaults("the coupled beam of OpenFOAM")
+
+
+def test_beam_without_axes_and_damping_is_the_case_that_it_was(data: dict[str, xr.Dataset]) -> None:
+    plain = case("3d", 9.0, data)
+    assert plain.beam is not None
+    assert set(plain.model_dump()["beam"]) == {
+        "span",
+        "bending_frequency",
+        "bending_shape",
+        "torsion_frequency",
+        "torsion_shape",
+        "inertia",
+        "mass",
+    }
+    plain.beam.require_defaults("any")
+
+
+def test_section_of_an_offset_beam_is_in_its_case_with_its_damping_ratios() -> None:
+    config, made = wing()
+    section = case("2d", 2.0, made, config).section
+    assert section is not None
+    assert section.elastic_axis == 0.33
+    for damper, spring, inertia, ratio in (
+        ("flexural_damping", "flexural_stiffness", "mass", 0.01),
+        ("torsional_damping", "torsional_stiffness", "inertia", 0.02),
+    ):
+        critical = 2 * math.sqrt(getattr(section, spring) * getattr(section, inertia))
+        assert getattr(section, damper) == pytest.approx(ratio * critical)
+
+
+def test_section_too_far_from_its_beam_is_refused_in_its_case_and_the_beam_runs() -> None:
+    config, made = wing(
+        boundary="one-fork",
+        cross_section={**WING["beam"]["cross_section"], "bending_rigidity": 0.55 * 9.773e6},
+    )
+    assert abs(float(made["equivalent"]["flutter_bias"].sel(reduction="consistent"))) > 0.15
+    refused = case("2d", 2.0, made, config)
+    assert refused.section is None
+    assert not refused.diverges
+    assert "their shapes are too unlike for a section; run the beam" in refused.refusal
+    assert case("3d", 2.0, made, config).refusal == ""

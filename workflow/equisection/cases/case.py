@@ -17,6 +17,7 @@ from pydantic import (
 )
 
 from equisection.beam.section import Section
+from equisection.errors import EquisectionError
 
 SCHEMA_VERSION = 1
 
@@ -106,8 +107,11 @@ class BeamModes(Block):
 
     Frequencies are omega c/V; shapes are normalised to a largest value of 1 and given over
     ``span`` = z/L, one row a mode; ``inertia`` = rho_s c^3 h/12 /(rho c^4/2) and ``mass`` =
-    rho_s c h/(rho c^2/2) are the sectional ones.
+    rho_s c h/(rho c^2/2) are the sectional ones, ``imbalance`` = S/(rho c^3/2) couples the modes,
+    which are those without it. Inertia and imbalance are about the elastic axis.
     """
+
+    left_out = frozenset({"imbalance", "bending_damping", "torsion_damping", "elastic_axis"})
 
     span: tuple[float, ...]
     bending_frequency: tuple[float, ...]
@@ -116,6 +120,32 @@ class BeamModes(Block):
     torsion_shape: tuple[tuple[float, ...], ...]
     inertia: float
     mass: float
+    imbalance: float = 0.0
+    bending_damping: float = 0.0  # of critical, of every mode
+    torsion_damping: float = 0.0  # the same
+    elastic_axis: float = 0.5  # x/c from the leading edge
+
+    def require_defaults(self, model: str) -> None:
+        """Refuse a beam with imbalance, dampers or an axis off mid-chord.
+
+        Parameters
+        ----------
+        model
+            The model without a place for them, as the message names it.
+
+        Raises
+        ------
+        EquisectionError
+            One of them is not at its default.
+        """
+        fields = type(self).model_fields
+        more = [
+            f"{name} {getattr(self, name):g} (allowed is {fields[name].default:g})"
+            for name in sorted(self.left_out)
+            if getattr(self, name) != fields[name].default
+        ]
+        if more:
+            raise EquisectionError(f"{model} takes no beam with {', '.join(more)}")
 
 
 class EndCriteria(Block):

@@ -62,6 +62,9 @@ class BeamParameters:
         stations: Floats,
         weights: Floats,
         induction: Floats | None = None,
+        imbalance: Floats | None = None,
+        damping_ratios: tuple[float, float] = (0.0, 0.0),
+        axis: float = 0.0,
     ) -> BeamParameters:
         """Take the modes of N uniform beams to S strips.
 
@@ -79,16 +82,25 @@ class BeamParameters:
             z/L of the strips and their share of the span (sum 1), shape (S,).
         induction
             D (rad) with alpha_i = D c_l, shape (S, S); None for strips in uniform flow.
+        imbalance
+            Sectional S/(rho c^3/2), shape (N,); None for none.
+        damping_ratios
+            zeta_w and zeta_theta, of critical, of every bending and torsion mode.
+        axis
+            x_ea, chords from mid-chord back to the elastic axis.
 
         Notes
         -----
         The tip is where the first shape of each kind is largest (midspan of a beam held at both
         ends). The generalised inertia of mode i is I int f_i^2 dz/L and its stiffness
-        omega_i^2 times that.
+        omega_i^2 times that; its damping is 2 zeta omega_i times that, viscous. Frequencies are
+        those of the modes without imbalance; this couples them by S_ij = S int f_i g_j dz/L.
         """
         torsion, bending = CubicSpline(span, torsion_shapes.T), CubicSpline(span, bending_shapes.T)
         torsion_inertia = np.outer(inertia, _square_integral(span, torsion_shapes))
         bending_mass = np.outer(mass, _square_integral(span, bending_shapes))
+        across = _product_integral(span, torsion_shapes, bending_shapes)
+        bending_ratio, torsion_ratio = damping_ratios
         strips = stations.size
         structure = StripStructure(
             torsion_shapes=torsion(stations),
@@ -98,10 +110,12 @@ class BeamParameters:
             torsion_stiffness=torsion_inertia * torsion_frequencies**2,
             bending_mass=bending_mass,
             bending_stiffness=bending_mass * bending_frequencies**2,
-            imbalance=np.zeros((*torsion_inertia.shape, bending_mass.shape[1])),
-            torsion_damping=np.zeros_like(torsion_inertia),
-            bending_damping=np.zeros_like(bending_mass),
-            axis=np.zeros(inertia.size),
+            imbalance=np.multiply.outer(
+                np.zeros(inertia.size) if imbalance is None else imbalance, across
+            ),
+            torsion_damping=2.0 * torsion_ratio * torsion_frequencies * torsion_inertia,
+            bending_damping=2.0 * bending_ratio * bending_frequencies * bending_mass,
+            axis=np.full(inertia.size, axis),
             lift_factor=np.ones(inertia.size),
             moment_factor=np.ones(inertia.size),
             induction=np.zeros((strips, strips)) if induction is None else induction,
@@ -115,6 +129,12 @@ class BeamParameters:
 
 def _square_integral(span: Floats, shapes: Floats) -> Floats:
     return np.asarray(CubicSpline(span, (shapes**2).T).integrate(0.0, 1.0), dtype=np.float64)
+
+
+def _product_integral(span: Floats, torsion: Floats, bending: Floats) -> Floats:
+    """Integrals of f_i g_j over z/L, shape (n_t, n_b)."""
+    products = torsion[:, None, :] * bending[None, :, :]
+    return np.asarray(CubicSpline(span, products, axis=-1).integrate(0.0, 1.0), dtype=np.float64)
 
 
 @dataclass(frozen=True)
@@ -131,6 +151,8 @@ class BeamHistories:
         w/c at the tip, d(w/c)/ds.
     lift_coefficient, moment_coefficient
         C_L, and C_M about the moving mid-chords (Eq. 22).
+    axis_moment_coefficient
+        C_M about the elastic axis; None where that is at mid-chord.
     torsion_amplitudes, bending_amplitudes
         Theta_i (rad) and W_j (chords), shape (n_times, N, n_t) and (n_times, N, n_b).
     samples
@@ -146,6 +168,7 @@ class BeamHistories:
     tip_deflection_rate: Floats
     lift_coefficient: Floats
     moment_coefficient: Floats
+    axis_moment_coefficient: Floats | None
     torsion_amplitudes: Floats
     bending_amplitudes: Floats
     samples: Indices
@@ -194,7 +217,7 @@ def release_beams(
 
 
 def _outputs(parameters: BeamParameters, system: StripSystem) -> Floats:
-    """Rows: tip theta, theta', w, w', then C_L, C_M, Theta, W."""
+    """Rows: tip theta, theta', w, w', then C_L, C_M, Theta, W and, off mid-chord, C_M,ea."""
     layout, strips = system.layout, system.layout.strips
     lanes, _, columns = system.rates.shape
     unit = np.eye(layout.size, columns)
@@ -214,7 +237,12 @@ def _outputs(parameters: BeamParameters, system: StripSystem) -> Floats:
     def for_all(rows: Floats) -> Floats:
         return np.broadcast_to(rows, (lanes, *rows.shape))
 
-    return np.concatenate([for_all(tip), total, for_all(amplitudes)], axis=1)
+    about_axis = (weights @ system.axis_moments)[:, None]
+    return np.concatenate(
+        [for_all(tip), total, for_all(amplitudes)]
+        + ([about_axis] if system.structure.is_offset else []),
+        axis=1,
+    )
 
 
 def _on_recording(monitor: BeamMonitor | None, system: StripSystem) -> Monitor | None:
@@ -232,6 +260,7 @@ def _histories(recording: Recording, system: StripSystem) -> BeamHistories:
     values = recording.values[: recording.recorded]
     rows = np.moveaxis(values, 2, 0)
     first_bending = 6 + system.layout.torsion_modes
+    end = first_bending + system.layout.bending_modes
     return BeamHistories(
         time=recording.time[: recording.recorded],
         tip_twist=rows[0],
@@ -240,8 +269,9 @@ def _histories(recording: Recording, system: StripSystem) -> BeamHistories:
         tip_deflection_rate=rows[3],
         lift_coefficient=rows[4],
         moment_coefficient=rows[5],
+        axis_moment_coefficient=rows[end] if system.structure.is_offset else None,
         torsion_amplitudes=values[:, :, 6:first_bending],
-        bending_amplitudes=values[:, :, first_bending:],
+        bending_amplitudes=values[:, :, first_bending:end],
         samples=recording.samples,
         failures=tuple(recording.failures),
     )

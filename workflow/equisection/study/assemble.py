@@ -243,4 +243,8 @@ def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> 
         torsion_shape=tuple(map(tuple, torsion.shape)),
         inertia=config.beam.inertia_per_length / (0.5 * flow.density * chord**4),
         mass=config.beam.mass_per_length / (0.5 * flow.density * chord**2),
+        imbalance=config.beam.imbalance_per_length / (0.5 * flow.density * chord**3),
+        bending_damping=config.beam.damping.bending,
+        torsion_damping=config.beam.damping.torsion,
+        elastic_axis=config.beam.elastic_axis,
     )

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from equisection.aerodynamics.induction import SpanStrips
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.beam.beam import MID_CHORD
 from equisection.beam.section import Section
 from equisection.cases import UnsteadyCase
 from equisection.motion.beams import BeamHistories, BeamParameters, release_beams
@@ -110,6 +111,9 @@ def release_all_beams(
         stations=strips.stations,
         weights=strips.weights,
         induction=induction,
+        imbalance=np.array([beam.imbalance for beam in modes]),
+        damping_ratios=(modes[0].bending_damping, modes[0].torsion_damping),
+        axis=modes[0].elastic_axis - MID_CHORD,
     )
     histories = release_beams(
         parameters,
@@ -170,6 +174,7 @@ def _section_result(
 
 def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> UnsteadyResult:
     end = int(histories.samples[lane])
+    about_axis = histories.axis_moment_coefficient
     tip = _beam_tip(histories, lane, slice(end))
     return UnsteadyResult(
         time=tip.time,
@@ -181,6 +186,7 @@ def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> Uns
         moment=histories.moment_coefficient[:end, lane],
         incidence=math.radians(case.incidence_deg) + tip.twist,
         verdict=judge(case, tip, _failure(histories.failures, lane)),
+        axis_moment=np.empty(0) if about_axis is None else about_axis[:end, lane],
         torsion_amplitudes=histories.torsion_amplitudes[:end, lane].T,
         bending_amplitudes=histories.bending_amplitudes[:end, lane].T,
     )

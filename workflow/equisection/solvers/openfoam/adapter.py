@@ -188,6 +188,8 @@ class Adapter:
         from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
+        if case.beam is not None:  # before the steady flow, which takes long
+            case.beam.require_defaults("the coupled beam of OpenFOAM")
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         coupling, ranks = self._settings.coupling, self._ranks
         return PlateRun(installation, case, mesh, coupling, place, ranks).run(tell)
