@@ -24,8 +24,8 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
         reduction: flutter_bias(section, beam, modes, flow.density)
         for reduction, section in sections.items()
     }
-    poor = (warning for name, found in flutter.items() for warning in found.warnings(name))
-    warnings = tuple(dict.fromkeys([*beam.warnings, *poor, *validity_warnings(integrals)]))
+    poor = flutter["consistent"].warnings("consistent")
+    warnings = (*beam.warnings, *poor, *validity_warnings(integrals))
     logging.info(beam.axes_in_words)
     for warning in warnings:
         logging.warning(warning)
@@ -36,7 +36,7 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
         density=flow.density,
         speed=flow.speed,
     )
-    write_dataset(output, with_flutter(dataset, flutter))
+    write_dataset(output, with_flutter(dataset, flutter, flow.density))
 
 
 if __name__ == "__main__":

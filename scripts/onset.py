@@ -29,7 +29,8 @@ def main(
 ) -> None:
     """Bracket the onset of each model, in k* and speed, and put linear theory's beside."""
     sections = read_dataset(equivalent)
-    slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg)
+    axis = float(sections["elastic_axis"][0])
+    slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg, axis)
     linear = linear_onset(sections, slope)
     table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
     table = with_speeds(table, nominal_k_star(sections), speed)

@@ -412,7 +412,9 @@ def wing(**changes: Any) -> tuple[Config, dict[str, xr.Dataset]]:
         name: flutter_bias(section, config.beam, modes, config.flow.density)
         for name, section in sections.items()
     }
-    equivalent = with_flutter(equivalent_to_dataset(sections, integrals, (), **speeds), flutter)
+    equivalent = with_flutter(
+        equivalent_to_dataset(sections, integrals, (), **speeds), flutter, 1.225
+    )
     return config, {"modes": modes_to_dataset(modes, [0.0] * 4), "equivalent": equivalent}
 
 
@@ -427,9 +429,7 @@ def test_beam_with_axes_and_damping_has_them_in_its_case_at_any_k_star() -> None
         assert (found.beam.bending_damping, found.beam.torsion_damping) == (0.01, 0.02)
         assert found.beam.elastic_axis == 0.33
         assert UnsteadyCase.model_validate_json(found.model_dump_json()) == found
-    with pytest.raises(
-        EquisectionError, match=r"takes no beam with bending_damping 0\.01 "
-    ):
+    with pytest.raises(EquisectionError, match=r"takes no beam with bending_damping 0\.01 "):
         found.beam.require_defaults("the coupled beam of OpenFOAM")
 
 

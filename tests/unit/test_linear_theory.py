@@ -93,6 +93,20 @@ def test_slope_of_a_polar_that_is_not_there_is_unknown() -> None:
     assert math.isnan(moment_slope(polar((0.0, 2.0, 4.0, 6.0)), "coarse", 7.0))
 
 
+def test_slope_of_a_polar_is_that_about_the_elastic_axis() -> None:
+    """c_m' + x (c_l' + c_d) at zero incidence; lift, drag and moment here are all alpha."""
+    found = moment_slope(polar((-4.0, -2.0, 0.0, 2.0, 4.0)), "coarse", 0.0, 0.3)
+    assert found == pytest.approx(1.0 - 0.2 * 1.0)
+
+
+def test_flutter_of_the_beam_is_beside_that_of_its_sections() -> None:
+    linear = linear_onset(EQUIVALENT.assign(beam_flutter_k_star=1.7), 1.3)
+    table = with_linear_theory(pd.DataFrame({"model": ["2d", "3d"]}), linear, "consistent")
+    assert table["linear_flutter"][1] == 1.7
+    assert math.isnan(table["linear_divergence"][1])
+    assert math.isnan(linear_onset(EQUIVALENT, 1.3)["beam"]["linear_flutter"])
+
+
 def test_only_uncorrected_sections_have_it_in_the_table_of_the_onset() -> None:
     models = ["2d", "2d-corrected", "3d", "2d-paper"]
     linear = linear_onset(EQUIVALENT, 1.3)

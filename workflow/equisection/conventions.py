@@ -10,8 +10,10 @@ Twist and incidence
 Deflection
     w (m) is positive up; ``_chords`` marks w/c.
 Moment
-    Moment coefficients are about mid-chord, nose up, about the *moving* centre. The pitch
-    axis is mid-chord.
+    Moment coefficients are about mid-chord, nose up, about the *moving* mid-chord. The elastic
+    axis, about which a section turns and whose deflection is w, is mid-chord unless
+    ``elastic_axis`` (x/c from the leading edge) says otherwise. x_ea is counted from mid-chord,
+    aft, in chords: c_m about the axis is c_m + x_ea (c_l cos alpha + c_d sin alpha).
 Dynamic pressure
     q = rho V^2 / 2. Section coefficients are c_l = F_L'/(q c), c_m = M'/(q c^2) (Eq. 21),
     those of the beam C_L = F_L/(q L c), C_M = M/(q L c^2) (Eq. 22).
@@ -22,7 +24,9 @@ Non-dimensional numbers (Eq. 18)
     k* = k_theta/(q c^2), I* = I_2D/(rho c^4/2), m* = m_2D/(rho c^2/2), k_w* = k_w/q, with
     which the section obeys
 
-        I* theta'' + k* theta = c_m,    m* (w/c)'' + k_w* (w/c) = c_l,    ' = d/ds.
+        I* theta'' + k* theta = c_m,    m* (w/c)'' + k_w* (w/c) = c_l,    ' = d/ds,
+
+    where its axes are at mid-chord and it has no dampers (:mod:`equisection.beam.section`).
 
     The k* on every axis is that of Eq. 17 in the paper's form: the uncorrected structural
     stiffness, with K_theta from the slope of the first torsion shape. It stands for all of the
@@ -31,8 +35,8 @@ Non-dimensional numbers (Eq. 18)
     elasticity the consistent section of that beam is some 6 % stiffer than k* says, since
     warping is restrained at the clamp; see docs/errata.md.)
 Incidence that a moving section sees
-    At mid-chord theta_0 + theta - d(w/c)/ds; at three quarters of the chord, where the
-    circulation is set, theta_0 + theta + (1/4) dtheta/ds - d(w/c)/ds.
+    At the elastic axis theta_0 + theta - d(w/c)/ds; at three quarters of the chord, where the
+    circulation is set, theta_0 + theta + (1/4 - x_ea) dtheta/ds - d(w/c)/ds.
 Modes
     Shapes are normalised to a largest absolute value of 1 along the span, which is the tip
     for the first modes of a cantilever.

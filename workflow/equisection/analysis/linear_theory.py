@@ -27,12 +27,14 @@ from equisection.motion.linear_flutter import (
 )
 from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import nominal_k_star, section_in_flow
-from equisection.study.plan import model
+from equisection.study.plan import Model, model
 
 #: Columns of ``comparison/linear_theory.csv``, in order.
 COLUMNS = ("reduction", "motion", "k_star", "growth_rate", "frequency_strouhal")
 #: Columns that the theory adds to ``comparison/onset.csv``.
 ONSET_COLUMNS = ("linear_flutter", "linear_divergence", "divergence_by_polar")
+#: Name of the beam among the reductions.
+_BEAM = "beam"
 #: Place of the moments of a polar, x/c.
 _MID_CHORD = 0.5
 #: The motions in vacuum, in the order of :func:`growth_and_frequency`.
@@ -74,13 +76,19 @@ def _growth_and_frequency(section: Section, scales: NDArray[np.float64]) -> NDAr
         return np.full((1, 2), complex(math.nan, math.nan))
 
 
-def moment_slope(polar_2d: xr.Dataset, resolution: str, incidence_deg: float) -> float:
+def moment_slope(
+    polar_2d: xr.Dataset, resolution: str, incidence_deg: float, elastic_axis: float = 0.5
+) -> float:
     """Return dc_m/dtheta (1/rad) of ``steady/polar_2d.nc`` at an incidence (deg).
+
+    That about the elastic axis (x/c from the leading edge).
 
     NaN where too few incidences have a result, or none beyond this one.
     """
     try:
-        return polar_at(polar_2d, resolution).continued.moment_slope(math.radians(incidence_deg))
+        polar = polar_at(polar_2d, resolution).continued
+        polar.require(alpha := math.radians(incidence_deg))
+        return float(polar.moment_cubic_about(elastic_axis - _MID_CHORD)(alpha, 1))
     except (ResultFileError, IncidenceOutOfRangeError):
         return math.nan
 
@@ -93,13 +101,14 @@ def linear_onset(equivalent: xr.Dataset, slope: float) -> dict[str, dict[str, fl
     equivalent
         ``structure/equivalent.nc``.
     slope
-        dc_m/dtheta about mid-chord of the section's polar (1/rad), for the divergence beside the
-        thin plate's; NaN where the elastic axis is elsewhere.
+        dc_m/dtheta about the elastic axis of the section's polar (1/rad), for the divergence beside
+        the thin plate's.
 
     Returns
     -------
     dict
-        NaN for flutter where no k* has a neutral oscillation; 0 where nothing diverges.
+        By reduction, and under ``beam`` for the beam, of which the flutter alone is known. NaN for
+        flutter where no k* has a neutral oscillation; 0 where nothing diverges.
     """
     found, nominal = {}, nominal_k_star(equivalent)
     for reduction in (str(name) for name in equivalent["reduction"].values):
@@ -108,27 +117,29 @@ def linear_onset(equivalent: xr.Dataset, slope: float) -> dict[str, dict[str, fl
         values = (
             math.nan if neutral is None else nominal * neutral.scale,
             nominal * divergence_scale(section),
-            nominal * divergence_scale(section, slope)
-            if section.elastic_axis == _MID_CHORD
-            else math.nan,
+            nominal * divergence_scale(section, slope),
         )
         found[reduction] = dict(zip(ONSET_COLUMNS, values, strict=True))
+    of_beam = equivalent.get("beam_flutter_k_star")
+    beam = (math.nan if of_beam is None else float(of_beam), math.nan, math.nan)
+    found[_BEAM] = dict(zip(ONSET_COLUMNS, beam, strict=True))
     return found
 
 
 def with_linear_theory(
     onset: pd.DataFrame, linear: dict[str, dict[str, float]], default_reduction: str
 ) -> pd.DataFrame:
-    """Return ``comparison/onset.csv`` with what linear theory says of the uncorrected sections.
+    """Return ``comparison/onset.csv`` with what linear theory says of sections and beam.
 
-    A corrected section has other masses in another flow, and the beam more modes than two: theirs
-    are empty.
+    A corrected section has other masses in another flow: its columns are empty. Of the beam there
+    is the flutter, with all of its modes.
     """
     columns = {}
     for name in ONSET_COLUMNS:
         models = [model(str(row), default_reduction) for row in onset["model"]]
-        columns[name] = [
-            linear[one.reduction][name] if one.dimension == "2d" and not one.corrected else math.nan
-            for one in models
-        ]
+        columns[name] = [math.nan if one.corrected else linear[_row(one)][name] for one in models]
     return onset.assign(**columns)
+
+
+def _row(one: Model) -> str:
+    return one.reduction if one.dimension == "2d" else _BEAM

@@ -112,7 +112,9 @@ def equivalent_to_dataset(
     )
 
 
-def with_flutter(equivalent: xr.Dataset, found: Mapping[str, FlutterBias]) -> xr.Dataset:
+def with_flutter(
+    equivalent: xr.Dataset, found: Mapping[str, FlutterBias], density: float
+) -> xr.Dataset:
     """Return ``structure/equivalent.nc`` with flutter by linear theory, of sections and beam.
 
     Parameters
@@ -121,6 +123,8 @@ def with_flutter(equivalent: xr.Dataset, found: Mapping[str, FlutterBias]) -> xr
         The data set.
     found
         Flutter of each section and of the beam, by reduction, in its order.
+    density
+        Density of the fluid rho (kg/m^3).
     """
     each = list(found.values())
     beam = each[0]
@@ -135,6 +139,12 @@ def with_flutter(equivalent: xr.Dataset, found: Mapping[str, FlutterBias]) -> xr
         ),
         "pair_flutter_speed": ((), beam.pair.speed, "m s-1", f"{speed}, first pair of modes"),
         "beam_flutter_speed": ((), beam.beam.speed, "m s-1", f"{speed}, all modes of the beam"),
+        "beam_flutter_k_star": (
+            (),
+            section_from_dataset(equivalent, "paper").k_star(density, beam.beam.speed),
+            "1",
+            "k* of flutter by linear theory, all modes of the beam",
+        ),
         "critical_pair": (
             (),
             beam.critical_pair,
