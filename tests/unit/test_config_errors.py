@@ -84,6 +84,17 @@ MALFORMED = [
         "0.01",
         "with solver 'openfoam' is 0",
     ),
+    (
+        {
+            "beam": {**AXES["beam"], "mass_axis": 0.52},
+            "structure": {"method": "beam"},
+            "embedded": {"polars": {"coarse": "flat-plate"}},
+            "reduction": "paper",
+        },
+        "reduction",
+        "paper",
+        "allowed is consistent where beam.elastic_axis and beam.mass_axis differ",
+    ),
     ({"embedded": {"moment_axis": 25}}, "embedded.moment_axis", "25", "from 0 to 1, or null"),
     # numbers
     ({"beam": {"chord": -0.1}}, "beam.chord", "-0.1", "a number above 0"),
