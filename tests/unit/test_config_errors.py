@@ -92,7 +92,7 @@ MALFORMED = [
             "reduction": "paper",
         },
         "reduction",
-        "paper",
+        "'paper'",
         "allowed is consistent where beam.elastic_axis and beam.mass_axis differ",
     ),
     ({"embedded": {"moment_axis": 25}}, "embedded.moment_axis", "25", "from 0 to 1, or null"),
@@ -421,6 +421,12 @@ def test_a_mistake_is_not_reported_twice():
 def test_long_values_are_cut():
     (line,) = lines_of({"beam": {"chord": "x" * 10000}})
     assert len(line) < 200
+
+
+def test_a_model_without_a_name_is_refused_in_words():
+    """Its place in the schema is that of any further key."""
+    lines = lines_of({"sweep": {"taken": {None: None}}})
+    assert any("sweep.taken.None: null: allowed is text" in line for line in lines)
 
 
 def test_values_that_hold_themselves():

@@ -73,7 +73,9 @@ def _child(fragment: Fragment, part: str | int) -> Fragment:
     patterns: dict[str, Fragment] = fragment.get("patternProperties", {})
     for child in patterns.values():
         return child
-    child = fragment.get("properties", {}).get(part, {})
+    further = fragment.get("additionalProperties")
+    other = further if isinstance(further, dict) else {}
+    child = fragment.get("properties", {}).get(part, other)
     return child if child.get("description") else resolved(child)
 
 
