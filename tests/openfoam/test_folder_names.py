@@ -7,7 +7,7 @@ import pytest
 
 from equisection.config.groups.openfoam_keys import refused_path
 from equisection.solvers.openfoam.dictionaries import control, write_system
-from equisection.solvers.openfoam.installation import Installation, find
+from equisection.solvers.openfoam.installation import Installation
 
 CUBE = """
 FoamFile {version 2.0; format ascii; class dictionary; object blockMeshDict;}
@@ -18,14 +18,9 @@ boundary ();
 """
 
 
-@pytest.fixture(scope="module")
-def installation() -> Installation:
-    return find()
-
-
 def makes_a_mesh(installation: Installation, folder: Path) -> bool:
     """Start the program itself, without the check that comes before it."""
-    write_system(folder, control("blockMesh", 1, 1, 1), "", "")
+    write_system(folder, control("blockMesh", 1, 1, 1), {}, {})
     (folder / "system" / "blockMeshDict").write_text(CUBE)
     command, variables = installation.command("blockMesh"), installation.variables()
     subprocess.run(command, cwd=folder, env=variables, capture_output=True, check=False)
