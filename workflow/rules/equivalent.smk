@@ -17,7 +17,7 @@ rule equivalent_section:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("reduction", "results/modes_dataset.py", "results/section_dataset.py"),
+        code=code("equivalent_section"),
         beam=RESOLVED["beam"],
         flow=RESOLVED["flow"],
     message:
@@ -44,12 +44,7 @@ rule correction_factors:
         mem_mb=500,
         runtime=5,
     params:
-        code=code(
-            "reduction/correction.py",
-            "reduction/modal_load.py",
-            "results/correction_dataset.py",
-            "results/polar_dataset.py",
-        ),
+        code=code("correction_factors"),
         resolution=CONFIG.steady.resolution,
     message:
         "correction factors"

@@ -21,7 +21,7 @@ rule identification:
         mem_mb=1000,
         runtime=10,
     params:
-        code=code("aerodynamics", "motion", "figures/identified_lags.py", *DRAWING),
+        code=code("identification"),
         embedded=RESOLVED["embedded"],
         resolution=CONFIG.steady.resolution,
     message:

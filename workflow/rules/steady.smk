@@ -22,7 +22,7 @@ checkpoint steady_cases:
         mem_mb=500,
         runtime=5,
     params:
-        code=code(*CASES_MADE_OF),
+        code=code("steady_cases", "solvers"),
         config=RESOLVED,
         cases=STEADY,
     message:
@@ -47,7 +47,7 @@ checkpoint steady_case_file:
         mem_mb=500,
         runtime=5,
     params:
-        code=code(*CASES_MADE_OF),
+        code=code("steady_cases", "solvers"),
         config=RESOLVED,
         cases=this_angle,
     message:
@@ -161,11 +161,7 @@ if CONFIG.steady.beam_polar:
             mem_mb=500,
             runtime=5,
         params:
-            code=code(
-                "results/polar_dataset.py",
-                "io/polar_file.py",
-                "io/polar_rows.py",
-            ),
+            code=code("given_beam_polar"),
             resolution=CONFIG.steady.resolution,
         message:
             "3d polar, given"
@@ -189,7 +185,7 @@ rule polar:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("results"),
+        code=code("polar"),
         cases=STEADY,
     message:
         "{wildcards.dimension} polar"
@@ -272,7 +268,7 @@ rule grid_study:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("analysis/grid_convergence.py", "analysis/grid_study.py"),
+        code=code("grid_study"),
         config=RESOLVED,
     message:
         "grid study of the section polar"
@@ -304,7 +300,7 @@ rule bubble:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("analysis/bubble.py", "results/surface.py"),
+        code=code("bubble"),
         cases=STEADY,
     message:
         "bubble of the section"

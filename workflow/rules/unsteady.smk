@@ -21,7 +21,7 @@ checkpoint unsteady_cases:
         mem_mb=500,
         runtime=5,
     params:
-        code=code(*CASES_MADE_OF),
+        code=code("unsteady_cases", "solvers"),
         config=RESOLVED,
         cases=SWEEP,
     message:
@@ -47,7 +47,7 @@ checkpoint unsteady_case_file:
         mem_mb=500,
         runtime=5,
     params:
-        code=code(*CASES_MADE_OF),
+        code=code("unsteady_cases", "solvers"),
         config=RESOLVED,
         cases=this_case,
     message:
@@ -148,7 +148,7 @@ checkpoint refine_onset:
         mem_mb=500,
         runtime=5,
     params:
-        code=code("analysis/onset.py", "analysis/summary.py"),
+        code=code("refine_onset"),
         tolerance=CONFIG.sweep.onset_tolerance,
         points=CONFIG.sweep.onset_points,
     message:

@@ -96,11 +96,6 @@ class Config(KeyGroup):
         }
         return sections[self.solver]
 
-    @property
-    def is_paper_case(self) -> bool:
-        """Whether beam and flow are those of the paper, so that its numbers can stand beside."""
-        return self.beam == Beam() and self.flow == Flow()
-
 
 @check("correction", "steady.beam_polar")
 def _loads_along_the_span(correction: str, beam_polar: str) -> Iterator[Problem]:

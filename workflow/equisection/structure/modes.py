@@ -106,19 +106,28 @@ def modes_of_kinds(
 
 
 def mesh_study(
-    plate: Plate, levels: Sequence[tuple[int, int, int]], method: str = "solid", count: int = 8
+    plate: Plate,
+    levels: Sequence[tuple[int, int, int]],
+    method: str = "solid",
+    count: int = 8,
+    solved: ModeSet | None = None,
 ) -> MeshStudy:
     """Solve on each mesh level (coarse to fine) and compare the first ``count`` frequencies.
 
     Modes are paired by kind, the n-th of bending with the n-th of bending, since a coarse mesh may
-    have them in another order. One that a level lacks is NaN there, with a warning.
+    have them in another order. One that a level lacks is NaN there, with a warning. ``solved`` are
+    modes that are known already: where they are of the finest level it is not solved again.
 
     Raises
     ------
     ModesError
         The finest level has no modes.
     """
-    finest = compute_modes(plate, method, levels[-1], count)
+    label = " x ".join(map(str, levels[-1]))
+    if solved and (solved.method, solved.elements) == (method, label) and len(solved.kind) >= count:
+        finest = solved.lowest(count)
+    else:
+        finest = compute_modes(plate, method, levels[-1], count)
     coarser = [_paired(plate, method, level, finest.kind) for level in levels[:-1]]
     return MeshStudy(tuple(levels), finest.kind, np.array([*coarser, finest.frequency]))
 
