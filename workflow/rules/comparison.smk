@@ -10,10 +10,6 @@ rule config_resolved:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code("config_resolved"),
         config=RESOLVED,
@@ -39,10 +35,6 @@ rule summary:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=1000,
-        runtime=5,
     params:
         code=code("summary"),
         models=list(CONFIG.sweep.shown),
@@ -66,10 +58,6 @@ rule missing:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code("missing"),
     message:

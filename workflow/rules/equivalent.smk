@@ -12,10 +12,6 @@ rule equivalent_section:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code("equivalent_section"),
         beam=RESOLVED["beam"],
@@ -39,10 +35,6 @@ rule correction_factors:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
         code=code("correction_factors"),
         resolution=CONFIG.steady.resolution,

@@ -16,7 +16,6 @@ rule identification:
         f"{LOGS}/identification.log",
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
         mem_mb=1000,
         runtime=10,
