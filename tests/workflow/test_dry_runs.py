@@ -89,7 +89,6 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
         refine_onset=models * rounds,
         section_and_beam=plan.has_both(config),
         modal_contributions="3d" in config.sweep.models,
-        hysteresis=any(model.startswith("2d") for model in config.sweep.models),
     )
     if is_paper_case(config) and with_paper:
         jobs.update((*ONCE_WITH_THE_PAPERS_CASE, *(["rigid_beam_table"] * (dimensions == 2))))

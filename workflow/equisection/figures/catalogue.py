@@ -262,6 +262,7 @@ CATALOGUE = (
         _HISTORIES,
         {"reduction": "reduction"},
         exists=_has_section_model,
+        drawn_with="response",
     ),
     Entry(
         "growth-rate",

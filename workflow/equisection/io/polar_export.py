@@ -68,7 +68,10 @@ def _flow(data: xr.Dataset) -> list[str]:
     reynolds = medium["density"] * medium["speed"] * geometry["chord"] / medium["dynamic_viscosity"]
     height = geometry["channel_height"]
     around = "free air" if height is None else f"channel {height:g} c high"
-    return [f"# Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}.\n"]
+    return [
+        f"# Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}.\n",
+        f"# Valid for: h/c {geometry['thickness']:g}\n",
+    ]
 
 
 def _require_one_polar(results: Sequence[xr.Dataset]) -> None:
