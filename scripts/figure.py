@@ -38,6 +38,6 @@ if __name__ == "__main__":
             snakemake.params.names,
             given,
             snakemake.params["values"],
-            style=given["style"],
+            style=Path(snakemake.input.style),
             outputs=[Path(path) for path in snakemake.output],
         )

@@ -43,7 +43,7 @@ class Config(KeyGroup):
     correction: Literal["mean", "modal"] = Field(
         "mean",
         description="Lift and moment of the rigid beam that the section is corrected by (Eq. 20): "
-        "`mean`, over the span, as the paper does; `modal`, as the first bending and the first "
+        "`mean`, over the span; `modal`, as the first bending and the first "
         "torsion mode feel them.",
     )
     reuse: Annotated[str, EMPTY] = Field(

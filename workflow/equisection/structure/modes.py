@@ -1,6 +1,6 @@
 """The modes of a plate by any of three methods, in one form.
 
-``solid`` (quadratic hexahedra) is what the paper does; ``beam`` (one-dimensional elements)
+``solid`` has quadratic hexahedra; ``beam`` (one-dimensional elements)
 and ``analytic`` cover every boundary and differ from it by what a beam leaves out: restrained
 warping and Poisson contraction at a clamp.
 """
@@ -49,7 +49,7 @@ def compute_modes(
         Elements along chord, span and thickness. ``beam`` uses those along the span only, and
         ``analytic`` takes its stations from them (ends and middles of the elements).
     count : int
-        Number of modes. For the paper's plate, 12 hold four of bending, four of torsion.
+        Number of modes. Of a cantilever of L/c = 3.7, 12 hold four of bending, four of torsion.
     """
     if count < 1:
         raise ModesError(f"count is {count}; ask for at least one mode")
