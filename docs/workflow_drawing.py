@@ -49,7 +49,7 @@ BOXES = {
     "2d-corrected": Box(1.3, 2.0, "unsteady", "unsteady 2D, corrected", UNSTEADY),
     "3d": Box(-3.4, 2.0, "unsteady", "unsteady 3D", UNSTEADY),
     "onset": Box(-1.5, 1.0, "end", "comparison, onset", ("summary", "onset")),
-    "figures": Box(1.3, 1.0, "end", "figures", ("response", "hysteresis", "growth_rate")),
+    "figures": Box(1.3, 1.0, "end", "figures", ("response", "growth_rate", "…")),
 }
 ARROWS = (
     *(("beam", "modes"), ("beam", "polar_2d"), ("beam", "polar_3d"), ("modes", "section")),
