@@ -20,8 +20,8 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PchipInterpolator
 
 from equisection.conventions import SYMMETRY_TOLERANCE
 from equisection.errors import IncidenceOutOfRangeError, PolarFileError
@@ -53,8 +53,8 @@ class _Curve:
     values: Floats
 
     @cached_property
-    def cubic(self) -> PchipInterpolator:
-        return PchipInterpolator(self.incidence, self.values)
+    def cubic(self) -> scipy.interpolate.PchipInterpolator:
+        return scipy.interpolate.PchipInterpolator(self.incidence, self.values)
 
     @cached_property
     def _first_node(self) -> int:
@@ -274,12 +274,12 @@ class Polar:
         return self._drag.read(alpha)
 
     @property
-    def lift_cubic(self) -> PchipInterpolator:
+    def lift_cubic(self) -> scipy.interpolate.PchipInterpolator:
         """c_l as the piecewise cubic itself, for roots and quotients; no limit of range."""
         return self._lift.cubic
 
     @property
-    def moment_cubic(self) -> PchipInterpolator:
+    def moment_cubic(self) -> scipy.interpolate.PchipInterpolator:
         """c_m as the piecewise cubic itself, for roots and quotients; no limit of range."""
         return self._moment.cubic
 

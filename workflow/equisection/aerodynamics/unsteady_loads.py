@@ -36,6 +36,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.indicial import IMMEDIATE_SHARE, JONES_AMPLITUDES, LAG_RATES
@@ -112,11 +113,9 @@ def follow(signal: Floats, rate: float, time_step: float) -> Floats:
     """
     decay = math.exp(-rate * time_step)
     mean = (1.0 - decay) / (rate * time_step)
-    from scipy.signal import lfilter  # noqa: PLC0415 (half a second, for the identification alone)
-
     old, new = mean - decay, 1.0 - mean
     change = signal - signal[0]
-    followed, _ = lfilter([new, old], [1.0, -decay], change, zi=[0.0])
+    followed, _ = scipy.signal.lfilter([new, old], [1.0, -decay], change, zi=[0.0])
     return np.asarray(followed + signal[0], dtype=np.float64)
 
 

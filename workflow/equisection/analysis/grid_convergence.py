@@ -20,7 +20,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from scipy.optimize import brentq
+import scipy
 
 #: Factor of safety of the index for three grids (Celik et al. 2008, Eq. 7).
 SAFETY = 1.25
@@ -114,7 +114,7 @@ def _order(ratio: float, r_21: float, r_32: float, sign: float) -> float:
 
     if excess(SMALLEST_ORDER) >= 0 or excess(LARGEST_ORDER) <= 0:
         return math.nan
-    return float(brentq(excess, SMALLEST_ORDER, LARGEST_ORDER, xtol=1e-12))
+    return float(scipy.optimize.brentq(excess, SMALLEST_ORDER, LARGEST_ORDER, xtol=1e-12))
 
 
 def _index(change: float, fine: float, r_21: float, order: float) -> float:

@@ -14,15 +14,16 @@ from functools import reduce
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from equisection.config import Config
 from equisection.figures.models_shown import beam_model, section_model
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
 from equisection.study import plan
 from equisection.study.result_files import index_of_beam, indices_of_model, indices_of_sweep
 
-if TYPE_CHECKING:
+if TYPE_CHECKING:  # jobs need not build the models, nor the graph load what draws
     from matplotlib.figure import Figure
+
+    from equisection.config import Config
 
 #: Formats that every figure is written in.
 FORMATS = ("png", "svg", "pdf")
@@ -278,6 +279,7 @@ CATALOGUE = (
         "section against beam",
         {**_SUMMARY, "deviations": "comparison/section_and_beam.csv"},
         exists=plan.has_both,
+        drawn_with="growth_rate",
     ),
 )
 

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import scipy
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
-from scipy.interpolate import griddata
 
 from equisection.figures.incidences import nearest_incidences
 from equisection.figures.origin import add_provenance, solver_of
@@ -70,7 +70,9 @@ def on_grid(faces: PlateSurface) -> Side:
     z, x = _middles(span), _middles(1.0)
     grid = np.meshgrid(_within(z, faces.z), _within(x, faces.x))
     values = np.stack([faces.pressure, faces.friction, faces.spanwise_friction], axis=-1)
-    there = griddata(np.stack([faces.z, faces.x], axis=-1), values, tuple(grid), method="linear")
+    there = scipy.interpolate.griddata(
+        np.stack([faces.z, faces.x], axis=-1), values, tuple(grid), method="linear"
+    )
     return Side(z, x, there[..., 0], there[..., 1], there[..., 2])
 
 

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.motion.march import Failure, Monitor, Progress, Recording, march
@@ -86,7 +86,10 @@ class BeamParameters:
         ends). The generalised inertia of mode i is I int f_i^2 dz/L and its stiffness
         omega_i^2 times that.
         """
-        torsion, bending = CubicSpline(span, torsion_shapes.T), CubicSpline(span, bending_shapes.T)
+        torsion, bending = (
+            scipy.interpolate.CubicSpline(span, torsion_shapes.T),
+            scipy.interpolate.CubicSpline(span, bending_shapes.T),
+        )
         torsion_inertia = np.outer(inertia, _square_integral(span, torsion_shapes))
         bending_mass = np.outer(mass, _square_integral(span, bending_shapes))
         strips = stations.size
@@ -111,7 +114,9 @@ class BeamParameters:
 
 
 def _square_integral(span: Floats, shapes: Floats) -> Floats:
-    return np.asarray(CubicSpline(span, (shapes**2).T).integrate(0.0, 1.0), dtype=np.float64)
+    return np.asarray(
+        scipy.interpolate.CubicSpline(span, (shapes**2).T).integrate(0.0, 1.0), dtype=np.float64
+    )
 
 
 @dataclass(frozen=True)

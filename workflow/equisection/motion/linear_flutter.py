@@ -29,8 +29,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
 from equisection.beam.section import Section
@@ -150,7 +150,7 @@ def _neutral_between(flow: _Flow, branch: int, low: float, high: float) -> Neutr
 
     if followed(low).imag * followed(high).imag >= 0.0:
         return None
-    omega = float(brentq(lambda value: followed(value).imag, low, high, xtol=1e-13))
+    omega = float(scipy.optimize.brentq(lambda value: followed(value).imag, low, high, xtol=1e-13))
     scale = followed(omega)
     is_root = abs(scale.imag) < 1e-6 * abs(scale) and scale.real > 0.0
     return Neutral(scale.real, omega) if is_root else None

@@ -24,8 +24,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PPoly
 
 from equisection.aerodynamics.polar import Polar
 from equisection.motion.strip_system import StripSystem
@@ -133,11 +133,11 @@ def section_equilibrium(system: StripSystem, incidence_rad: Floats) -> tuple[Flo
     return states, system.deficits(alpha[:, None])
 
 
-def _fold_function(cubic: PPoly, start: float) -> PPoly:
+def _fold_function(cubic: scipy.interpolate.PPoly, start: float) -> scipy.interpolate.PPoly:
     """c_m - (alpha - theta_0) dc_m/dalpha, which vanishes where q has a maximum or minimum."""
     third, second, first, constant = cubic.c
     arm = cubic.x[:-1] - start
-    return PPoly(
+    return scipy.interpolate.PPoly(
         [
             -2.0 * third,
             -second - 3.0 * third * arm,
@@ -148,7 +148,7 @@ def _fold_function(cubic: PPoly, start: float) -> PPoly:
     )
 
 
-def _first(function: PPoly, start: float, way: float) -> float:
+def _first(function: scipy.interpolate.PPoly, start: float, way: float) -> float:
     """First zero beyond ``start`` in a direction, infinite where there is none."""
     zeros = np.asarray(function.roots(extrapolate=False), dtype=np.float64)
     beyond = zeros[np.isfinite(zeros) & (way * (zeros - start) > 0.0)]

@@ -13,8 +13,8 @@ largest, is less by C_f than by its mean.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 Floats = NDArray[np.float64]
 
@@ -33,6 +33,8 @@ def modal_load(stations: Floats, load: Floats, span: Floats, shape: Floats) -> F
         z/L of the stations of the mode, and its shape there, shape (m,).
     """
     between = (stations[1:] + stations[:-1]) / 2
-    weights = np.diff(between, prepend=0.0, append=1.0) * CubicSpline(span, shape)(stations)
+    weights = np.diff(between, prepend=0.0, append=1.0) * scipy.interpolate.CubicSpline(
+        span, shape
+    )(stations)
     felt: Floats = load @ weights / weights.sum()
     return felt

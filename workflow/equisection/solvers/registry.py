@@ -9,13 +9,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from equisection.cases import SolverBlock
-from equisection.config import Config
 from equisection.errors import CaseFileError, ConfigError
 from equisection.keys.checks import Problem
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Solver
+
+if TYPE_CHECKING:  # jobs need not build the models of the configuration
+    from equisection.config import Config
 
 
 @dataclass(frozen=True)

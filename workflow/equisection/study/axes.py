@@ -17,9 +17,10 @@ import itertools
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from equisection.config import Config
+if TYPE_CHECKING:  # jobs need not build the models of the configuration
+    from equisection.config import Config
 
 #: Digits of a value in a name; values that differ beyond them are one case.
 DIGITS = 6

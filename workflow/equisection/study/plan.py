@@ -13,13 +13,16 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equisection.cases import FREE, STEADY, Kind
-from equisection.config import Config
 from equisection.files import require_plain_names, write_text
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
 from equisection.study.axes import INCIDENCE, Point, onset_axis, sweep_points, varied
+
+if TYPE_CHECKING:  # jobs need not build the models of the configuration
+    from equisection.config import Config
 
 #: Patterns of the wildcards of the rules.
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
-from equisection.config import Config
+from typing import TYPE_CHECKING
+
 from equisection.study import plan
+
+if TYPE_CHECKING:  # jobs need not build the models of the configuration
+    from equisection.config import Config
 
 
 def indices_of_model(config: Config, folder: str, model: str) -> list[str]:

@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -92,14 +93,11 @@ def find_cycles(time: Array, signal: Array) -> Cycles:
     signal : ndarray, shape (n,)
         Any history.
     """
-    # it brings scipy.stats along, half a second that jobs without a history need not wait
-    from scipy.signal import find_peaks  # noqa: PLC0415
-
     noise = noise_level(signal)
     rounding = 1e-12 * (1e-3 + float(np.max(np.abs(signal), initial=0.0)))
     prominence = max(_PROMINENCE_IN_NOISE * noise, rounding)
-    tops, _ = find_peaks(signal, prominence=prominence)
-    bottoms, _ = find_peaks(-signal, prominence=prominence)
+    tops, _ = scipy.signal.find_peaks(signal, prominence=prominence)
+    bottoms, _ = scipy.signal.find_peaks(-signal, prominence=prominence)
     index = _in_turn(signal, np.concatenate((tops, bottoms)), tops.size)
     index = _without_secondary(signal, index)
     at, value = _refined(time, signal, index, noise)

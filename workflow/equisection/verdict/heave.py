@@ -10,7 +10,7 @@ larger than the one before.
 from __future__ import annotations
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
+import scipy
 
 from equisection.verdict.cycles import Array, find_cycles
 from equisection.verdict.observation import GROWN, Observation
@@ -109,7 +109,7 @@ def _slow(seen: Observation) -> tuple[Array, Array]:
 
 def _averaged(time: Array, signal: Array, width: float) -> tuple[Array, Array]:
     """Return times and averages of a history over ``width`` (c/V) around them."""
-    integral = cumulative_trapezoid(signal, time, initial=0.0)
+    integral = scipy.integrate.cumulative_trapezoid(signal, time, initial=0.0)
     inside = (time >= time[0] + width / 2) & (time <= time[-1] - width / 2)
     middle = time[inside]
     until, since = (np.interp(middle + half, time, integral) for half in (width / 2, -width / 2))

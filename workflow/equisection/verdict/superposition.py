@@ -16,8 +16,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 
 from equisection.verdict.cycles import Array
 
@@ -138,7 +138,7 @@ def _rates(sample: Array, step: float) -> NDArray[np.complex128]:
     # Only the largest ones: the solver for all of them spreads over threads, which costs a
     # hundred times its work when the machine is busy.
     largest = [max(pencil + 1 - _MAXIMAL_WAVES, 0), pencil]
-    values, vectors = eigh(correlation, subset_by_index=largest, check_finite=False)
+    values, vectors = scipy.linalg.eigh(correlation, subset_by_index=largest, check_finite=False)
     significant = int(np.sum(values > _RELATIVE_RANK**2 * values[-1]))
     basis = vectors[:, -max(significant, 1) :]
     shift = np.linalg.lstsq(basis[:-1], basis[1:], rcond=None)[0]

@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from equisection.cases import BeamModes
 from equisection.files import write_text
@@ -84,8 +84,12 @@ class LumpedPoints:
             0.5 * modes.inertia * span * integrate(stations, torsion**2),
             0.5 * modes.mass * span * integrate(stations, bending**2),
         ]
-        twisting = _followed(CubicSpline(stations, torsion, axis=1)(locations / span), edges)
-        heaving = _followed(CubicSpline(stations, bending, axis=1)(locations / span), edges)
+        twisting = _followed(
+            scipy.interpolate.CubicSpline(stations, torsion, axis=1)(locations / span), edges
+        )
+        heaving = _followed(
+            scipy.interpolate.CubicSpline(stations, bending, axis=1)(locations / span), edges
+        )
         return cls(
             span=span,
             locations=locations,

@@ -24,6 +24,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from equisection.errors import SolverError
@@ -194,15 +195,13 @@ def _refined(numbers: tuple[int, ...], refinement: float) -> list[int]:
 
 def expansion(length: float, cells: int, first: float) -> float:
     """Return the size of the last cell over that of the first, for a geometric growth."""
-    from scipy.optimize import brentq  # noqa: PLC0415 (writing a case file needs none of it)
-
     if first * cells >= length:
         return 1.0
 
     def excess(log_growth: float) -> float:
         return first * math.expm1(cells * log_growth) / math.expm1(log_growth) - length
 
-    return math.exp((cells - 1) * float(brentq(excess, 1e-9, 3.0)))
+    return math.exp((cells - 1) * float(scipy.optimize.brentq(excess, 1e-9, 3.0)))
 
 
 def _along(points: NDArray[np.float64], i: int, line: int) -> str:

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from equisection.errors import SolverError
 from equisection.files import write_text
@@ -156,7 +156,7 @@ def _on_grid(path: Path, points: Floats) -> Floats:
     """
     rows = np.loadtxt(path, ndmin=2)
     flat = points.reshape(-1, 3)
-    distance, nearest = cKDTree(flat).query(rows[:, :3])
+    distance, nearest = scipy.spatial.cKDTree(flat).query(rows[:, :3])
     values = np.full((len(flat), rows.shape[1] - 3), math.nan)
     here = distance < 0.1 * STEP
     values[nearest[here]] = rows[here, 3:]
