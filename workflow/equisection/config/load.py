@@ -1,4 +1,4 @@
-"""Validate what Snakemake hands over, and say what is wrong with it in one line a problem."""
+"""Validation of the keys that Snakemake hands over, with one line for each problem."""
 
 from __future__ import annotations
 

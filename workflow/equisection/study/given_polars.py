@@ -1,4 +1,4 @@
-"""What is in the polars that a configuration names, looked at before any job starts."""
+"""Check of the polars that a configuration names, before any job starts."""
 
 from __future__ import annotations
 

@@ -2,10 +2,10 @@
 
 The paper states 0.004 c along the wall, 0.020 c in the near field, 0.040 c in the wake, 0.200 c in
 the domain, and y+ below 1. From the plate the sizes grow geometrically to that of a region, and
-stay there. The counts are those that the sizes ask for in the paper's channel; in another one, or
-around another thickness, the uniform part of each block takes up the difference.
+stay there. The counts are those that the sizes ask for in the paper's channel. In another channel,
+or around another thickness, the uniform part of each block takes up the difference.
 
-What the paper does not say: growth, size of the first cell, and how far the wake region reaches.
+The paper does not state growth, size of the first cell, and length of the wake region.
 """
 
 from __future__ import annotations

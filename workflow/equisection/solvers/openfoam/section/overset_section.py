@@ -89,7 +89,7 @@ class OversetRun(SectionRun):
         return iterate(self.installation, "overSimpleFoam", folder, tell)
 
     def write_motion(self, folder: Path) -> None:
-        """Write what moves the section and its mesh."""
+        """Write the dictionary that moves the section and its mesh."""
         assert self.case.section is not None
         body = rigid_body(self.case.section, _EVERYWHERE, 2 * _EVERYWHERE)
         body["report"] = True
@@ -104,7 +104,7 @@ class OversetRun(SectionRun):
         write_displacement(folder, {OVERSET: {"patchType": OVERSET, "type": "zeroGradient"}})
 
     def write_system(self, folder: Path) -> None:
-        """Write what controls the run; its end may differ from that of an earlier start."""
+        """Write the control of the run, whose end may differ from that of an earlier start."""
         entries = control("pimpleFoam", self.case.duration, self.case.time_step, STATE_INTERVAL)
         # the fields name a kind of patch that no program knows by itself
         entries["libs"] = ['"liboverset.so"']
@@ -118,7 +118,7 @@ class OversetRun(SectionRun):
         )
 
     def mesh_fault(self, twist: float, deflection: float) -> str:
-        """Return whether the plate's mesh has left the channel."""
+        """Return the fault of the plate's mesh where it has left the channel, else ''."""
         reach, half = self.meshes.reach(twist, deflection), self.mesh.channel.height / 2
         if reach < half:
             return ""
@@ -132,7 +132,7 @@ class OversetRun(SectionRun):
 def read_motion(folder: Path) -> BodyMotion:
     """Return the motion at the end of each time step that has one, from the log of a run.
 
-    What was written before a kill and is repeated after the resumption counts once.
+    A step that was written before a kill and repeated after the resumption counts once.
 
     Raises
     ------
