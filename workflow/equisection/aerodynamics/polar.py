@@ -41,7 +41,7 @@ NIL = 1e-3
 
 
 def is_nil(value: float, coefficients: Floats) -> bool:
-    """Tell whether a value is zero, up to a solver's residue, beside the largest of a polar's."""
+    """Tell whether a value is zero up to a solver's residue, relative to the largest of a polar."""
     return bool(abs(value) <= NIL * np.max(np.abs(coefficients)))
 
 

@@ -31,7 +31,7 @@ class ReferenceHistory:
     incidence_rad
         Rigid incidence theta_0 (rad).
     k_star
-        k* of the beam that the section stands for.
+        k* of the section's beam.
     section
         The section in its flow as it moved (Eq. 18), corrected where it was.
     name

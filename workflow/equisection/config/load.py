@@ -77,7 +77,7 @@ def _field_of(path: Path) -> Path:
 
 
 def _section_in(annotation: Any) -> type[BaseModel] | None:
-    """Return the section that an annotation holds, alone or beside ``None``."""
+    """Return the section that an annotation holds, alone or with ``None``."""
     kinds = [kind for kind in get_args(annotation) or (annotation,) if kind is not type(None)]
     if len(kinds) == 1 and isinstance(kinds[0], type) and issubclass(kinds[0], KeyGroup):
         return kinds[0]

@@ -150,7 +150,7 @@ def _stands_twice(path: Path, key: str, first: int, again: int) -> str:
 def _repeated(
     node: yaml.Node | None, above: str = "", seen: set[int] | None = None
 ) -> Iterator[tuple[str, int, int]]:
-    """Give the path of each key that stands twice, with both of its lines: YAML takes the last.
+    """Give the path of each key that occurs twice, with both of its lines: YAML takes the last.
 
     A node that aliases repeat is looked at once: there may be billions of them.
     """

@@ -25,7 +25,7 @@ def reduce(
 ) -> Section:
     """Equivalent section of a beam, per unit span.
 
-    Where the section is a poor stand-in for the beam a ``UserWarning`` says so.
+    A ``UserWarning`` tells where the section represents the beam badly.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from equisection.keys.checks import Problem
 def check_polars(config: Config, directory: Path | None = None) -> None:
     """Refuse polars that cannot be read, and a section's that does not hold the run's incidence.
 
-    Any other incidence beyond them is a case that fails, and says so; the others go on. Paths are
+    Any other incidence beyond them is a case that fails with a reason; the others go on. Paths are
     seen from ``directory`` (by default the working one).
 
     Raises

@@ -223,7 +223,7 @@ def dimensions(config: Config) -> set[str]:
 
 
 def has_both(config: Config) -> bool:
-    """Tell whether a section stands beside the beam."""
+    """Tell whether both a section and the beam are compared."""
     return dimensions(config) == {"2d", "3d"}
 
 
@@ -255,7 +255,7 @@ def has_grid_study(config: Config) -> bool:
 
 
 def stiffest_case(names: Iterable[str]) -> str | None:
-    """Return the case whose beam is stiffest beside the flow: of the largest k*, or least speed."""
+    """Return the case of the stiffest beam relative to the flow: largest k*, or lowest speed."""
 
     def stiffness(name: str) -> float:
         point = Point.named(name)

@@ -152,7 +152,7 @@ def _without_secondary(signal: Array, index: NDArray[np.int64]) -> NDArray[np.in
 
 
 def _ends_secondary(value: Array) -> bool:
-    """Whether the last of four extrema ends a harmonic's swing, small beside the two before."""
+    """Tell whether the last of four extrema ends a small swing of a harmonic."""
     swing = np.abs(np.diff(value))
     return bool(swing[-1] < _SECONDARY_SWING * swing[:-1].max())
 

@@ -38,7 +38,7 @@ class Settings:
     def of_dimension(self, dimension: str) -> Settings:
         """Return the settings without the choices that do not exist in a dimension.
 
-        The cells of the section, and the way in which its mesh follows it, are none of the plate's.
+        The cells of the section, and the motion of its mesh, do not concern the plate.
         """
         if dimension == "2d":
             return self

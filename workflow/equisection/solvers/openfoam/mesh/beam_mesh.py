@@ -1,7 +1,7 @@
 """The plate and its channel: the section's mesh extruded over the span, and closed beyond the tip.
 
-Along z, the root stands on one side wall and the tip faces the other across the gap, where a
-block takes the plate's place::
+Along z, the root is on one side wall and the tip faces the other across the gap, where a block
+takes the plate's place::
 
     z = 0                              L/c      L/c + gap
     root wall  |  cells finer to the tip  |  gap  |  far wall

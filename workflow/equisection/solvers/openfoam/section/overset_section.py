@@ -9,7 +9,7 @@ the latter (v1912) moves the mesh once in a time step, before its iterations, wh
 one step dt in a spring makes an oscillation grow at the rate omega^2 dt/2, for k* = 10 at 0.02 c/V
 at more than twice the rate at which the air damps it. What ``overPimpleDyMFoam`` does beyond
 ``pimpleFoam`` is to blank the fields in the hole, where the plate is; those values reach no cell
-outside of it but through the gradients of the cells beside it.
+outside of it but through the gradients of the cells next to it.
 
 The function object of the motion does not know this kind of mesh; the motion is read from the log.
 """
