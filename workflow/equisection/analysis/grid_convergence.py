@@ -50,7 +50,7 @@ class GridConvergence:
         Observed order p (-); NaN where it is undefined.
     extrapolated
         Value at h = 0 (unit of the value), by Eq. 6, which is the limit of a monotonic convergence;
-        of an oscillatory one the paper gives the same, and it lies on the far side of the finest.
+        of an oscillatory one it is computed alike, and lies on the far side of the finest.
     index
         Grid convergence index of the finest grid, as a part of its value (-).
     index_second_order

@@ -69,7 +69,10 @@ def _flow(data: xr.Dataset) -> list[str]:
     reynolds = medium["density"] * medium["speed"] * geometry["chord"] / medium["dynamic_viscosity"]
     height = geometry["channel_height"]
     around = "free air" if height is None else f"channel {height:g} c high"
-    return [f"Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}."]
+    return [
+        f"Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}.",
+        f"Valid for: h/c {geometry['thickness']:g}",
+    ]
 
 
 def _require_one_polar(results: Sequence[xr.Dataset]) -> None:

@@ -1,4 +1,4 @@
-"""Which cases Figs. 16 and 17 show, as the paper's A to F.
+"""Cases of which histories and loops are shown, by the letters A to F.
 
 A and D are just inside the instability (the highest unstable k*), B and E are just outside
 (the lowest stable k* above the onset), C and F are the stiffest that did not fail; A, B, C of

@@ -1,8 +1,10 @@
-"""Fig. 9: meshes of the plate: that of the solid, and that of the flow around it."""
+"""Meshes of the beam: that of the solid, and that of the flow around it."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -14,6 +16,7 @@ from equisection.figures.mesh_lines import draw_lines, quality_in_words
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, say, without_data
 from equisection.figures.style import BLACK, BLUE, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
 from equisection.results.plane_mesh import edges
 
 Floats = NDArray[np.float64]
@@ -22,6 +25,12 @@ Floats = NDArray[np.float64]
 PLATE, LEADING_EDGE = np.array([0.75, 0.5]), np.array([0.09, 0.06])
 #: Distance within which points are on the plate (chords).
 ON_PLATE = 1e-6
+
+
+def from_files(plate_mesh: Path, method: str, elements: Mapping[str, int]) -> Figure:
+    """Draw ``steady/plate_mesh.nc``, and the mesh of the solid that the configuration asks for."""
+    counts = (elements["chord"], elements["span"], elements["thickness"])
+    return draw(read_dataset(plate_mesh), method, counts)
 
 
 def draw(grid: xr.Dataset, method: str, elements: tuple[int, int, int]) -> Figure:

@@ -1,9 +1,10 @@
-"""Fig. 11: pressure and lines of the wall shear stress on both sides of the rigid plate."""
+"""Pressure and lines of the wall shear stress on both sides of the rigid beam."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -14,16 +15,20 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 from scipy.interpolate import griddata
 
-from equisection.figures.origin import add_provenance
+from equisection.figures.incidences import nearest_incidences
+from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, say
 from equisection.figures.style import BLACK, PAGE_WIDTH, VERMILLION
-from equisection.results.plate_surface import PlateSurface
+from equisection.results.netcdf import read_dataset
+from equisection.results.plate_surface import PlateSurface, plate_surface_from_dataset
 from equisection.results.surface import suction_side
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
 
 Floats = NDArray[np.float64]
 
-#: Incidences (deg) that are shown, or those nearest: two that the paper has bubbles of, and one
-#: beyond.
+#: Incidences (deg) that are shown, or those nearest: two of a short and a long bubble, and one
+#: beyond stall.
 WANTED_DEG = (2.0, 4.0, 10.0)
 #: Distance of the points of the regular grid (chords), and part of the faces that is left out of
 #: the scale at either end.
@@ -77,6 +82,23 @@ def _middles(end: float) -> Floats:
 def _within(places: Floats, known: Floats) -> Floats:
     """Return the places moved into the range of those known, a little more than rounding."""
     return np.clip(places, known.min() + ROUNDING, known.max() - ROUNDING)
+
+
+def from_files(index_of_rigid: Path, resolution: str) -> Figure:
+    """Draw what the results at a resolution have, of the incidences nearest to those wanted."""
+    names = {plan.rigid_point(name): name for name in read_index(index_of_rigid)}
+    found, without, source = {}, [], ""
+    for (_, angle), name in sorted(item for item in names.items() if item[0][0] == resolution):
+        result = read_dataset(result_file(index_of_rigid, name))
+        source = solver_of(str(result.attrs["solver_description"]), resolution)
+        surface = plate_surface_from_dataset(result)
+        if surface is None:
+            without.append(f"{angle:g}")
+        else:
+            found[angle] = ShownSurface(surface, str(result.attrs["method"]))
+    shown = {angle: found[angle] for angle in nearest_incidences(list(found), WANTED_DEG)}
+    missing = [f"no surface data at {', '.join(without)} deg"] if without else []
+    return draw(shown, missing, source)
 
 
 def draw(surfaces: Mapping[float, ShownSurface], missing: Sequence[str], source: str) -> Figure:

@@ -19,15 +19,12 @@ from equisection.analysis.grid_convergence import cell_size, grid_convergence
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1, TABLE_2, TABLE_2_KINDS
 
 
-def table_1(polar_3d: xr.Dataset, is_paper_case: bool) -> pd.DataFrame:
+def table_1(polar_3d: xr.Dataset) -> pd.DataFrame:
     """Return ``tables/table1.csv``: coefficients of the rigid plate over incidence.
 
-    The paper's meshes first, then each resolution of this run, then what made them. Of another
-    case than the paper's, the incidences are this run's and the paper's columns are empty.
+    The paper's meshes first, then each resolution of this run, then what made them.
     """
     angles = list(next(iter(TABLE_1.values())))
-    if not is_paper_case:
-        angles = [float(angle) for angle in polar_3d["incidence_deg"].values]
     resolutions = [str(name) for name in polar_3d["resolution"].values]
     columns = ["incidence_deg"]
     columns += [f"{name} paper {mesh}" for mesh in TABLE_1 for name in COEFFICIENTS]
@@ -36,8 +33,7 @@ def table_1(polar_3d: xr.Dataset, is_paper_case: bool) -> pd.DataFrame:
     for angle in angles:
         row: dict[str, object] = {"incidence_deg": angle}
         for mesh, values in TABLE_1.items():
-            published = values.get(angle) if is_paper_case else None
-            for name, value in zip(COEFFICIENTS, published or [math.nan] * 3, strict=True):
+            for name, value in zip(COEFFICIENTS, values[angle], strict=True):
                 row[f"{name} paper {mesh}"] = value
         for resolution in resolutions:
             here = at_incidence(polar_3d, resolution, angle)
@@ -59,9 +55,7 @@ def at_incidence(polar: xr.Dataset, resolution: str, angle: float) -> xr.Dataset
     )
 
 
-def table_2(
-    modes: xr.Dataset, mesh_study: xr.Dataset, thickness_over_span: float, is_paper_case: bool
-) -> pd.DataFrame:
+def table_2(modes: xr.Dataset, mesh_study: xr.Dataset, thickness_over_span: float) -> pd.DataFrame:
     """Return ``tables/table2.csv``: C_1 to C_5 by mesh.
 
     The paper's meshes first, then those of the mesh study, what the three finest of these
@@ -74,8 +68,6 @@ def table_2(
         Data sets of ``structure/modes.nc`` and ``structure/mesh_study.nc``.
     thickness_over_span
         h/L.
-    is_paper_case
-        Whether the plate is the paper's; otherwise the paper's columns are empty.
     """
     of_modes = modes_of_table_2([str(kind) for kind in modes["kind"].values])
     of_study = modes_of_table_2([str(kind) for kind in mesh_study["kind"].values])
@@ -87,7 +79,7 @@ def table_2(
     for number, kind in enumerate(TABLE_2_KINDS):
         row: dict[str, object] = {"constant": f"C_{number + 1}", "kind": kind}
         for mesh, published in TABLE_2.items():
-            row[f"paper {mesh}"] = published[number] if is_paper_case else math.nan
+            row[f"paper {mesh}"] = published[number]
         constant = _at(modes["frequency_constant"], of_modes[number])
         frequency = _at(modes["frequency"], of_modes[number])
         study = {

@@ -10,8 +10,9 @@ from typing import Any
 
 from equisection.cases import Case, are_alike, canonical, kind_of, point_of
 from equisection.cases.kinds import ends_of
+from equisection.files import second_name
 from equisection.store.kept import Kept, kept_results
-from equisection.store.result_store import ResultStore, publish, task_of
+from equisection.store.result_store import ResultStore, task_of
 
 #: Parts of a case that a reason does not take apart: they follow from others.
 _WHOLE = ("beam", "section", "criteria")
@@ -58,7 +59,7 @@ def answer_from_kept(cases: Mapping[str, Case], folder: Path, store: Path, reuse
             found = found or results.judge_again(task, kept, kept_alone=True)
             if found is not None:
                 answers.found[name] = point_of(case) | found
-                publish(results.result(task), output)
+                second_name(results.result(task), output)
                 break
         else:
             output.unlink(missing_ok=True)

@@ -12,7 +12,6 @@ Other criteria, or another duration, are answered from there if it is long enoug
 from __future__ import annotations
 
 import logging
-import os
 import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -23,7 +22,7 @@ import xarray as xr
 
 from equisection.cases import Case, canonical, case_hash, history_hash, kind_of
 from equisection.errors import ResultFileError
-from equisection.files import written_whole
+from equisection.files import second_name, written_whole
 from equisection.provenance import made_by
 from equisection.results.failures import failure_of
 from equisection.results.netcdf import read_attributes, read_dataset, write_dataset
@@ -120,7 +119,7 @@ class ResultStore:
         if task.history and not failure_of(attributes):
             longest = self._history(task)
             if float(attributes["end_time"]) > _length(longest):
-                publish(self.result(task), longest)
+                second_name(self.result(task), longest)
 
     def take(self, task: Task, kept: Sequence[Kept]) -> dict[str, Any] | None:
         """Take a kept result of a case, or of one that is alike; return its attributes."""
@@ -175,14 +174,3 @@ def _length(history: Path) -> float:
     except ResultFileError as error:
         logger.warning("%s; it is computed again", error)
         return 0.0
-
-
-def publish(stored: Path, output: Path) -> None:
-    """Put a result into another place: a second name of the file, or a copy."""
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with written_whole(output) as aside:
-        aside.unlink()
-        try:
-            os.link(stored, aside)
-        except OSError:
-            shutil.copyfile(stored, aside)

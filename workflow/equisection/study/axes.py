@@ -41,7 +41,7 @@ class Axis:
     letter
         Letter before its value in the name of a case.
     symbol, tex
-        Symbol in plain text, and on paper.
+        Symbol in plain text, and typeset.
     unit
         Unit; ``1`` of a number.
     stable
@@ -66,13 +66,13 @@ class Axis:
 
     @property
     def label(self) -> str:
-        """Symbol with unit on paper, the label of an axis."""
+        """Typeset symbol with unit, the label of an axis."""
         return self._with_unit(self.tex)
 
     def _with_unit(self, symbol: str) -> str:
         return symbol if self.unit == "1" else f"{symbol} ({self.unit})"
 
-    def on_paper(self, value: float) -> str:
+    def typeset(self, value: float) -> str:
         """Return a value as a figure states it, for instance ``$V$ = 30 m/s``."""
         return f"{self.tex} = {value:g}" + ("" if self.unit == "1" else f" {self.unit}")
 

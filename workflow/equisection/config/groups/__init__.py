@@ -1,4 +1,4 @@
-"""Sections of the configuration: one model each, every default the paper's case.
+"""Sections of the configuration: one model each; the defaults are one plate in one channel.
 
 The description of each key has its unit; a name without a unit suffix is SI.
 """
