@@ -67,7 +67,7 @@ FURTHER_FILES = []
 
 
 def given(paths):
-    """Return files that no rule makes: the prefix of a module is not put before them."""
+    """Return files from outside as such: the prefix of a module is not put before them."""
     return [local(path) for path in paths]
 
 
