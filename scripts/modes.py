@@ -21,7 +21,7 @@ ANALYTIC_MODES = 24
 def main(beam: Beam, structure: Structure, output: Path, study_output: Path) -> None:
     """Compute the modes that the configuration asks for, and the first on each mesh of the study.
 
-    The modes are there, and their file, before the study begins.
+    The modes and their file are complete before the study begins.
     """
     elements = structure.elements
     bending, torsion = structure.bending_modes, structure.torsion_modes

@@ -1,4 +1,4 @@
-"""Onset of each model, beside classical linear theory, and the sections against the beam."""
+"""Onset of each model, classical linear theory, and the sections against the beam."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -30,7 +30,7 @@ def main(
     reduction: str,
     output: Path,
 ) -> None:
-    """Bracket the onset of each model, in k* and speed, and put linear theory's beside."""
+    """Bracket the onset of each model, in k* and speed, and add that of linear theory."""
     sections = read_dataset(equivalent)
     slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg)
     linear = linear_onset(sections, slope)
@@ -44,7 +44,7 @@ def growth_by_linear_theory(equivalent: Path, k_star: Sequence[float], output: P
 
 
 def sections_against_beam(summary: Path, output: Path) -> None:
-    """Write what separates each section from the beam at each k*."""
+    """Write the deviation of each section from the beam at each k*."""
     _write(deviations(pd.read_csv(summary)), output)
 
 

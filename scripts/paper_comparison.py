@@ -1,4 +1,4 @@
-"""Every number that the paper states, and its tables, beside those of this run."""
+"""Every number that the paper states, and its tables, compared with those of this run."""
 
 from pathlib import Path
 from typing import Any

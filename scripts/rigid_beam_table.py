@@ -1,4 +1,4 @@
-"""Loads of the rigid beam beside those of the paper (Table 1)."""
+"""Loads of the rigid beam and those of the paper (Table 1)."""
 
 from pathlib import Path
 

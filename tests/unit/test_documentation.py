@@ -1,9 +1,11 @@
 """The documentation agrees with the project."""
 
+import ast
 import importlib.util
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
@@ -123,3 +125,53 @@ def test_drawing_of_the_workflow_is_up_to_date(drawing: ModuleType, tmp_path: Pa
     assert drawn.shape == kept.shape, "python docs/workflow_drawing.py"
     differ = np.abs(drawn - kept).max(axis=-1) > 0.1
     assert differ.mean() < 2e-3, "python docs/workflow_drawing.py"
+
+
+#: Words that no public docstring begins with; it begins with a noun or a verb.
+QUESTIONS = {"what", "which", "who", "whose", "whether", "how", "where", "when", "why", "that"}
+#: Places of Python with docstrings that a reader meets.
+DOCUMENTED = ("workflow/equisection", "scripts", "docs/examples", "docs/drawings")
+Documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def public_docstrings(node: Documented, name: str) -> Iterator[tuple[str, str]]:
+    """Yield name and docstring of a module, and of the public classes and functions in it."""
+    docstring = ast.get_docstring(node)
+    if docstring:
+        yield name, docstring
+    for child in node.body:
+        if isinstance(child, Documented) and not child.name.startswith("_"):
+            yield from public_docstrings(child, f"{name}: {child.name}")
+
+
+def begins_with_a_question(docstring: str) -> bool:
+    (word,) = re.findall(r"\w+", docstring)[:1] or [""]
+    return word.lower() in QUESTIONS
+
+
+def test_docstrings_begin_with_a_noun_or_a_verb() -> None:
+    files = [path for place in DOCUMENTED for path in (ROOT / place).rglob("*.py")]
+    found: list[tuple[str, str]] = []
+    for path in files:
+        module = ast.parse(path.read_text(encoding="utf-8"))
+        found += public_docstrings(module, str(path.relative_to(ROOT)))
+    assert len(found) > len(files)  # modules have a docstring, and so has what is in them
+    wrong = [
+        f"{name}: {text.splitlines()[0]}" for name, text in found if begins_with_a_question(text)
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize(
+    ("docstring", "wrong"),
+    [
+        ("Whether a run may end.", True),
+        ("``What`` a run shows.", True),
+        ("How far a run is.", True),
+        ("Tell whether a run may end.", False),
+        ("Wake of a beam.", False),
+        ("Thatched roofs, whose loads are not known.", False),
+    ],
+)
+def test_a_docstring_that_begins_with_a_question_is_found(docstring: str, wrong: bool) -> None:
+    assert begins_with_a_question(docstring) is wrong

@@ -1,4 +1,4 @@
-"""What all rules share: the validated configuration, where files go, and package sources."""
+"""Common to all rules: the validated configuration, places of files, and package sources."""
 
 import hashlib
 import os
@@ -79,9 +79,9 @@ def of_project(pattern):
 
 
 def code(script, *further):
-    """Return what gives the digest of the modules that a script uses, for `params`: editing one
-    redraws or recomputes what is cheap. `further` are those that are loaded by name. Rules that run
-    a solver have none: their case file decides.
+    """Return a function that gives the digest of the modules of a script, for `params`: editing one
+    makes the outputs of cheap rules anew. `further` are modules that are loaded by name. Rules that
+    run a solver have no digest: their case file decides.
     """
     path = PROJECT / "scripts" / f"{script}.py"
 
@@ -97,7 +97,7 @@ def solver_input_files():
 
 
 def kept_files():
-    """Return the results that are taken, where none is computed: new ones are looked at."""
+    """Return the kept results that are taken where none is computed, so that new ones are seen."""
     found = Path(CONFIG.reuse).rglob("*.nc") if not CONFIG.compute else []
     return given(sorted(map(str, found)))
 
@@ -109,7 +109,7 @@ def section_polar():
 
 
 def structure_of_model(wildcards):
-    """Return what a model's cases are made from."""
+    """Return the files that a model's cases are made from."""
     model = plan.model(wildcards.model, CONFIG.reduction)
     files = {"equivalent": f"{RESULTS}/structure/equivalent.nc"}
     if model.dimension == "3d":
@@ -120,7 +120,7 @@ def structure_of_model(wildcards):
 
 
 def inputs_of_batch(wildcards):
-    """Return what a batch of a model's cases is made from; a round has the k* chosen for it."""
+    """Return the files that a batch of a model's cases is made from, with the k* of a round."""
     files = structure_of_model(wildcards)
     if wildcards.batch != plan.SWEEP_BATCH:
         files["chosen"] = (
@@ -167,7 +167,7 @@ def this_angle(wildcards):
 
 
 def structure_files():
-    """Return what is known of the beam without a flow."""
+    """Return the results on the beam without a flow."""
     return [
         f"{RESULTS}/structure/{name}.nc"
         for name in ("modes", "mesh_study", "equivalent")

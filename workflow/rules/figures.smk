@@ -7,7 +7,7 @@ THIS_RUN = catalogue.RunFiles(CONFIG, RESULTS, REFERENCES)
 
 
 def inputs_of(entries):
-    """Return what some figures are drawn from, by name."""
+    """Return the files that some figures are drawn from, by name."""
     return {
         name: files
         for entry in entries
@@ -62,7 +62,7 @@ def files_of(name):
 for job, entries in catalogue.figures_by_job(CONFIG).items():
 
     rule:
-        """Draw what the catalogue has under this name."""
+        """Draw the figures that the catalogue has under this name."""
         name:
             job
         input:

@@ -1,4 +1,4 @@
-"""What the reproduction of the paper adds to the runs of its beam, and to no other.
+"""Reproduction of the paper: its tables, values and figure numbers, for runs of its beam alone.
 
 With this file, `config/paper` and the package's room `paper` taken away, everything else runs.
 """
@@ -40,7 +40,7 @@ if is_paper_case(CONFIG):
             "../../scripts/workflow_drawing.py"
 
     rule paper_comparison:
-        """Every number that the paper states, beside that of this run, and its Table 2."""
+        """Every number that the paper states, compared with that of this run, and its Table 2."""
         input:
             modes=f"{RESULTS}/structure/modes.nc",
             equivalent=f"{RESULTS}/structure/equivalent.nc",
@@ -81,7 +81,7 @@ if is_paper_case(CONFIG):
             "../../scripts/paper_comparison.py"
 
     rule rigid_beam_table:
-        """Loads of the rigid beam beside those of the paper (Table 1)."""
+        """Loads of the rigid beam and those of the paper (Table 1)."""
         input:
             polar_3d=f"{RESULTS}/steady/polar_3d.nc",
         output:

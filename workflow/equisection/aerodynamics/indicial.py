@@ -53,7 +53,7 @@ def theodorsen(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
 
 
 def theodorsen_of_jones(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
-    """C(k) that belongs to Jones' form of phi: what the states can reproduce exactly."""
+    """C(k) of Jones' form of phi, that of the states z_i, at k = omega c/(2 V), any shape."""
     ik = 1j * np.asarray(reduced_frequency, dtype=np.float64)
     lags = zip(JONES_AMPLITUDES, JONES_RATES_SEMICHORD, strict=True)
     return np.asarray(1.0 - sum(a * ik / (ik + b) for a, b in lags), dtype=np.complex128)

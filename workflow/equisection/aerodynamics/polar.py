@@ -41,7 +41,7 @@ NIL = 1e-3
 
 
 def is_nil(value: float, coefficients: Floats) -> bool:
-    """Whether a coefficient vanishes beside others, but for what a solver leaves of zero."""
+    """Tell whether a value is zero up to a solver's residue, relative to the largest of a polar."""
     return bool(abs(value) <= NIL * np.max(np.abs(coefficients)))
 
 
@@ -218,9 +218,9 @@ class Polar:
     def continued(self) -> Polar:
         """The polar, continued to alpha < 0 by symmetry where it starts at 0 without loads there.
 
-        c_l and c_m are continued as odd functions about what a solver leaves of zero at zero
-        incidence, so that the cubics have the slope of a symmetric section there; between the
-        given points beyond the first they are what they are without it.
+        c_l and c_m are continued as odd functions about their values at zero incidence, which are
+        zero up to a solver's residue. So the cubics have the slope of a symmetric section there.
+        Beyond the second given point they do not change.
         """
         coefficients = (self.lift, self.moment)
         if self.incidence[0] != 0.0 or not all(is_nil(c[0], c) for c in coefficients):
@@ -243,7 +243,7 @@ class Polar:
         return float(self.incidence[0]), float(self.incidence[-1])
 
     def covers(self, alpha: ArrayLike) -> bool:
-        """Whether every incidence in ``alpha`` (rad) is inside the data; False for NaN."""
+        """Tell whether every incidence in ``alpha`` (rad) is inside the data; False for NaN."""
         angles = np.asarray(alpha, dtype=np.float64)
         least, greatest = self.incidence_range
         return bool(np.all((angles >= least) & (angles <= greatest)))

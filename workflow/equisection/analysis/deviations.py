@@ -1,7 +1,7 @@
-"""Deviation of each section from the beam that it stands for: which reduction comes closer.
+"""Deviation of each section from its beam, by which the reductions are compared.
 
-The beam (`3d`) is what every section is to stand for, so it is the measure here, run by the same
-solver. Twist and deflection of a section are those of the tip, recovered by its own reduction.
+The beam (`3d`), run by the same solver, is the reference. Twist and deflection of a section are
+those of the tip, recovered by its own reduction.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
     -------
     pd.DataFrame
         ``twist``, ``deflection`` and ``frequency``: section over beam, less one (-); ``growth``:
-        section less beam (V/c). NaN where one of both has no such number. Means that are not
+        section less beam (V/c). NaN where section or beam has no such number. Means that are not
         settled (``mean_known``) are compared as they are, over the last periods of both.
     """
     axes = [axis.name for axis in axes_among(summary.columns)]
@@ -61,8 +61,8 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
 def root_mean_square(table: pd.DataFrame) -> pd.DataFrame:
     """Return the root mean square of each deviation over the study, one line for each model.
 
-    It is over the points at which all models have it, but for those that have it at none: one that
-    fails where it is hardest to be close must not be the closer for it.
+    It is over the points at which all models have the deviation; models that have it at no point
+    are left out. So a model that fails at a difficult point does not come closer by that.
     """
     axes = [axis.name for axis in axes_among(table.columns)]
     lines = {}

@@ -17,8 +17,8 @@ from equisection.results.netcdf import read_dataset
 def polar_csv(paths: Sequence[Path]) -> str:
     """Return the polar of steady results as CSV, by ascending incidence.
 
-    The last column says how each value was obtained; comments say what solver did, and which
-    results are left out because they failed.
+    The last column has the origin of each value. Comments name the solver, and the results that are
+    left out because they failed.
 
     Raises
     ------

@@ -237,14 +237,14 @@ class Section(BaseModel):
             )
 
     def require_defaults(self, model: str, members: Iterable[str] = MORE_THAN_SPRINGS) -> None:
-        """Refuse a section with more than a model has a place for.
+        """Refuse a section that has more than a model can represent.
 
         Parameters
         ----------
         model
-            The model, as the message names it.
+            Name of the model in the message.
         members
-            Members that it takes at their defaults alone: those of :data:`MORE_THAN_SPRINGS`.
+            Members that have to be at their defaults, by default :data:`MORE_THAN_SPRINGS`.
 
         Raises
         ------

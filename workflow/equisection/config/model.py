@@ -1,4 +1,4 @@
-"""The whole configuration, and what its sections must agree on."""
+"""The whole configuration, and the checks between its sections."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Catalogue of the figures: what each shows, what it is drawn from, and when a run has it.
+"""Catalogue of the figures: contents, files and keys of each, and the runs that have it.
 
 A figure is an entry here, a module of the same name in this package, whose ``from_files`` draws it,
 and a caption in ``workflow/report/figures``. The rules are made from the entries, so this module
@@ -39,7 +39,7 @@ class FurtherName(NamedTuple):
 
 @dataclass(frozen=True)
 class RunFiles:
-    """Configuration and folder of a run, with tables of values to draw beside its own."""
+    """Configuration and folder of a run, with tables of values to draw next to its own."""
 
     config: Config
     folder: str
@@ -64,15 +64,15 @@ class Entry:
     name
         Name of its files, ``figures/<name>.png``; with underscores that of its module.
     shows
-        What it shows, in a few words.
+        Its contents in a few words.
     inputs
-        What it is drawn from. Entries of one job give a file the same name.
+        Files that it is drawn from. Entries of one job give a file the same name.
     keys
         Keys of the configuration that it needs, by the names that ``from_files`` has for them.
     exists
-        When a run has it.
+        Condition under which a run has it.
     drawn_with
-        Name of the job that draws it, if it draws others too.
+        Name of the job that draws it, if that draws others too.
     """
 
     name: str
@@ -84,7 +84,7 @@ class Entry:
 
     @property
     def caption(self) -> str:
-        """Its caption, as a rule sees it."""
+        """Path of its caption, as a rule sees it."""
         return f"../report/figures/{self.name}.rst"
 
     @property
@@ -113,7 +113,7 @@ class Entry:
 
 
 def references(run: RunFiles) -> list[str]:
-    """Return the tables of values to draw beside those of the run (:mod:`.references`)."""
+    """Return the tables of values to draw next to those of the run (:mod:`.references`)."""
     return list(run.references)
 
 

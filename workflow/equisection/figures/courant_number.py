@@ -1,4 +1,4 @@
-"""Courant number on the mesh of the section: where it is, and how much of it there is."""
+"""Courant number on the mesh of the section, and its distribution."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def draw(mesh: xr.Dataset, limit: float = LIMIT) -> Figure:
     mesh
         ``steady/section_mesh.nc``.
     limit
-        Courant number whose share of the area is told.
+        Courant number below which the share of the area is given.
     """
     if not mesh.sizes["cell"]:
         return without_data("The mesh of the section, and the flow on it, is not kept.")

@@ -36,9 +36,9 @@ class Column:
     Attributes
     ----------
     title
-        What the plate is, for instance ``rigid``.
+        Kind of plate, for instance ``rigid``.
     says
-        Solver, resolution and state of the flow; why there is none, if there is none.
+        Solver, resolution and state of the flow; the reason if there is no flow.
     flow
         The flow near its tip, if there is one.
     """
@@ -67,8 +67,8 @@ def from_files(
 ) -> Figure:
     """Draw the rigid beam at the incidence nearest the run's (deg), and the flexible one.
 
-    ``index_of_beam`` is one index, or none where the beam is not run. Of its runs that nearest to a
-    k* of the references is shown, or else the softest whose motion stays bounded.
+    ``index_of_beam`` is one index, or none where the beam is not run. The figure shows the run
+    nearest to a k* of the references, or else the softest whose motion stays bounded.
     """
     wanted = read_references(references, "flow_at_tip_k_star")["value"]
     return draw(

@@ -41,7 +41,7 @@ def draw(grid: xr.Dataset, method: str, elements: tuple[int, int, int]) -> Figur
     grid
         ``steady/plate_mesh.nc``.
     method
-        How the modes are computed, ``structure.method``.
+        Method by which the modes are computed, ``structure.method``.
     elements
         Elements along chord, span and thickness, ``structure.elements``.
     """

@@ -35,9 +35,9 @@ class ModalParts:
     span : (m,) array
         z/L.
     parts : (n, m) array
-        What each mode adds, rad or chords.
+        Part of each mode, rad or chords.
     amplitudes : (n,) array
-        Mean amplitude of each mode, that is what it adds where its shape is 1.
+        Mean amplitude of each mode, that is its part where its shape is 1 (rad or chords).
     """
 
     span: Floats
@@ -75,7 +75,7 @@ def modal_parts(modes: xr.Dataset, run: xr.Dataset, kind: str) -> ModalParts | N
 
 
 def from_files(modes: Path, index_of_beam: Sequence[Path]) -> Figure:
-    """Draw what each mode adds to the deformation of the stiffest beam that was run."""
+    """Draw the part of each mode in the deformation of the stiffest beam that was run."""
     (index,) = index_of_beam
     case = plan.stiffest_case(read_index(index))
     if case is None:

@@ -1,4 +1,4 @@
-"""How each model of the sweep looks: its own colour, marker and line in every figure."""
+"""Look of each model of the sweep: its own colour, marker and line in every figure."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Values to draw beside those of a run, for instance published ones.
+"""Values to draw next to those of a run, for instance published ones.
 
-A table of them has the columns ``quantity,at,value,label``: what it is, where (an incidence in
-degrees, or nothing), its value, and what the legend says of it.
+A table of them has the columns ``quantity,at,value,label``: the quantity, its place (an incidence
+in degrees, or nothing), its value, and its label in the legend.
 """
 
 from __future__ import annotations

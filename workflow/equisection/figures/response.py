@@ -63,7 +63,7 @@ _EXTENT: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Response:
-    """Everything that the figure shows.
+    """All that the figure shows.
 
     Attributes
     ----------
@@ -76,9 +76,9 @@ class Response:
     extents
         Range of the section's motion by the value on the axis of the onset, where it is bounded.
     place
-        Where along the beam twist and deflection are, in words.
+        Place along the beam of twist and deflection, in words.
     reduction
-        Of models that don't name theirs, ``consistent`` or ``paper``.
+        Reduction of models that do not name theirs, ``consistent`` or ``paper``.
     """
 
     summary: pd.DataFrame

@@ -33,7 +33,7 @@ def from_files(summary: Path, deviations: Path) -> Figure:
 
 
 def draw(table: pd.DataFrame, summary: pd.DataFrame) -> Figure:
-    """Draw what separates the sections from the beam, and its root mean square over k*.
+    """Draw the deviations of the sections from the beam, and their root mean square over k*.
 
     Parameters
     ----------

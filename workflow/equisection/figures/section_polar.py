@@ -1,7 +1,7 @@
 """Lift and moment of the rigid section over incidence, at each resolution.
 
-With a grid study, their grid convergence index and observed order stand below, where they are not
-nil by symmetry.
+With a grid study, their grid convergence index and observed order are below, where they are not nil
+by symmetry.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def from_files(polar_2d: Path, grid_study: Sequence[Path]) -> Figure:
 
 
 def draw(polar: xr.Dataset, grid_study: pd.DataFrame | None = None) -> Figure:
-    """Draw c_l (left) and c_m (right) at every resolution, and how sure they are.
+    """Draw c_l (left) and c_m (right) at every resolution, and their grid convergence (below).
 
     Parameters
     ----------

@@ -26,7 +26,7 @@ def from_files(polar_3d: Path, resolution: str) -> Figure:
 
 
 def draw(polar: xr.Dataset, resolution: str) -> Figure:
-    """Draw c_l (left) and c_m (right) over z/L, with the beam's C_L and C_M beside.
+    """Draw c_l (left) and c_m (right) over z/L, with the beam's C_L and C_M.
 
     Parameters
     ----------

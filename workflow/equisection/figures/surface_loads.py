@@ -40,7 +40,7 @@ def from_files(
     resolution: str,
     incidence_deg: float,
 ) -> Figure:
-    """Draw what the results at a resolution have of the incidence of the run (deg) and others."""
+    """Draw the results at a resolution, at the incidence of the run (deg) and others."""
     table = pd.read_csv(bubble)
     there = table[(table["resolution"] == resolution) & table["bubble"].notna()]
     surfaces = {}
@@ -69,7 +69,7 @@ def draw(
     resolution
         The resolution of the run.
     stated
-        Lengths of the bubble over the chord to draw beside, by incidence (deg), as
+        Further lengths of the bubble over the chord to draw, by incidence (deg), as
         :func:`read_references` returns them.
     """
     figure = Figure(figsize=(PAGE_WIDTH, 5.2))

@@ -39,7 +39,7 @@ ROUNDING = 1e-5
 
 @dataclass(frozen=True)
 class ShownSurface:
-    """Surface data of the plate at an incidence, and how they were obtained."""
+    """Surface data of the plate at an incidence, and their origin."""
 
     surface: PlateSurface
     method: str
@@ -87,7 +87,7 @@ def _within(places: Floats, known: Floats) -> Floats:
 
 
 def from_files(index_of_rigid: Path, resolution: str) -> Figure:
-    """Draw what the results at a resolution have, of the incidences nearest to those wanted."""
+    """Draw the results at a resolution, at the incidences nearest to those wanted."""
     names = {plan.rigid_point(name): name for name in read_index(index_of_rigid)}
     found, without, source = {}, [], ""
     for (_, angle), name in sorted(item for item in names.items() if item[0][0] == resolution):
@@ -106,14 +106,14 @@ def from_files(index_of_rigid: Path, resolution: str) -> Figure:
 def draw(surfaces: Mapping[float, ShownSurface], missing: Sequence[str], source: str) -> Figure:
     """Draw the pressure side (left) and the suction side (right) at each incidence.
 
-    The title of a suction side says where its bubble ends in the layer at the root.
+    The title of a suction side has the end of its bubble in the layer at the root.
 
     Parameters
     ----------
     surfaces
         Surface data by incidence (deg), ascending.
     missing
-        What is known of incidences that have none, a sentence each.
+        Incidences that have none, a sentence each with the reason.
     source
         Solver and resolution, in words.
     """

@@ -131,7 +131,7 @@ def number(path: Path, line: int, name: str, text: str) -> float:
     Raises
     ------
     PolarFileError
-        It is none.
+        The value is not one.
     """
     try:
         value = float(text)

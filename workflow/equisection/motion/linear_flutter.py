@@ -16,8 +16,8 @@ k method
 p-k method
     (p^2 M + p sqrt(s) C + s K - Q(Im p)) q = 0, iterated until Q is that of the frequency found
     (Hassig, Journal of Aircraft 8, 1971). Re p is the growth rate (V/c), exact where it is zero.
-    Both motions are followed from where the air is no more than a mass on them, in steps of s that
-    are the same whatever s is asked for, so that they keep apart.
+    Both motions are followed from an s at which the air acts as a mass alone. The steps of s do not
+    depend on the s that are asked for, so that the motions are not confused.
 """
 
 from __future__ import annotations
@@ -186,8 +186,8 @@ def growth_and_frequency(section: Section, scales: Floats) -> Complexes:
     """Return p of both motions at each s by the p-k method, shape (n, 2).
 
     Re p is the growth rate (V/c), Im p = omega c/V >= 0. The first column is the motion that is
-    heave in vacuum, the second the one that is pitch. What is found at one s does not depend on
-    the others that are asked for.
+    heave in vacuum, the second the one that is pitch. The result at one s does not depend on the
+    others that are asked for.
 
     Parameters
     ----------

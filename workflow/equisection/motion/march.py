@@ -54,7 +54,7 @@ class Failure:
 
 @dataclass
 class Recording:
-    """What is recorded of N lanes, in the order of the rows of the output matrix.
+    """Recorded output of N lanes, in the order of the rows of the output matrix.
 
     Parameters
     ----------

@@ -76,7 +76,7 @@ def section_system(
     sections
         The sections in their flow (:meth:`equisection.beam.section.Section.in_flow`).
     loads, incidence_rad
-        What they are in.
+        Unsteady loads of the section's polar, and theta_0 (rad), one value or one per section.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-r"""Static equilibria of a section on the branch that comes from rest, and where it ends.
+r"""Static equilibria of a section on the branch that comes from rest, and the end of the branch.
 
 A section is in equilibrium at the incidence alpha = theta_0 + theta where its spring carries the
 moment of the polar,
@@ -57,9 +57,9 @@ class StaticBranch:
     stop
         Incidence (rad) at the end of the branch.
     end
-        What ends it there.
+        Kind of the end.
     k_star_end
-        k* at its end, the least that it has; 0 where it has none.
+        k* at the end, the lowest of the branch; 0 for a branch without an end.
     """
 
     polar: Polar

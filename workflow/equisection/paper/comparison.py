@@ -1,7 +1,7 @@
-"""Every number that the paper states, beside that of a run: ``comparison/paper.csv``.
+"""Every number that the paper states, compared with that of a run: ``comparison/paper.csv``.
 
-A quantity that the paper gives on several meshes has one row for each, so that nobody has to
-trust the choice of one; the finest is the one to judge by.
+A quantity that the paper gives on several meshes has one row for each, so that the choice of one is
+left to the reader; the finest is the one to judge by.
 """
 
 from __future__ import annotations

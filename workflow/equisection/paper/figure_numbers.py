@@ -29,7 +29,7 @@ WORKFLOW = "fig01-workflow"
 
 
 def caption(number: int) -> str:
-    """Return the caption of a figure, as a rule sees it."""
+    """Return the path of a figure's caption, as a rule sees it."""
     return f"../equisection/paper/captions/fig{number:02}.rst"
 
 

@@ -7,5 +7,5 @@ from equisection.config.groups import Beam, Flow
 
 
 def is_paper_case(config: Config) -> bool:
-    """Tell whether beam and flow are those of the paper, so that its numbers can stand beside."""
+    """Tell whether beam and flow are those of the paper, so that its numbers can be compared."""
     return config.beam == Beam() and config.flow == Flow()

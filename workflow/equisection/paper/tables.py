@@ -1,4 +1,4 @@
-"""The paper's tables, its values beside those of a run.
+"""The paper's tables, its values next to those of a run.
 
 The C_i of Eq. 23 all refer to one k* and one I*. This run's are those of the finest mesh, whose
 torsion shape gives k* by Eq. 17; a coarser mesh of the study has the same constant times the
@@ -22,7 +22,7 @@ from equisection.paper.printed_values import COEFFICIENTS, TABLE_1, TABLE_2, TAB
 def table_1(polar_3d: xr.Dataset) -> pd.DataFrame:
     """Return ``tables/table1.csv``: coefficients of the rigid plate over incidence.
 
-    The paper's meshes first, then each resolution of this run, then what made them.
+    The paper's meshes come first, then each resolution of this run, then its origin.
     """
     angles = list(next(iter(TABLE_1.values())))
     resolutions = [str(name) for name in polar_3d["resolution"].values]
@@ -58,9 +58,9 @@ def at_incidence(polar: xr.Dataset, resolution: str, angle: float) -> xr.Dataset
 def table_2(modes: xr.Dataset, mesh_study: xr.Dataset, thickness_over_span: float) -> pd.DataFrame:
     """Return ``tables/table2.csv``: C_1 to C_5 by mesh.
 
-    The paper's meshes first, then those of the mesh study, what the three finest of these
-    converge to, the mesh of this run, and the analytic beam. Modes are paired by kind, since
-    in-plane ones stand between them.
+    The paper's meshes come first, then those of the mesh study, the limit of the three finest of
+    these, the mesh of this run, and the analytic beam. Modes are paired by kind, since in-plane
+    modes come between them.
 
     Parameters
     ----------
@@ -119,7 +119,7 @@ def _convergence(values: Sequence[float], sizes: Sequence[float]) -> dict[str, o
 
 
 def modes_of_table_2(kinds: Sequence[str]) -> list[int | None]:
-    """Return where the modes of Table 2 are among modes of some kinds; None if one is not."""
+    """Return the places of Table 2's modes among modes of some kinds; None for a missing one."""
     left = {kind: [i for i, this in enumerate(kinds) if this == kind] for kind in set(kinds)}
     return [left[kind].pop(0) if left.get(kind) else None for kind in TABLE_2_KINDS]
 

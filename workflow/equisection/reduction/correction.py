@@ -1,4 +1,4 @@
-"""Correction of the section for the finite span (Eq. 20), and the incidence it is taken at.
+"""Correction of the section for the finite span (Eq. 20), and the incidence that it is made for.
 
 The aerodynamic coefficients of the beam replace those of the section when mass and stiffness of
 the section are multiplied by
@@ -21,8 +21,8 @@ at the aeroelastic equilibrium, where the corrected section obeys
 so the equilibrium follows from the beam's polar alone. Of several roots the one is taken that is
 met first when theta grows from zero in the direction of the moment. There k* exceeds the slope
 of C_M: it is statically stable. No root inside the polar means divergence, or a short polar.
-Without a moment at theta_0 the section stays there, or diverges where k* does not exceed the slope;
-what a solver leaves of zero is no moment.
+Without a moment at theta_0 the section stays there, or diverges where k* does not exceed the slope.
+A solver's residue of zero counts as no moment.
 """
 
 from __future__ import annotations

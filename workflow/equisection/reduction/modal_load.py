@@ -1,7 +1,7 @@
 """The load on a beam as a mode feels it: its spanwise distribution weighted by the shape.
 
 Eq. 20 corrects the section by the mean load of the rigid beam, the integral of c_l(z) over z/L.
-What drives a mode of shape f is the integral of c_l(z) f(z), and a section that stands for a beam
+A mode of shape f is driven by the integral of c_l(z) f(z). A section that is equivalent to a beam
 under a uniform load (:mod:`equisection.reduction.reduce`) carries
 
     C_f = integral of c(z) f(z) dz / integral of f(z) dz .

@@ -1,6 +1,6 @@
 """Digest of the modules that a job is made with, for ``params``: editing one makes it again.
 
-A script names its modules itself, by what it imports, and they name theirs, so no rule lists them.
+A script names its modules itself, by its imports, and they name theirs, so no rule lists them.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ _WORD = re.compile(r"(\w+)(?: as \w+)?")
 
 
 def source_digest(script: Path, further: Iterable[str] = ()) -> str:
-    """Return a digest of the modules of the package that a script imports, and those that they do.
+    """Return a digest of the package's modules that a script imports, directly or by others.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ def source_digest(script: Path, further: Iterable[str] = ()) -> str:
 
 @cache
 def imported(source: Path) -> tuple[Path, ...]:
-    """Return the files of the package that a file imports from, wherever in it that stands.
+    """Return the files of the package that a file imports from, at any place in it.
 
     Of the package itself only the version is used, which decides nothing here.
     """

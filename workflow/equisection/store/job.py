@@ -1,4 +1,4 @@
-"""Run the cases of one job: take what is known of them, compute the rest, publish all."""
+"""Run the cases of one job: take the results that are known, compute the rest, publish all."""
 
 from __future__ import annotations
 
@@ -45,15 +45,15 @@ def run_cases(
     cases
         Cases by name.
     folder
-        Where the results go, as ``<name>.nc``.
+        Folder for the results ``<name>.nc``.
     store
         Folder of the results by hash.
     progress_file
-        Where the job says how far it is.
+        File with the progress of the job.
     reuse
         Folder with results of earlier runs, which are taken into the store.
     allocation
-        What the job has been given of the machine; it decides nothing.
+        Resources that the job has been given; they decide no result.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Answer cases from kept results alone, and say of the others why there is none."""
+"""Answer cases from kept results alone, with the reason where there is none."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ _WHOLE = ("beam", "section", "criteria")
 
 @dataclass(frozen=True)
 class Answers:
-    """What kept results say of the cases of a job.
+    """Kept results of the cases of a job.
 
     Attributes
     ----------
     found
         Attributes of each result by the name of its case.
     missing
-        Why there is no result of a case, by its name.
+        Reason for a missing result, by the name of its case.
     """
 
     found: dict[str, dict[str, Any]] = field(default_factory=dict)
@@ -44,9 +44,9 @@ def answer_from_kept(cases: Mapping[str, Case], folder: Path, store: Path, reuse
     cases
         Cases by name.
     folder
-        Where the results go, as ``<name>.nc``; one of a case that has none is removed.
+        Folder for the results ``<name>.nc``; the file of a case without a result is removed.
     store
-        Folder for the results by hash; what it holds from before is not trusted.
+        Folder for the results by hash; results that it holds from before are not trusted.
     reuse
         Folder with the kept results.
     """

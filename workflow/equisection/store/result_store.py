@@ -73,7 +73,7 @@ class ResultStore:
     folder: Path
 
     def result(self, task: Task) -> Path:
-        """Return where the result of a case is."""
+        """Return the file of the result of a case."""
         return self.folder / task.hash / "result.nc"
 
     def work(self, task: Task) -> Path:
@@ -102,9 +102,9 @@ class ResultStore:
     def put(
         self, task: Task, dataset: xr.Dataset, made_by: Mapping[str, str] | None = None
     ) -> dict[str, Any]:
-        """Write a result; return its attributes. The longest of a history is the history.
+        """Write a result and return its attributes; of a history the longest result is kept.
 
-        ``made_by`` is what made a result that was not computed now.
+        ``made_by`` is the origin of a result that was not computed now.
         """
         path = self.result(task)
         own = {"case_hash": task.hash}
@@ -122,7 +122,7 @@ class ResultStore:
                 second_name(self.result(task), longest)
 
     def take(self, task: Task, kept: Sequence[Kept]) -> dict[str, Any] | None:
-        """Take a kept result of a case, or of one that is alike; its attributes."""
+        """Take a kept result of a case, or of one that is alike; return its attributes."""
         for one in kept:
             if one.attributes["case_hash"] == task.hash:
                 logger.info("taken from %s, where it is kept", one.path)
@@ -142,7 +142,7 @@ class ResultStore:
     def judge_again(
         self, task: Task, kept: Sequence[Kept], *, kept_alone: bool = False
     ) -> dict[str, Any] | None:
-        """Answer a case from its history, if there is one and it is long enough; attributes.
+        """Answer a case from its history, if that is long enough; return the attributes.
 
         ``kept_alone`` leaves out the history that the store has from before.
         """

@@ -6,8 +6,8 @@ a rigid section and the rest:
     u_y(x) = w - x theta + rest,    u_x(x) = u + rest,    u_z(x) = s - x u' + rest,
 
 and the kind is that of the largest share of the integral of |displacement|^2, which for a
-homogeneous plate is its share of the kinetic energy. "chordwise" is what no beam has: a section
-that changes its form.
+homogeneous plate is its share of the kinetic energy. In "chordwise" modes, which no beam has, the
+section changes its form.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Classified:
     share : (n, 5) array
         Share of motion of each kind (-), in the order of `KINDS`; rows sum to 1.
     shape : (n, m) array
-        The section's motion that the kind names along the span, not normalised: w (m), theta
+        Motion of the section along the span that belongs to the kind, not normalised: w (m), theta
         (rad), u (m), s (m), and the root mean square of the rest (m) for "chordwise".
     """
 

@@ -1,8 +1,8 @@
 """The modes of a beam by any of three methods, in one form.
 
-``solid`` has quadratic hexahedra; ``beam`` (one-dimensional elements)
-and ``analytic`` cover every boundary and differ from it by what a beam leaves out: restrained
-warping and Poisson contraction at a clamp.
+``solid`` has quadratic hexahedra. ``beam`` (one-dimensional elements) and ``analytic`` cover every
+boundary. They differ from it since a beam leaves out restrained warping and Poisson contraction at
+a clamp.
 """
 
 from __future__ import annotations

@@ -146,7 +146,7 @@ def _one_element(beam: Beam, elements: tuple[int, int, int]) -> _Element:
 
 @dataclass(frozen=True)
 class _Folding:
-    """How the unknowns of the whole mesh follow from those of a quarter, for one class.
+    """Relation of the whole mesh's unknowns to those of a quarter, for one class.
 
     ``number`` (k, i, j, component) gives the row in the quarter's system or -1 where held;
     ``sign`` the factor, zero where held or odd on a mirror.

@@ -91,7 +91,7 @@ class Axis:
         return -value if self.stable == "below" else value
 
     def same(self, values: Any, value: float) -> Any:
-        """Tell of a value, or of each of an array, whether it is the same as another."""
+        """Tell whether a value, or each of an array, is the same as another."""
         return abs(values - value) <= SAME * abs(value)
 
 
@@ -139,7 +139,7 @@ class Point:
 
     @classmethod
     def named(cls, name: str) -> Point:
-        """Return the point that the name of a case stands for.
+        """Return the point of a case by its name.
 
         Raises
         ------

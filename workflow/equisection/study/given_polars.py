@@ -1,4 +1,4 @@
-"""What is in the polars that a configuration names, looked at before any job starts."""
+"""Check of the polars that a configuration names, before any job starts."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _LIKE_THICKNESS = 1.25
 def check_polars(config: Config, directory: Path | None = None) -> None:
     """Refuse polars that are unreadable, of another beam or flow, or without the run's incidence.
 
-    Any other incidence beyond them is a case that fails, and says so; the others go on. Paths are
+    Any other incidence beyond them is a case that fails with a reason; the others go on. Paths are
     seen from ``directory`` (by default the working one).
 
     Raises

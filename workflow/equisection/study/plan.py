@@ -1,8 +1,7 @@
-"""The plan of a run: which cases there are, what they are called and where their files go.
+"""The plan of a run: its cases, their names and their files.
 
-Everything comes from the validated configuration, nothing from a result, so that the graph
-can be built on a fresh clone. Names of cases come from the axes of the study
-(:mod:`equisection.study.axes`).
+It comes from the validated configuration alone, and from no result, so that the graph can be built
+on a fresh clone. Names of cases come from the axes of the study (:mod:`equisection.study.axes`).
 """
 
 from __future__ import annotations
@@ -97,7 +96,7 @@ def resolutions(config: Config) -> tuple[str, ...]:
 
 
 def refinement_rounds(config: Config) -> int:
-    """Return how many rounds narrow the widest bracket of the sweep to the tolerance.
+    """Return the number of rounds that narrow the widest bracket of the sweep to the tolerance.
 
     Each round of n points leaves at most one of n + 1 equal parts.
     """
@@ -181,7 +180,7 @@ def dimensions(config: Config) -> set[str]:
 
 
 def has_both(config: Config) -> bool:
-    """Tell whether a section stands beside the beam."""
+    """Tell whether both a section and the beam are compared."""
     return dimensions(config) == {"2d", "3d"}
 
 
@@ -213,7 +212,7 @@ def has_grid_study(config: Config) -> bool:
 
 
 def stiffest_case(names: Iterable[str]) -> str | None:
-    """Return the case whose beam is stiffest beside the flow: of the largest k*, or least speed."""
+    """Return the case of the stiffest beam relative to the flow: largest k*, or lowest speed."""
 
     def stiffness(name: str) -> float:
         point = Point.named(name)

@@ -40,7 +40,7 @@ _CLEAN = 5e-4
 
 @dataclass(frozen=True)
 class Cycles:
-    """Extrema of a history and what the cycles around them are like.
+    """Extrema of a history, and the amplitudes of the cycles around them.
 
     Attributes
     ----------
@@ -65,8 +65,8 @@ class Cycles:
     def period(self, half_cycles: int) -> float:
         """Mean period (c/V) over the last ``half_cycles`` (at least two) half cycles.
 
-        Counted from top to top and bottom to bottom, so that a wave with unequal halves does
-        not matter.
+        Counted from top to top and bottom to bottom, so that unequal halves of a wave do not
+        matter.
         """
         spans = self.time[2:] - self.time[:-2]
         return float(np.mean(spans[-max(half_cycles - 1, 1) :])) if spans.size else float("nan")
@@ -150,7 +150,7 @@ def _without_secondary(signal: Array, index: NDArray[np.int64]) -> NDArray[np.in
 
 
 def _ends_secondary(value: Array) -> bool:
-    """Whether the last of four extrema ends a harmonic's swing, small beside the two before."""
+    """Tell whether the last of four extrema ends a small swing of a harmonic."""
     swing = np.abs(np.diff(value))
     return bool(swing[-1] < _SECONDARY_SWING * swing[:-1].max())
 

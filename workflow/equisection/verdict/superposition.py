@@ -41,7 +41,7 @@ class Superposition:
     constant : ndarray, shape (channels,)
         X of each channel (unit of the channel).
     residual : ndarray, shape (channels,)
-        Root mean square of what the fit leaves (unit of the channel).
+        Root mean square of the residual of the fit (unit of the channel).
     rates : ndarray of complex, shape (waves,)
         lambda_j (per c/V).
     """
@@ -95,7 +95,7 @@ def superposition(time: Array, channels: Array, start: float, period: float) -> 
     channels : ndarray, shape (channels, n)
         Histories with waves in common.
     start : float
-        Where the fit begins (c/V).
+        Begin of the fit (c/V).
     period : float
         Shortest period to be resolved (c/V).
     """

@@ -48,9 +48,9 @@ def release_judged(
     judges
         Judge of each.
     loads, settings
-        What they share.
+        Loads and settings of all.
     progress
-        Called with the time that has been reached and the last one.
+        Called with the time that has been reached and the last one (c/V).
     """
 
     def tip_of(histories: SectionHistories, lane: int, part: slice) -> TipMotion:

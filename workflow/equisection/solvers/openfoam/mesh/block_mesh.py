@@ -48,7 +48,7 @@ Grading = Callable[[NDArray[np.float64], int, int], str]
 
 @dataclass(frozen=True)
 class Spacing:
-    """How many cells each block has at refinement 1, and how their sizes go.
+    """Number of cells of each block at refinement 1, and the grading of their sizes.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Spacing:
         return _refined(self.columns, refinement), _refined(self.rows, refinement)
 
     def cells(self, refinement: float = 1.0) -> int:
-        """Return the number of cells of a mesh, which has none inside the plate."""
+        """Return the number of cells of a mesh, without any inside the plate."""
         columns, rows = self.refined(refinement)
         return sum(columns) * sum(rows) - columns[2] * rows[2]
 
@@ -87,7 +87,7 @@ class ChannelBox:
 
 @dataclass(frozen=True)
 class Layer:
-    """Blocks between two planes of vertices: number, cells along z, and how their sizes go."""
+    """Blocks between two planes of vertices: number, cells along z, and grading of their sizes."""
 
     number: int = 0
     cells: int = 1
@@ -96,7 +96,7 @@ class Layer:
 
 @dataclass(frozen=True)
 class Mesh:
-    """What ``blockMesh`` makes the mesh of.
+    """Input of ``blockMesh`` for the mesh of a section.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ class Mesh:
     refinement
         Refinement of each direction.
     spacing
-        What is refined; by default that of the meshes of a grid study.
+        Spacing that is refined; by default that of the meshes of a grid study.
     """
 
     channel: ChannelBox
@@ -121,7 +121,7 @@ class Mesh:
         return self.spacing.cells(self.refinement)
 
     def points(self) -> NDArray[np.float64]:
-        """Return where the lines cross (chords), shape (6, 6, 2), by x and then y.
+        """Return the crossings of the lines (chords), shape (6, 6, 2), by x and then y.
 
         Raises
         ------
@@ -248,7 +248,7 @@ OF_PLATE: Spacing = Spacing(_COLUMNS, _ROWS, _along, partial(_across, at_wall=_A
 
 
 def blocks_around_plate() -> Iterator[tuple[int, int]]:
-    """Yield column and row of each block; the plate stands where one is left out."""
+    """Yield column and row of each block; the plate takes the place of the one left out."""
     return ((i, j) for i in range(5) for j in range(5) if (i, j) != (2, 2))
 
 

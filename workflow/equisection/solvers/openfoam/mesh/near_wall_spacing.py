@@ -2,9 +2,9 @@
 
 The sizes are those of Section 4.1 of the paper (docs/openfoam.md). From the wall they grow
 geometrically to that of a region, and stay there. The counts are those that the sizes ask for in a
-channel 4 c high; in another one, or around another thickness, the uniform part of each block takes
-up the difference. Growth, size of the first cell (y+ below 1) and the reach of the wake region are
-this project's.
+channel 4 c high. In another channel, or around another thickness, the uniform part of each block
+takes up the difference. Growth, size of the first cell (y+ below 1) and length of the wake region
+are this project's.
 """
 
 from __future__ import annotations

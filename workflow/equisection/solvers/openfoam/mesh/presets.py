@@ -14,7 +14,7 @@ from equisection.solvers.openfoam.mesh.near_wall_spacing import BY_CELL_SIZE
 
 @dataclass(frozen=True)
 class Preset:
-    """A mesh by name: what is refined, and how much in each direction."""
+    """A mesh with a name: its spacing, and the refinement of each direction."""
 
     refinement: float
     spacing: Spacing = SIMILAR
@@ -32,7 +32,7 @@ class Preset:
 
     @property
     def is_similar(self) -> bool:
-        """Whether it differs from the others alike by its refinement alone."""
+        """Tell whether it is similar to others: they differ by their refinement alone."""
         return self.spacing is SIMILAR
 
 

@@ -38,7 +38,7 @@ _NAME, _SET = "tipFlow", "near"
 
 @dataclass(frozen=True)
 class Pose:
-    """How the plate stands: twist (rad) and deflection (chords) at places z/c, shape (n,)."""
+    """Pose of the plate: twist (rad) and deflection (chords) at places z/c, shape (n,)."""
 
     z: Floats
     twist: Floats
@@ -59,8 +59,8 @@ def sample_tip_flow(
 ) -> TipFlow | None:
     """Return the flow near the tip in the last state of a run.
 
-    There is none of a plate without a tip, and none where the program failed or sampled nothing: a
-    picture that is missing is no reason to lose a result.
+    None for a plate without a tip, and where the program failed or sampled nothing: a missing
+    picture is no reason to lose a result.
 
     Parameters
     ----------
@@ -71,11 +71,11 @@ def sample_tip_flow(
     mesh
         Its mesh.
     state
-        What the last state is, in words.
+        The last state in words.
     pose
-        How the plate stands in it.
+        Pose of the plate in it.
     mean
-        Whether the means over time are to be sampled.
+        True samples the means over time.
     """
     if not mesh.gap:
         return None
