@@ -42,7 +42,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (folder / "first.py").write_text(
         "def f():\n    from equisection.room import (\n        second,\n    )\n"
     )
-    (folder / "room" / "second.py").write_text("from equisection.first import f\n")
+    (folder / "room" / "second.py").write_text("D = 1\n")
     (folder / "room" / "third.py").write_text("A = 1\n")
     (folder / "fourth.py").write_text("B = 1\n")
     (tmp_path / "script.py").write_text("from equisection.first import f\n")
@@ -51,8 +51,8 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def digest(package: Path, *further: str) -> str:
-    for function in (of_sources.imported, of_sources._file, of_sources._content):
-        function.cache_clear()
+    for name in ("imported", "_reached", "_file", "_text", "_content"):
+        getattr(of_sources, name).cache_clear()
     return source_digest(package.parent / "script.py", further)
 
 
@@ -86,16 +86,6 @@ def test_an_edited_figure_is_drawn_again_and_no_other() -> None:
     response, growth = (
         of_sources._in_package(f"figures.{name}")[0] for name in ("response", "growth_rate")
     )
-    assert growth not in _reached(script, response)
-    assert response not in _reached(script, growth)
-
-
-def _reached(*starts: Path) -> set[Path]:
-    found: set[Path] = set()
-    left = list(starts)
-    while left:
-        path = left.pop()
-        if path not in found:
-            found.add(path)
-            left += imported(path)
-    return found
+    common = of_sources._reached(script)
+    assert growth not in common | of_sources._reached(response)
+    assert response not in common | of_sources._reached(growth)

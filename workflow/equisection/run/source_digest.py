@@ -36,19 +36,20 @@ def source_digest(script: Path, further: Iterable[str] = ()) -> str:
     FileNotFoundError
         There is no module of a name in ``further``.
     """
-    found: set[Path] = set()
-    left = list(imported(script))
+    found = set(_reached(script)) - {script}
     for name in further:
-        left += _in_package(name)
-    while left:
-        path = left.pop()
-        if path not in found:
-            found.add(path)
-            left += imported(path)
+        for path in _in_package(name):
+            found |= _reached(path)
     digest = hashlib.sha256()
-    for path in sorted(found, key=str):
-        digest.update(_content(path))
+    for content in sorted(map(_content, found)):
+        digest.update(content)
     return digest.hexdigest()[:16]
+
+
+@cache
+def _reached(source: Path) -> frozenset[Path]:
+    """Return a file and all that it imports, whatever imports which (there is no circle)."""
+    return frozenset({source}).union(*map(_reached, imported(source)))
 
 
 @cache
@@ -58,7 +59,7 @@ def imported(source: Path) -> tuple[Path, ...]:
     Of the package itself only the version is used, which decides nothing here.
     """
     found: dict[Path, None] = {}
-    for package, words in _IMPORT.findall(source.read_text(encoding="utf-8")):
+    for package, words in _IMPORT.findall(_text(source)):
         for word in _WORD.findall(words):
             module = f"{package}.{word}"
             path = _file(module) or (_file(package) if package != NAME else None)
@@ -68,9 +69,15 @@ def imported(source: Path) -> tuple[Path, ...]:
 
 
 @cache
+def _text(path: Path) -> str:
+    """Return a file's text."""
+    return path.read_text(encoding="utf-8")
+
+
+@cache
 def _content(path: Path) -> bytes:
     """Return a digest of one file."""
-    return hashlib.sha256(path.read_bytes()).digest()
+    return hashlib.sha256(_text(path).encode()).digest()
 
 
 @cache
