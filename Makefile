@@ -45,7 +45,8 @@ paper: $(ENV)/run
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml config/paper/reductions-modal.yaml \
 		--config $(PAPER_FROM_$(FROM)) -- $(PAPER_REDUCTIONS)-modal/figures/section-and-beam.png
 	$(BIN)/python -m equisection.paper.claims_page
-	cp results/paper-figures/figures/fig16-response.png docs/
+	cp results/paper-figures/figures/fig16-response.png results/paper-figures/figures/growth-rate.png \
+		$(PAPER_REDUCTIONS)/figures/section-and-beam.png docs/
 	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Figs. 9 to 12 in $(PAPER_PLATE)/figures/" \
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \
 		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"

@@ -12,7 +12,7 @@ from equisection.study import plan
 
 
 def main(index: Path, cases: Sequence[str], output: Path) -> None:
-    """Read the surface data of what cases of the section there are, in their order."""
+    """Read the surface data of the section's cases, in their order."""
     found = read_index(index)
     results = {
         plan.rigid_point(name): read_dataset(

@@ -11,7 +11,7 @@ from equisection.run.script import logged
 def main(config: dict[str, Any], output: Path) -> None:
     """Write the resolved configuration as YAML, and keep it under its hash.
 
-    By the hash a file names the configuration that it was made with, also after a later one.
+    By the hash a file names its configuration, also when the run has a later one.
     """
     write_text(output, config_text(config))
     write_text(output.parent / "configs" / f"{config_hash(config)}.yaml", config_text(config))

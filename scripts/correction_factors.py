@@ -15,7 +15,7 @@ def main(
 ) -> None:
     """Divide the section's coefficients by the beam's, at the run's resolution.
 
-    With modes the beam's are those that they feel.
+    With modes the beam's coefficients are the loads on these (:mod:`.modal_load`).
     """
     weights = None if modes is None else modes_from_dataset(read_dataset(modes))
     section = polar_at(read_dataset(polar_2d), resolution)

@@ -31,7 +31,7 @@ def main(
     judgement_file: Path,
     figures: Sequence[Path],
 ) -> None:
-    """Write the lags as they stand in a configuration, what they are worth, and a picture."""
+    """Write the lags in the form of a configuration, their judgement, and its figure."""
     polar = read_section_polar(embedded, resolution)
     fitted_to = [read_reference_history(Path(path)) for path in embedded.identification.fitted_to]
     judged_on = [read_reference_history(Path(path)) for path in embedded.identification.judged_on]

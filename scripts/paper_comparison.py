@@ -1,4 +1,4 @@
-"""Every number that the paper states, and its tables, beside those of this run."""
+"""Every number that the paper states, and its tables, compared with those of this run."""
 
 from pathlib import Path
 from typing import Any
@@ -18,7 +18,6 @@ from equisection.study import plan
 
 def main(
     raw_config: dict[str, Any],
-    is_paper_case: bool,
     inputs: dict[str, Path],
     outputs: dict[str, Path],
 ) -> None:
@@ -35,8 +34,8 @@ def main(
     run = Run(config, **data, **tables)
     thickness_over_span = config.beam.thickness / config.beam.length
     frames = {
-        "paper": paper_table(run, is_paper_case),
-        "table2": table_2(run.modes, mesh_study, thickness_over_span, is_paper_case),
+        "paper": paper_table(run),
+        "table2": table_2(run.modes, mesh_study, thickness_over_span),
     }
     for name, frame in frames.items():
         with written_whole(outputs[name]) as aside:
@@ -56,7 +55,6 @@ if __name__ == "__main__":
                 inputs["reference_3d"] = result_file(index, stiffest)
         main(
             dict(snakemake.params.config),
-            snakemake.params.is_paper_case,
             inputs,
             {name: Path(path) for name, path in snakemake.output.items()},
         )

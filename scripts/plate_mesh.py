@@ -16,7 +16,7 @@ from equisection.store.lock import claimed
 
 
 def main(cases: Path, store: Path, output: Path) -> None:
-    """Have the solver mesh the one case of ``cases``.
+    """Let the solver mesh the one case of ``cases``.
 
     The file does not name the case's hash, by which the result of the case is known.
     """

@@ -11,7 +11,7 @@ from equisection.study import plan
 
 
 def main(index: Path, cases: Sequence[str], output: Path) -> None:
-    """Gather what results there are, in the order of the cases, each checked to be of its case."""
+    """Gather the results in the order of the cases, each checked to be of its case."""
     found = read_index(index)
     gathered = {
         plan.rigid_point(name): read_dataset(

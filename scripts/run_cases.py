@@ -1,4 +1,4 @@
-"""Run the cases of one job with the solver that they name, or take what is kept of them."""
+"""Run the cases of one job with the solver that they name, or take their kept results."""
 
 import logging
 import sys

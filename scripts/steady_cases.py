@@ -13,7 +13,7 @@ from equisection.study.assemble import steady_case
 
 
 def main(raw_config: dict[str, Any], dimension: str, names: Sequence[str], output: Path) -> None:
-    """Write the cases, whose names say resolution and incidence."""
+    """Write the cases, named by resolution and incidence."""
     config = load_config(raw_config)
     solvers = {name: solver_from_config(config, name) for name in plan.resolutions(config)}
     cases = {}

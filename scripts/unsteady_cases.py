@@ -21,7 +21,7 @@ def main(
     names: Sequence[str],
     output: Path,
 ) -> None:
-    """Write the cases, whose names say their point of the study.
+    """Write the cases, named by their point of the study.
 
     ``structure_files`` holds ``equivalent``, with ``modes`` in 3D and ``correction`` for
     corrected models.

@@ -81,9 +81,9 @@ def test_cells_fill_the_channel_but_for_the_plate(
     assert len(points) - len(edges(corners)) + len(corners) == 0
 
 
-def test_paper_has_the_papers_sizes(installation: Installation, tmp_path: Path) -> None:
+def test_finest_has_the_papers_sizes(installation: Installation, tmp_path: Path) -> None:
     """Along the plate, off it, in the near field above mid-chord, behind it, and far from it."""
-    points, corners = read_cells(made(installation, mesh("paper", 0.0), tmp_path))
+    points, corners = read_cells(made(installation, mesh("finest", 0.0), tmp_path))
     lines = points[edges(corners)]
     middle, length = lines.mean(axis=1), np.abs(np.diff(lines, axis=1))[:, 0]
     level = length[:, 1] < 1e-6 * length[:, 0]

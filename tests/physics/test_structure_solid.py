@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -155,6 +156,17 @@ def test_nested_meshes_bring_every_frequency_down():
     assert np.abs(study.change[1]).max() < 0.02
     assert study.error[-1] == pytest.approx(np.zeros(8))
     assert study.kind == coarse_modes().kind[:8]
+
+
+def test_modes_that_are_known_of_the_finest_mesh_are_not_computed_again():
+    levels = [(2, 6, 1), (4, 11, 1)]
+    known = compute_modes(PAPER, "solid", levels[-1], 10)
+    twice = replace(known, frequency=2.0 * known.frequency)
+    study, of_known = (mesh_study(PAPER, levels, solved=modes) for modes in (None, twice))
+    assert of_known.frequency[0] == pytest.approx(study.frequency[0], rel=1e-9)
+    assert of_known.frequency[1] == pytest.approx(2.0 * study.frequency[1], rel=1e-9)
+    coarser = mesh_study(PAPER, levels[:1], solved=twice)
+    assert coarser.frequency[0] == pytest.approx(study.frequency[0], rel=1e-9)
 
 
 def test_a_mesh_study_pairs_modes_that_a_coarse_mesh_has_in_another_order():

@@ -62,7 +62,7 @@ def test_default_solver_to_the_report(node: Node, project: ClusterProject) -> No
 
     project.run("--report", "report.html")
     report = (project.folder / "report.html").read_text()
-    for name in ("fig16-response.png", "growth-rate.png", "summary.csv", "onset.csv"):
+    for name in ("response.png", "growth-rate.png", "summary.csv", "onset.csv"):
         assert name in report
 
 

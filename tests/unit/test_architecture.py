@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import graphlib
+import re
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
@@ -100,6 +101,28 @@ def test_nothing_imports_what_knows_the_paper():
         if other.partition(".")[0] == "paper"
     ]
     assert not knowing
+
+
+#: What a line says that speaks of the paper outside of its room: it cites a place in it, or names
+#: its reduction, a run of its plate, or the plate that the defaults are.
+CITATION = re.compile(
+    r"\b(Eqs?|Figs?)\. ?\d|\bSection \d|reduction|[\"'`-]paper\b|_paper_section"
+    r"|paper[-.](plate|smk)|defaults are|paper's J is kept|\bpaper divides"
+)
+
+
+def test_other_rooms_speak_of_the_paper_in_citations_alone():
+    workflow = PACKAGE.parent
+    sources = [path for name, path in MODULES.items() if not name.startswith("paper")]
+    sources += [path for path in (workflow / "rules").glob("*.smk") if path.stem != "paper"]
+    sources += [workflow / "Snakefile", *(workflow / "report").rglob("*.rst")]
+    wrong = [
+        f"{path.relative_to(workflow)}:{number}: {line.strip()}"
+        for path in sources
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1)
+        if "paper" in line.lower() and not CITATION.search(line)
+    ]
+    assert not wrong, "\n".join(wrong)
 
 
 def test_a_module_has_its_name_to_itself():

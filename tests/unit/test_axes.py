@@ -108,7 +108,7 @@ def test_stable_side_is_that_of_high_k_star_and_of_low_speed() -> None:
 def test_heading_and_label_have_the_unit() -> None:
     assert (K_STAR.heading, SPEED.heading) == ("k*", "V (m/s)")
     assert (K_STAR.label, SPEED.label) == ("$k^*$", "$V$ (m/s)")
-    assert SPEED.on_paper(30.0) == "$V$ = 30 m/s"
+    assert SPEED.typeset(30.0) == "$V$ = 30 m/s"
 
 
 def test_a_point_takes_the_place_of_incidence_and_speed_alone() -> None:

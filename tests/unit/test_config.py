@@ -232,37 +232,3 @@ def test_polar_of_the_beam_of_another_file_is_taken_back(nothing):
     config = load_config(raw)
     assert config.steady.beam_polar == ""
     assert plan.steady_dimensions(config) == ("2d", "3d")
-
-
-@pytest.mark.parametrize(
-    ("change", "reason"),
-    [
-        ({"beam": {"length": 0.6}}, "of L/c 3.7 and not 6"),
-        ({"beam": {"thickness": 0.006}}, "of h/c 0.04 and not 0.06"),
-        ({"flow": {"speed": 30}}, "of Reynolds number 126900 and not 190300"),
-        ({"flow": {"root_on_wall": False}}, "of flow.root_on_wall true and not false"),
-        ({"flow": {"channel": {"height_chords": 8}}}, "of flow.channel.height_chords 4 and not 8"),
-    ],
-)
-def test_the_papers_polar_is_refused_for_another_beam(change, reason):
-    raw = merged(read(ROOT / "config/openfoam.yaml"), change)
-    with pytest.raises(ConfigError) as caught:
-        load_config(raw)
-    (line,) = str(caught.value).splitlines()
-    assert line.startswith("config: steady.beam_polar: 'config/polars/paper_plate_3d.csv': allowed")
-    assert line.endswith(reason)
-    load_config(merged(raw, {"steady": {"beam_polar": "measured.csv"}}))
-
-
-def test_the_papers_polar_is_that_of_its_plate_whatever_the_material_and_size():
-    beam = {"youngs_modulus": 70e9, "density": 2700, "boundary": "pinned-pinned"}
-    load_config(merged(read(ROOT / "config/openfoam.yaml"), {"beam": beam}))
-    twice = {"chord": 0.2, "length": 0.74, "thickness": 0.008}
-    raw = merged(read(ROOT / "config/openfoam.yaml"), {"beam": twice, "flow": {"speed": 10}})
-    load_config(raw)
-
-
-def test_the_papers_polar_is_known_by_its_absolute_path():
-    polar = {"beam_polar": str(ROOT / "config/../config/polars/paper_plate_3d.csv")}
-    with pytest.raises(ConfigError, match="not 6"):
-        load_config({"beam": {"length": 0.6}, "steady": polar})

@@ -155,12 +155,6 @@ MALFORMED = [
         "[0, 1, 2",
         "on both sides of flow.incidence_deg, 0 deg",
     ),
-    (
-        {"beam": {"thickness": 0.02}},
-        "embedded.polars.coarse",
-        "'config/polars/plate_2d_11136.csv'",
-        "the polar of this section, of h/c 0.2, or flat-plate",
-    ),
     ({"flow": {"root_on_wall": 1}}, "flow.root_on_wall", "1", "true or false"),
     ({"embedded": {"symmetric": "maybe"}}, "embedded.symmetric", "'maybe'", "true or false"),
     ({"solver": "fluent"}, "solver", "'fluent'", "embedded"),

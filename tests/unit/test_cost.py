@@ -62,7 +62,9 @@ def test_rigid_case_may_go_on_as_long_as_its_record_can_be(dimension: str, longe
 
 
 def test_job_that_looks_up_what_is_kept_asks_for_no_solver() -> None:
-    raw = yaml.safe_load((ROOT / "config" / "paper.yaml").read_text(encoding="utf-8"))
+    raw = yaml.safe_load(
+        (ROOT / "config" / "paper" / "resolution.yaml").read_text(encoding="utf-8")
+    )
     computes, looks_up = (load_config({**raw, "compute": compute}) for compute in (True, False))
     assert batch_work(computes, STEADY, "3d").cells > 1e6
     for work in (batch_work(looks_up, kind, "3d") for kind in (STEADY, FREE)):

@@ -1,14 +1,23 @@
 """The documentation agrees with the project."""
 
+import ast
+import importlib.util
 import re
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
+from types import ModuleType
 
+import numpy as np
 import pytest
 import yaml
+from matplotlib.image import imread
 
 import equisection
+from equisection.figures.catalogue import CATALOGUE
+from equisection.figures.save import save_figure
+from equisection.figures.style import drawing_style
 
 ROOT = Path(__file__).parents[2]
 #: Pages that send a reader to places of the project.
@@ -85,3 +94,84 @@ def test_the_python_of_the_readme_prints_what_it_says() -> None:
         [sys.executable, "-c", blocks[at][1]], cwd=ROOT, capture_output=True, text=True, check=False
     )
     assert run.stdout == blocks[at + 1][1], run.stderr
+
+
+@pytest.fixture(scope="module")
+def drawing() -> ModuleType:
+    """The script that draws the workflow."""
+    spec = importlib.util.spec_from_file_location("drawing", ROOT / "docs" / "workflow_drawing.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_drawing_of_the_workflow_has_rules_that_there_are(drawing: ModuleType) -> None:
+    sources = "".join(path.read_text() for path in (ROOT / "workflow" / "rules").glob("*.smk"))
+    rules = set(re.findall(r"^ *(?:rule|checkpoint) (\w+):", sources, flags=re.MULTILINE))
+    rules |= set(re.findall(r"^ *use rule \w+ as (\w+) with:", sources, flags=re.MULTILINE))
+    rules |= {entry.job for entry in CATALOGUE}
+    drawn = {rule for box in drawing.BOXES.values() for rule in box.rules} - {"…"}
+    assert drawn <= rules
+    assert {name for arrow in drawing.ARROWS for name in arrow} == set(drawing.BOXES)
+
+
+def test_drawing_of_the_workflow_is_up_to_date(drawing: ModuleType, tmp_path: Path) -> None:
+    """But for what another version of FreeType makes of the letters."""
+    with drawing_style(ROOT / "envs" / "equisection.mplstyle"):
+        save_figure(drawing.draw(), [tmp_path / "workflow.png"])
+    drawn, kept = imread(tmp_path / "workflow.png"), imread(drawing.FOLDER / "workflow.png")
+    assert drawn.shape == kept.shape, "python docs/workflow_drawing.py"
+    differ = np.abs(drawn - kept).max(axis=-1) > 0.1
+    assert differ.mean() < 2e-3, "python docs/workflow_drawing.py"
+
+
+#: Words that no public docstring begins with; it begins with a noun or a verb.
+QUESTIONS = {"what", "which", "who", "whose", "whether", "how", "where", "when", "why", "that"}
+#: Places of Python with docstrings that a reader meets.
+DOCUMENTED = ("workflow/equisection", "scripts", "docs/examples", "docs/drawings")
+Documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def public_docstrings(node: Documented, name: str) -> Iterator[tuple[str, str]]:
+    """Yield name and docstring of a module, and of the public classes and functions in it."""
+    docstring = ast.get_docstring(node)
+    if docstring:
+        yield name, docstring
+    for child in node.body:
+        if isinstance(child, Documented) and not child.name.startswith("_"):
+            yield from public_docstrings(child, f"{name}: {child.name}")
+
+
+def begins_with_a_question(docstring: str) -> bool:
+    (word,) = re.findall(r"\w+", docstring)[:1] or [""]
+    return word.lower() in QUESTIONS
+
+
+def test_docstrings_begin_with_a_noun_or_a_verb() -> None:
+    files = [path for place in DOCUMENTED for path in (ROOT / place).rglob("*.py")]
+    found: list[tuple[str, str]] = []
+    for path in files:
+        module = ast.parse(path.read_text(encoding="utf-8"))
+        found += public_docstrings(module, str(path.relative_to(ROOT)))
+    assert len(found) > len(files)  # modules have a docstring, and so has what is in them
+    wrong = [
+        f"{name}: {text.splitlines()[0]}" for name, text in found if begins_with_a_question(text)
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+@pytest.mark.parametrize(
+    ("docstring", "wrong"),
+    [
+        ("Whether a run may end.", True),
+        ("``What`` a run shows.", True),
+        ("How far a run is.", True),
+        ("Tell whether a run may end.", False),
+        ("Wake of a beam.", False),
+        ("Thatched roofs, whose loads are not known.", False),
+    ],
+)
+def test_a_docstring_that_begins_with_a_question_is_found(docstring: str, wrong: bool) -> None:
+    assert begins_with_a_question(docstring) is wrong

@@ -16,12 +16,11 @@ from tests.sample_cases import PAPER
 
 import equisection
 from equisection.analysis.bubble import bubble_table
+from equisection.analysis.deviations import deviations
 from equisection.analysis.grid_study import grid_study
-from equisection.analysis.section_and_beam import deviations
 from equisection.analysis.summary import summarise
 from equisection.figures import (
     courant_number,
-    fig01_workflow,
     flow_at_tip,
     growth_rate,
     hysteresis,
@@ -32,7 +31,7 @@ from equisection.figures import (
     mode_shapes,
     moment_correction,
     response,
-    section_against_beam,
+    section_and_beam,
     section_polar,
     spanwise_loads,
     surface_loads,
@@ -42,7 +41,7 @@ from equisection.figures.drawn_history import extent_from_dataset, history_from_
 from equisection.figures.incidences import nearest_incidences
 from equisection.figures.load_correction import SteadyData
 from equisection.figures.models import LOOKS
-from equisection.figures.rule_graph import RuleGraph, RuleText
+from equisection.figures.references import read_references
 from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import write_dataset
@@ -58,6 +57,8 @@ from equisection.results.unsteady_result import UnsteadyResult
 STYLE = Path(__file__).parents[2] / "envs" / "equisection.mplstyle"
 SOLVER = "made-up solver, 5 cells"
 
+NOTHING = read_references([], "bubble")
+
 pytestmark = pytest.mark.filterwarnings("error")
 
 
@@ -69,6 +70,10 @@ def _style():
 
 def words(figure: Figure) -> str:
     return "\n".join(text.get_text() for text in figure.findobj(Text))
+
+
+def stated(at: float, value: float, label: str) -> pd.DataFrame:
+    return pd.DataFrame({"quantity": ["some"], "at": [at], "value": [value], "label": [label]})
 
 
 def lay_out(figure: Figure) -> None:
@@ -271,31 +276,28 @@ SWEEPS = {
 
 def figures_of_data():
     whole = SteadyData(polar_data(), beam_polar(), correction(), "coarse")
-    graph = RuleGraph(("all", "modes", "mode_shapes"), frozenset({("modes", "mode_shapes")}))
-    texts = {"modes": RuleText("Modes", "structure"), "mode_shapes": RuleText("", "figures")}
     return {
-        "fig01": lambda: fig01_workflow.draw(graph, texts, SOLVER),
-        "fig06": lambda: section_polar.draw(polar_data(("coarse", "fine", "finest"))),
-        "fig05": lambda: mesh_of_section.draw(section_mesh()),
-        "fig07": lambda: surface_loads.draw(
+        "section-polar": lambda: section_polar.draw(polar_data(("coarse", "fine", "finest"))),
+        "mesh-of-section": lambda: mesh_of_section.draw(section_mesh()),
+        "surface-loads": lambda: surface_loads.draw(
             {1.0: surface(0.4), 10.0: surface(2.0)},
             bubbles({("coarse", 1.0): 0.4, ("coarse", 10.0): 2.0, ("fine", 1.0): 0.5}),
             "coarse",
-            {1.0: 0.5},
+            stated(1.0, 0.5, "stated elsewhere"),
         ),
-        "fig08": lambda: courant_number.draw(section_mesh()),
-        "fig09": lambda: mesh_of_beam.draw(plate_mesh(), "solid", (4, 8, 1)),
-        "fig11": lambda: surface_of_beam.draw(on_plate(at2=0.3, at10=2.0), [], SOLVER),
-        "fig12": lambda: flow_at_tip.draw(
+        "courant-number": lambda: courant_number.draw(section_mesh()),
+        "mesh-of-beam": lambda: mesh_of_beam.draw(plate_mesh(), "solid", (4, 8, 1)),
+        "surface-of-beam": lambda: surface_of_beam.draw(on_plate(at2=0.3, at10=2.0), [], SOLVER),
+        "flow-at-tip": lambda: flow_at_tip.draw(
             [
                 flow_at_tip.column_of("rigid", tip_result()),
                 flow_at_tip.column_of("flexible", tip_result("settled")),
             ]
         ),
-        "fig10": lambda: spanwise_loads.draw(beam_polar(), "coarse"),
-        "fig13": lambda: lift_correction.draw(whole),
-        "fig14": lambda: moment_correction.draw(whole),
-        "fig15": lambda: modal_contributions.draw(modes(), run(dimension="3d")),
+        "spanwise-loads": lambda: spanwise_loads.draw(beam_polar(), "coarse"),
+        "lift-correction": lambda: lift_correction.draw(whole),
+        "moment-correction": lambda: moment_correction.draw(whole),
+        "modal-contributions": lambda: modal_contributions.draw(modes(), run(dimension="3d")),
     }
 
 
@@ -372,11 +374,11 @@ def test_polars_of_a_grid_study_without_an_order_say_so():
 
 
 def test_surface_shows_the_bubble_of_every_resolution_beside_the_papers():
-    figure = figures_of_data()["fig07"]()
+    figure = figures_of_data()["surface-loads"]()
     lines = {str(line.get_label()): line for line in figure.axes[3].get_lines()}
     np.testing.assert_allclose(lines["coarse"].get_ydata(), [0.4, 1.0])
     np.testing.assert_allclose(lines["fine"].get_ydata(), [0.5])
-    assert list(lines["stated in the paper"].get_xdata()) == [1.0]
+    assert list(lines["stated elsewhere"].get_xdata()) == [1.0]
     assert "10 deg, mean of unsteady" in words(figure)
     assert "1 deg, mean" not in words(figure)
 
@@ -385,7 +387,7 @@ def test_surface_shows_the_bubble_of_every_resolution_beside_the_papers():
 def test_surface_says_which_results_have_no_data(without):
     table = bubbles({("coarse", 1.0): 0.4, ("coarse", 5.0): 1.0}, without)
     shown = {angle: surface() for angle in (5.0,) if angle not in without}
-    figure = surface_loads.draw(shown, table, "coarse", {})
+    figure = surface_loads.draw(shown, table, "coarse", NOTHING)
     found = words(figure).replace("\n", " ")
     assert f"{len(without)} of 2 cases have no surface data" in found
     assert ("No result has surface data." in found) == (len(without) == 2)
@@ -401,7 +403,7 @@ def test_incidences_of_the_surface_shown(available, shown):
 
 
 def test_courant_number_says_how_much_of_the_area_is_below_the_limit():
-    figure = courant_number.draw(section_mesh())
+    figure = courant_number.draw(section_mesh(), 1.5)
     assert "25.0 % of the area below 1.5" in words(figure)
     assert "mean 2.5" in words(figure)
 
@@ -450,7 +452,7 @@ def test_plate_without_surface_data_says_so():
 
 
 def test_flow_near_the_tip_has_a_plane_for_each_place_and_the_plate_where_it_is():
-    figure = figures_of_data()["fig12"]()
+    figure = figures_of_data()["flow-at-tip"]()
     titles = [axes.get_title(loc="left") for axes in figure.axes[:4]]
     assert titles[0].endswith("rigid, 0.5 c from the leading edge")
     assert titles[3].endswith("flexible, 1.5 c from the leading edge")
@@ -520,12 +522,12 @@ def test_tables_and_polar_of_no_case_are_drawn(tmp_path):
             "No incidence has an observed order",
         ),
         (
-            growth_rate.draw(summary, linear_theory().iloc[:0], is_paper_case=False),
+            growth_rate.draw(summary, linear_theory().iloc[:0], NOTHING),
             "No run has a growth rate.",
         ),
-        (section_against_beam.draw(as_read(deviations(summary)), summary), "No section and beam"),
+        (section_and_beam.draw(as_read(deviations(summary)), summary), "No section and beam"),
         (
-            surface_loads.draw({}, as_read(bubble_table({})), "coarse", {}),
+            surface_loads.draw({}, as_read(bubble_table({})), "coarse", NOTHING),
             "No result has surface data.",
         ),
     ):
@@ -709,16 +711,18 @@ def growth(**changes: object) -> pd.DataFrame:
 
 
 def test_growth_of_runs_and_of_linear_theory_stand_in_one_panel():
-    figure = growth_rate.draw(growth(), linear_theory(), is_paper_case=True)
+    figure = growth_rate.draw(growth(), linear_theory(), stated(math.nan, 5.5, "onset elsewhere"))
     drawn = [tuple(line.get_ydata()) for line in figure.axes[0].get_lines()]
     assert {(0.01, -0.02), (-0.03, -0.02), (-0.05, -0.04)} <= set(drawn)
+    marks = [line for line in figure.axes[0].get_lines() if line.get_label() == "onset elsewhere"]
+    assert [list(line.get_xdata()) for line in marks] == [[5.5, 5.5]]
     lay_out(figure)
 
 
 def test_model_with_a_frequency_alone_is_in_the_legend_and_one_point_is_seen():
     nothing = growth(growth_rate=np.nan)
     alone = linear_theory().drop_duplicates("motion")
-    figure = growth_rate.draw(nothing, alone, is_paper_case=False)
+    figure = growth_rate.draw(nothing, alone, NOTHING)
     (legend,) = figure.legends
     assert LOOKS["2d"].label in [text.get_text() for text in legend.get_texts()]
     lines = [line for line in figure.axes[0].get_lines() if str(line.get_label())[0] != "_"]
@@ -728,7 +732,7 @@ def test_model_with_a_frequency_alone_is_in_the_legend_and_one_point_is_seen():
 
 def test_failed_runs_have_no_growth():
     failed = growth(regime="failed")
-    figure = growth_rate.draw(failed, linear_theory().iloc[:0], is_paper_case=False)
+    figure = growth_rate.draw(failed, linear_theory().iloc[:0], NOTHING)
     assert "No run has a growth rate." in words(figure)
     lay_out(figure)
 

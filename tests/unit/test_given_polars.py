@@ -60,6 +60,68 @@ def test_polars_of_another_solver_are_left_alone(tmp_path: Path) -> None:
     check_polars(load_config({}), ROOT)
 
 
+CFD = {"solver": "openfoam", "unsteady": STEP, "sweep": {"models": ["2d"]}}
+OF_THE_PLATE = "config/polars/paper_plate_3d.csv"
+
+
+@pytest.mark.parametrize(
+    ("change", "reason"),
+    [
+        ({"beam": {"length": 0.6}}, "of L/c 3.7 and not 6"),
+        ({"beam": {"thickness": 0.006}}, "of h/c 0.04 and not 0.06"),
+        ({"flow": {"speed": 30}}, "of Reynolds number 126900 and not 190300"),
+        ({"flow": {"root_on_wall": False}}, "of flow.root_on_wall true and not false"),
+        ({"flow": {"channel": {"height_chords": 8}}}, "of flow.channel.height_chords 4 and not 8"),
+        ({"flow": {"channel": {"tip_gap_chords": 9}}}, "and not 9"),
+    ],
+)
+def test_a_polar_of_one_beam_is_refused_for_another(change: dict[str, Any], reason: str) -> None:
+    (line,) = lines_of({**CFD, **change, "steady": {"beam_polar": OF_THE_PLATE}}, ROOT)
+    assert line.startswith(f"config: steady.beam_polar: '{OF_THE_PLATE}': allowed")
+    assert line.endswith(reason)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"beam": {"youngs_modulus": 70e9, "density": 2700, "boundary": "pinned-pinned"}},
+        {"beam": {"chord": 0.2, "length": 0.74, "thickness": 0.008}, "flow": {"speed": 10}},
+        {},
+    ],
+)
+def test_a_rigid_polar_is_of_any_material_and_size(change: dict[str, Any]) -> None:
+    check_polars(load_config({**CFD, **change, "steady": {"beam_polar": OF_THE_PLATE}}), ROOT)
+
+
+def test_a_copy_of_a_polar_is_of_the_same_beam(tmp_path: Path) -> None:
+    (tmp_path / "mine.csv").write_text((ROOT / OF_THE_PLATE).read_text())
+    raw = {**CFD, "beam": {"length": 0.6}, "steady": {"beam_polar": "mine.csv"}}
+    (line,) = lines_of(raw, tmp_path)
+    assert line.endswith("not 6")
+
+
+def test_a_polar_that_says_nothing_of_its_beam_is_for_any(tmp_path: Path) -> None:
+    (tmp_path / "own.csv").write_text(GOOD)
+    raw = {**CFD, "beam": {"length": 0.6}, "steady": {"beam_polar": "own.csv"}}
+    check_polars(load_config(raw), tmp_path)
+
+
+def test_the_polar_of_a_thin_section_is_refused_for_a_thick_one() -> None:
+    (line,) = lines_of({"beam": {"thickness": 0.02}}, ROOT)
+    assert line.startswith(
+        "config: embedded.polars.coarse: 'config/polars/plate_2d_11136.csv': allowed is the polar "
+        "of this section, of h/c 0.2, or flat-plate"
+    )
+    assert line.endswith("h/c 0.04")
+    check_polars(load_config({"beam": {"thickness": 0.0045}}), ROOT)
+
+
+def test_what_cannot_be_read_of_a_polars_beam_is_named(tmp_path: Path) -> None:
+    (tmp_path / "own.csv").write_text(f"# Valid for: h/c thin\n{GOOD}")
+    (line,) = lines_of({"embedded": {"polars": {"coarse": "own.csv"}}}, tmp_path)
+    assert line.startswith("config: embedded.polars.coarse: 'own.csv': line 1: 'h/c thin' behind")
+
+
 def test_looking_at_polars_loads_no_numerics() -> None:
     code = "import sys, equisection.study.given_polars; print('scipy' in sys.modules)"
     said = subprocess.run(

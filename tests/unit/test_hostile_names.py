@@ -30,6 +30,10 @@ LEADS_OUT = ["..", "../x", "/etc/x", "a/../../x", "a/b", "~root", ".hidden", "a\
 TO_A_SHELL = ["a;b", "a b", "$(b)", "`b`", "a|b", "a&b", "a>b", "a'b", 'a"b', "a\nb", "-rf", "a*"]
 TO_SNAKEMAKE = ["{a}", "a{b", "a}b"]
 NAMES = [*LEADS_OUT, *TO_A_SHELL, *TO_SNAKEMAKE]
+#: Snakemake's own way to execute what a configuration holds.
+YTE = """__use_yte__: true
+run: ?__import__("os").system("touch executed")
+"""
 EXECUTED = "!!python/object/apply:os.system ['touch executed']"
 
 
@@ -114,7 +118,9 @@ def test_a_prefix_is_words_and_goes_to_no_shell(
     assert not (tmp_path / "executed").exists()
 
 
-@pytest.mark.parametrize("text", [EXECUTED, f"run: {EXECUTED}", f"flow: {{speed: {EXECUTED}}}"])
+@pytest.mark.parametrize(
+    "text", [EXECUTED, f"run: {EXECUTED}", f"flow: {{speed: {EXECUTED}}}", YTE]
+)
 def test_a_configuration_executes_nothing(
     text: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -123,6 +129,7 @@ def test_a_configuration_executes_nothing(
         (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / place).write_text(text)
     assert main(["folder"]) == 1
+    assert main(["check"]) == 1
     assert main(["status"]) == 0
     with pytest.raises(ConfigError):
         read_cost_model(Path("cost.yaml"))

@@ -12,8 +12,9 @@ import pytest
 from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY
 
 from equisection.beam.section import MORE_THAN_SPRINGS, Section
-from equisection.config import load_config
+from equisection.config import Config, load_config
 from equisection.errors import ConfigError, EquisectionError, SolverError
+from equisection.figures.catalogue import figures
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.case_folder import (
     drop_broken_states,
@@ -169,13 +170,17 @@ def test_models_that_need_three_dimensions_are_refused() -> None:
     assert "steady.beam_polar" in lines[0]
 
 
+def names_of_figures(config: Config) -> list[str]:
+    return [entry.name for entry in figures(config)]
+
+
 def test_given_beam_polar_allows_the_correction_and_its_figures_alone() -> None:
     steady = {"beam_polar": "config/polars/paper_plate_3d.csv"}
     config = load_config(openfoam(steady=steady, sweep={"models": ["2d", "2d-corrected"]}))
     check_provided(config)
-    figures = plan.figures(config)
-    assert {"fig13-lift-correction", "fig14-moment-correction"} <= set(figures)
-    assert "fig10-spanwise-loads" not in figures
+    drawn = names_of_figures(config)
+    assert {"lift-correction", "moment-correction"} <= set(drawn)
+    assert "spanwise-loads" not in drawn
     assert plan.steady_dimensions(config) == ("2d",)
 
 
@@ -216,21 +221,20 @@ def test_run_with_the_plate_has_its_figures_and_table() -> None:
     config = load_config(openfoam(sweep={"models": ["2d-corrected", "3d"]}))
     check_provided(config)
     assert plan.steady_dimensions(config) == ("2d", "3d")
-    assert {"fig10-spanwise-loads", "fig15-modal-contributions"} <= set(plan.figures(config))
+    assert {"spanwise-loads", "modal-contributions"} <= set(names_of_figures(config))
 
 
 @pytest.mark.usefixtures("sections_only")
 def test_run_without_three_dimensions_has_no_figure_of_the_beam() -> None:
     config = load_config(openfoam())
-    assert plan.figures(config) == [
-        "fig01-workflow",
-        "fig03-modes",
-        "fig05-section-mesh",
-        "fig06-section-polar",
-        "fig07-surface",
-        "fig08-courant-number",
-        "fig16-response",
-        "fig17-hysteresis",
+    assert names_of_figures(config) == [
+        "mode-shapes",
+        "mesh-of-section",
+        "section-polar",
+        "surface-loads",
+        "courant-number",
+        "response",
+        "hysteresis",
         "growth-rate",
     ]
 

@@ -156,5 +156,5 @@ def test_mesh_motion_is_part_of_a_case_only_where_it_is_not_morph() -> None:
 
 
 def test_papers_mesh_has_no_overset() -> None:
-    with pytest.raises(ConfigError, match=r"openfoam\.meshes\.a: 'paper': allowed are coarse"):
-        load_config(openfoam(meshes={"coarse": "coarse", "a": "paper"}, mesh_motion="overset"))
+    with pytest.raises(ConfigError, match=r"openfoam\.meshes\.a: 'finest': allowed are coarse"):
+        load_config(openfoam(meshes={"coarse": "coarse", "a": "finest"}, mesh_motion="overset"))

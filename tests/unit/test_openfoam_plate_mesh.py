@@ -23,7 +23,7 @@ def plate_mesh(refinement: float = 0.55, gap: float = 0.3) -> PlateMesh:
 
 
 @pytest.mark.parametrize(
-    ("name", "cells"), [("coarse", 8e4), ("medium", 3e5), ("fine", 1e6), ("paper", 5e6)]
+    ("name", "cells"), [("coarse", 8e4), ("medium", 3e5), ("fine", 1e6), ("finest", 5e6)]
 )
 def test_presets_have_about_as_many_cells_as_they_are_to_have(name: str, cells: float) -> None:
     preset = PRESETS[name]

@@ -207,30 +207,30 @@ class TestRelativeDifference:
 class TestPaperTable:
     def test_columns_begin_with_those_of_the_contract(self, tmp_path: Path) -> None:
         path = tmp_path / "paper.csv"
-        paper_table(run(), True).to_csv(path, index=False)
+        paper_table(run()).to_csv(path, index=False)
         read = pd.read_csv(path)
         assert list(read.columns[:4]) == ["quantity", "paper", "here", "relative_difference"]
         assert tuple(read.columns) == COLUMNS
         assert read["paper"].dtype == read["here"].dtype == float
 
     def test_every_published_number_has_a_row(self) -> None:
-        names = set(paper_table(run(), True)["quantity"])
+        names = set(paper_table(run())["quantity"])
         for entry in PUBLISHED:
             assert any(name == entry.name or name.startswith(entry.name + ",") for name in names)
 
     def test_an_empty_value_says_why(self) -> None:
-        table = paper_table(run(), True)
+        table = paper_table(run())
         assert (table.loc[table["here"].isna(), "note"] != "").all()
 
     def test_values_beside_each_other(self) -> None:
-        row = by_quantity(paper_table(run(), True)).loc["C_L at 10 deg (15e6 cells)"]
+        row = by_quantity(paper_table(run())).loc["C_L at 10 deg (15e6 cells)"]
         assert row["paper"] == 0.5684
         assert row["here"] == pytest.approx(1.1 * 0.5684)
         assert row["relative_difference"] == pytest.approx(0.1)
         assert "a solver on 9 cells" in row["note"]
 
     def test_onset_of_the_models_that_the_paper_speaks_of(self) -> None:
-        table = by_quantity(paper_table(run(), True))
+        table = by_quantity(paper_table(run()))
         assert table.loc["k* of the onset, 3d", "here"] == 6.0
         assert table.loc["k* of the onset, 2d-corrected", "relative_difference"] == 0.0
         assert (
@@ -247,12 +247,12 @@ class TestPaperTable:
         ],
     )
     def test_open_brackets(self, row: tuple[str, float, float], says: str) -> None:
-        found = by_quantity(paper_table(run(onset=onset(row)), True)).loc["k* of the onset, 3d"]
+        found = by_quantity(paper_table(run(onset=onset(row)))).loc["k* of the onset, 3d"]
         assert math.isnan(found["here"])
         assert says in found["note"]
 
     def test_bounds_hold_or_do_not(self) -> None:
-        table = by_quantity(paper_table(run(), True))
+        table = by_quantity(paper_table(run()))
         torsion = table.loc["first torsion mode over the others"]
         assert torsion["here"] == pytest.approx(200.0)
         assert torsion["note"].startswith("holds")
@@ -264,7 +264,7 @@ class TestPaperTable:
 
     def test_a_factor_that_is_not_a_positive_number_is_blank_with_the_reason(self) -> None:
         crossing = run().correction.assign(moment_factor=("incidence_deg", [1.1, math.nan, 1.05]))
-        table = by_quantity(paper_table(run(correction=crossing), True))
+        table = by_quantity(paper_table(run(correction=crossing)))
         row = table.loc["c_m/C_M at theta_0"]
         assert math.isnan(row["here"])
         assert math.isnan(row["relative_difference"])
@@ -277,7 +277,7 @@ class TestPaperTable:
         names = [f"{f} at {at}" for f in ("c_l/C_L", "c_m/C_M") for at in ("theta_0", "10 deg")]
         for kind, compared in (("modal", False), ("mean", True)):
             factors = run().correction.assign_attrs(correction=kind)
-            table = by_quantity(paper_table(run(correction=factors), True)).loc[names]
+            table = by_quantity(paper_table(run(correction=factors))).loc[names]
             assert table["here"].notna().all()
             assert table["note"].str.contains("hold").all() == compared
             assert table["note"].str.contains("hold").any() == compared
@@ -289,14 +289,14 @@ class TestPaperTable:
         assert math.isnan(uniform_load_ratio(one, "torsion"))
 
     def test_without_the_beam(self) -> None:
-        table = by_quantity(paper_table(run(reference_3d=None), True))
+        table = by_quantity(paper_table(run(reference_3d=None)))
         assert math.isnan(table.loc["first torsion mode over the others", "here"])
 
     def test_a_failed_incidence_is_blank_with_the_reason(self) -> None:
         polar = polar_3d()
         polar["cl"][0, 3] = math.nan
         polar.attrs["failures"] = "coarse 10 deg: did not converge"
-        row = by_quantity(paper_table(run(polar_3d=polar), True)).loc["C_L at 10 deg (15e6 cells)"]
+        row = by_quantity(paper_table(run(polar_3d=polar))).loc["C_L at 10 deg (15e6 cells)"]
         assert math.isnan(row["here"])
         assert math.isnan(row["relative_difference"])
         assert "did not converge" in row["note"]
@@ -312,26 +312,25 @@ class TestPaperTable:
             reference_3d=None,
             correction=None,
         )
-        row = by_quantity(paper_table(empty, True)).loc["C_L at 10 deg (15e6 cells)"]
+        row = by_quantity(paper_table(empty)).loc["C_L at 10 deg (15e6 cells)"]
         assert math.isnan(row["here"])
         assert "no incidence has a result at resolution coarse" in row["note"]
-        assert "C_L at 10 deg" not in set(paper_table(empty, False)["quantity"])
 
     def test_no_cost_without_a_run(self) -> None:
         failed = summary({"2d": {5.0: "failed"}, "3d": {5.0: "failed"}})
         failed["end_time"] = 0.0
-        row = by_quantity(paper_table(run(summary=failed, onset=onset()), True)).loc[
+        row = by_quantity(paper_table(run(summary=failed, onset=onset()))).loc[
             "cost of 3D over 2D, per time simulated"
         ]
         assert math.isnan(row["here"])
 
     def test_cost_has_no_relative_difference(self) -> None:
-        row = by_quantity(paper_table(run(), True)).loc["cost of 3D over 2D, per time simulated"]
+        row = by_quantity(paper_table(run())).loc["cost of 3D over 2D, per time simulated"]
         assert row["here"] == pytest.approx(4.0)
         assert math.isnan(row["relative_difference"])
 
     def test_bubble_and_wall_distance_beside_the_papers(self) -> None:
-        table = by_quantity(paper_table(run(bubble=bubble()), True))
+        table = by_quantity(paper_table(run(bubble=bubble())))
         row = table.loc["bubble over chord, 2D at 1 deg"]
         assert row["here"] == 0.4
         assert row["relative_difference"] == pytest.approx(-0.2)
@@ -342,51 +341,37 @@ class TestPaperTable:
         assert "at 2.5 deg; 0.8 in the mean, below 1 on 93 % of both sides" in row["note"]
 
     def test_a_bubble_that_is_not_known_says_why(self) -> None:
-        table = by_quantity(paper_table(run(bubble=bubble()), True))
+        table = by_quantity(paper_table(run(bubble=bubble())))
         assert "made before" in table.loc["bubble over chord, 2D at 5 deg", "note"]
         few = bubble().iloc[1:]
-        table = by_quantity(paper_table(run(bubble=few), True))
+        table = by_quantity(paper_table(run(bubble=few)))
         assert "1 deg: not among" in table.loc["bubble over chord, 2D at 1 deg", "note"]
-        table = by_quantity(paper_table(run(), True))
+        table = by_quantity(paper_table(run()))
         assert "'embedded' has no surface" in table.loc["wall y+, 2D", "note"]
-
-    def test_another_case_than_the_papers_has_no_paper_column(self) -> None:
-        table = paper_table(run(), False)
-        assert table["paper"].isna().all()
-        assert table["relative_difference"].isna().all()
-        assert table["note"].str.contains("not the paper's case").all()
-        assert table["here"].notna().all()
-        assert by_quantity(table).loc["C_L at 5 deg", "here"] == pytest.approx(1.1 * 0.4826)
 
 
 class TestTables:
     def test_table_1_has_all_meshes_and_the_run(self) -> None:
-        table = table_1(polar_3d(), True).set_index("incidence_deg")
+        table = table_1(polar_3d()).set_index("incidence_deg")
         assert table.loc[2.5, "C_M paper 15e6 cells"] == 0.0602
         assert table.loc[10.0, "C_D paper 4.7e6 cells"] == 0.1551
         assert table.loc[10.0, "C_D coarse"] == pytest.approx(1.1 * 0.1535)
         assert (table["made_by"] == "coarse: a solver on 9 cells").all()
 
     def test_table_1_leaves_incidences_blank_that_were_not_run(self) -> None:
-        table = table_1(polar_3d((0.0, 2.5, 4.0, 6.0)), True)
+        table = table_1(polar_3d((0.0, 2.5, 4.0, 6.0)))
         assert list(table["incidence_deg"]) == list(ANGLES)
         assert table["C_L coarse"].isna().tolist() == [False, False, True, True]
 
-    @pytest.mark.parametrize("is_paper_case", [True, False])
-    def test_table_1_of_no_result_has_the_papers_columns(self, is_paper_case: bool) -> None:
-        table = table_1(gather_polar({}), is_paper_case)
+    def test_table_1_of_no_result_has_the_papers_columns(self) -> None:
+        table = table_1(gather_polar({}))
         assert list(table.columns) == list(
-            table_1(polar_3d(), True).filter(regex="^(?!.*coarse)").columns
+            table_1(polar_3d()).filter(regex="^(?!.*coarse)").columns
         )
-        assert len(table) == (len(ANGLES) if is_paper_case else 0)
-
-    def test_table_1_of_another_case(self) -> None:
-        table = table_1(polar_3d((0.0, 3.0)), False)
-        assert list(table["incidence_deg"]) == [0.0, 3.0]
-        assert table.filter(like="paper").isna().all(axis=None)
+        assert len(table) == len(ANGLES)
 
     def test_table_2(self) -> None:
-        table = table_2(modes(), mesh_study(), 0.004 / 0.37, True).set_index("constant")
+        table = table_2(modes(), mesh_study(), 0.004 / 0.37).set_index("constant")
         assert table.loc["C_3", "paper 8.5e3 elements"] == 1.77e-3
         assert table.loc["C_2", "solid 24 x 89 x 2"] == pytest.approx(50.0 * 3e-5)
         assert table.loc["C_2", "mesh 4 x 15 x 1"] == pytest.approx(1.02 * 50.0 * 3e-5)
@@ -399,7 +384,7 @@ class TestTables:
         study = mesh_study().isel(elements=[0, 0, 0])
         study["frequency"] = (("elements", "mode"), factors[:, None] * FREQUENCY)
         study["mesh"] = ("elements", ["4 x 15 x 1", "8 x 30 x 1", "12 x 45 x 1"])
-        table = table_2(modes(), study, 0.01, True).set_index("constant")
+        table = table_2(modes(), study, 0.01).set_index("constant")
         assert table["observed_order"].to_numpy() == pytest.approx(2.0)
         assert table["extrapolated"].to_numpy() == pytest.approx(
             table["solid 24 x 89 x 2"].to_numpy()
@@ -407,8 +392,7 @@ class TestTables:
         assert (table["convergence"] == "monotonic").all()
         assert table["gci"].to_numpy() == pytest.approx(1.25 * 0.16 / 9 / factors[-1])
 
-    def test_table_2_of_another_case_without_second_torsion(self) -> None:
+    def test_table_2_without_second_torsion(self) -> None:
         few = modes().isel(mode=[0, 1, 2, 3])
-        table = table_2(few, mesh_study(), 0.01, False).set_index("constant")
-        assert table.filter(like="paper").isna().all(axis=None)
+        table = table_2(few, mesh_study(), 0.01).set_index("constant")
         assert math.isnan(table.loc["C_5", "solid 24 x 89 x 2"])

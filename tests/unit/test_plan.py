@@ -2,7 +2,6 @@ import re
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
 
 import pytest
 from hypothesis import given
@@ -141,45 +140,11 @@ def test_round_of_refinement_is_read_as_written(k_star: list[float]) -> None:
         assert [Point.named(name)[K_STAR] for name in plan.read_refinement(path)] == k_star
 
 
-@pytest.mark.parametrize(
-    ("models", "wanted", "unwanted"),
-    [
-        (["3d"], "fig15-modal-contributions", "fig17-hysteresis"),
-        (["2d-paper"], "fig17-hysteresis", "fig15-modal-contributions"),
-    ],
-)
-def test_figures_of_a_dimension_are_drawn_only_with_a_model_of_it(
-    models: list[str], wanted: str, unwanted: str
-) -> None:
-    names = plan.figures(config(models=models))
-    assert wanted in names
-    assert unwanted not in names
-    assert names == sorted(names)
-
-
-def test_surface_is_shown_where_the_solver_has_it() -> None:
-    assert "fig07-surface" not in plan.figures(load_config({}))
-    raw = {"solver": "openfoam", "sweep": {"models": ["2d"]}, "unsteady": {"time_step": 0.02}}
-    cfd = load_config(raw)
-    assert "fig07-surface" in plan.figures(cfd)
-
-
-def test_mesh_surface_and_flow_of_the_beam_are_shown_where_the_solver_runs_it() -> None:
-    of_beam = {"fig09-plate-mesh", "fig11-plate-surface", "fig12-tip-flow"}
-    assert not of_beam & set(plan.figures(load_config({})))
-    raw: dict[str, Any] = {"solver": "openfoam", "unsteady": {"time_step": 0.02}}
-    raw["sweep"] = {"models": ["2d"]}
-    assert of_beam <= set(plan.figures(load_config(raw)))
-    raw["steady"] = {"beam_polar": "polar.csv"}
-    assert not of_beam & set(plan.figures(load_config(raw)))
-
-
 def test_plan_needs_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     asked: list[Callable[[Config], object]] = [
         plan.sweep_cases,
         plan.steady_cases,
-        plan.figures,
         plan.batches,
     ]
     for function in asked:

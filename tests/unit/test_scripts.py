@@ -82,7 +82,7 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
     raw = resolve_config(config)
     beam, flow, structure = Beam(), Flow(), Structure(**RAW["structure"])
     load_script("config_resolved").main(raw, folder / "config.resolved.yaml")
-    load_script("modes").main(beam, structure, folder / "modes.nc")
+    load_script("modes").main(beam, structure, folder / "modes.nc", folder / "mesh_study.nc")
     load_script("equivalent_section").main(
         beam, flow, folder / "modes.nc", folder / "equivalent.nc"
     )
@@ -113,7 +113,7 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         run.main(cases, index, folder / "store", folder / "progress.json")
     indices = [folder / "unsteady" / model / "sweep.json" for model in ("2d-corrected", "3d")]
     load_script("summary").main(indices, folder / "summary.csv")
-    load_script("linear_theory").main(
+    load_script("onset").growth_by_linear_theory(
         folder / "equivalent.nc", [9.0, 21.0], folder / "linear_theory.csv"
     )
     load_script("onset").main(
@@ -256,7 +256,7 @@ def test_more_modes_than_there_are_is_an_error_that_leaves_no_file(
         **{**RAW["structure"], "elements": {"chord": 1, "span": 2, "thickness": 1}},
     ).model_copy(update={"bending_modes": 12, "torsion_modes": 12})
     with pytest.raises(ModesError, match="12"):
-        load_script("modes").main(Beam(), few, tmp_path / "modes.nc")
+        load_script("modes").main(Beam(), few, tmp_path / "modes.nc", tmp_path / "study.nc")
     assert list(tmp_path.iterdir()) == []
 
 
@@ -327,17 +327,21 @@ def test_figures_of_results_from_before_there_were_fields_say_so(
 ) -> None:
     """The embedded solver's results have none either."""
     polar = chain / "steady" / "3d" / "polar.json"
-    style = ROOT / "envs" / "equisection.mplstyle"
-    load_script("fig11_plate_surface").main(polar, "thin", style, [tmp_path / "fig11.svg"])
-    sweep = chain / "unsteady" / "3d" / "sweep.json" if beam else None
-    load_script("fig12_tip_flow").main(
-        polar, "thin", 3.0, sweep, style=style, outputs=[tmp_path / "fig12.svg"]
+    sweep = [chain / "unsteady" / "3d" / "sweep.json"] if beam else []
+    load_script("figure").main(
+        {"surface-of-beam": "", "flow-at-tip": "fig12"},
+        {"index_of_rigid": polar, "index_of_beam": sweep, "references": []},
+        {"resolution": "thin", "incidence_deg": 3.0},
+        style=ROOT / "envs" / "equisection.mplstyle",
+        outputs=[tmp_path / "surface-of-beam.svg", tmp_path / "flow-at-tip.svg"],
     )
-    surface, flow = ((tmp_path / f"fig{n}.svg").read_text() for n in (11, 12))
+    surface, flow = (
+        (tmp_path / f"{name}.svg").read_text() for name in ("surface-of-beam", "fig12")
+    )
     assert "no surface data at 0, 2.5, 5, 10 deg" in surface
     assert "has no flow near" in flow
     assert ("is not among the" in flow) == (not beam)
-    assert ("= 9" in flow) == beam  # of 9 and 21 the one nearer 6.44
+    assert ("= 9" in flow) == beam
 
 
 def test_missing_input_is_named(load_script: LoadScript, tmp_path: Path) -> None:
@@ -378,12 +382,11 @@ def test_the_tip_of_a_plate_without_a_result_is_drawn_with_the_reason(
 ) -> None:
     """As with ``compute: false`` and nothing kept."""
     write_index(tmp_path / "polar.json", {}, {"coarse_a2.5": "not kept"})
-    load_script("fig12_tip_flow").main(
-        tmp_path / "polar.json",
-        "coarse",
-        2.5,
-        None,
+    load_script("figure").main(
+        {"flow-at-tip": ""},
+        {"index_of_rigid": tmp_path / "polar.json", "index_of_beam": [], "references": []},
+        {"resolution": "coarse", "incidence_deg": 2.5},
         style=ROOT / "envs" / "equisection.mplstyle",
-        outputs=[tmp_path / "fig12.svg"],
+        outputs=[tmp_path / "flow-at-tip.svg"],
     )
-    assert "rigid plate has no result" in (tmp_path / "fig12.svg").read_text()
+    assert "rigid beam has no result" in (tmp_path / "flow-at-tip.svg").read_text()

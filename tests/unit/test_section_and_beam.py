@@ -4,8 +4,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from equisection.analysis.section_and_beam import deviations, root_mean_square
-from equisection.figures import section_against_beam as section_and_beam
+from equisection.analysis.deviations import deviations, root_mean_square
+from equisection.figures import section_and_beam
 
 K_STAR = (5.0, 10.0)
 

@@ -32,7 +32,7 @@ RESULT = "unsteady/2d/k6.44.nc"
 CASES = "cases/unsteady/2d/sweep.json"
 INDEX = "unsteady/2d/sweep.json"
 SUMMARY = "comparison/summary.csv"
-FIGURE = "figures/fig16-response.png"
+FIGURE = "figures/response.png"
 
 
 def write_result(path: Path, **attributes: str) -> dict[str, object]:
@@ -59,7 +59,7 @@ def run(tmp_path: Path) -> Path:
         (folder / name).parent.mkdir()
         (folder / name).write_text(text)
     record("summary", [INDEX], [SUMMARY])
-    record("fig16_response", [SUMMARY], [FIGURE])
+    record("response", [SUMMARY], [FIGURE])
     return folder
 
 

@@ -1,3 +1,5 @@
+import re
+import shutil
 from collections import Counter
 from pathlib import Path
 from typing import Any
@@ -7,60 +9,61 @@ import yaml
 from snakemake.utils import update_config
 
 from equisection.config import load_config
+from equisection.paper.paper_case import is_paper_case
 from equisection.run.cost import COST_MODEL, read_cost_model
 from equisection.run.jobs import solver_jobs
 from equisection.solvers.registry import SOLVERS, Capability
 from equisection.study import plan
 from tests.workflow.project import ROOT, Project, jobs_planned, one_case_at_a_time, small
 
-SHIPPED = sorted((ROOT / "config").glob("*.yaml")) + sorted(
-    (ROOT / "config" / "examples").glob("*.yaml")
-)
+EXAMPLES = sorted((ROOT / "config" / "examples").glob("*.yaml"))
+SHIPPED = sorted((ROOT / "config").glob("*.yaml")) + EXAMPLES
+PAPER_RESOLUTION = ROOT / "config" / "paper" / "resolution.yaml"
 
 #: Rules that run once in every run.
 ONCE = (
     "config_resolved",
     "modes",
-    "mesh_study",
     "equivalent_section",
     "summary",
     "onset",
-    "linear_theory",
-    "paper_comparison",
-    "fig01_workflow",
-    "fig03_modes",
-    "fig06_section_polar",
-    "fig16_response",
+    "mode_shapes",
+    "section_polar",
+    "response",
     "growth_rate",
     "run",
 )
 
 #: Rules that run once where the solver has 3D cases.
-ONCE_WITH_BEAM = ("fig10_spanwise_loads", "rigid_beam_table")
+ONCE_WITH_BEAM = ("spanwise_loads",)
 
 #: Rules that run once where there is a polar of the beam, computed or given.
-ONCE_WITH_BEAM_POLAR = ("correction_factors", "fig13_lift_correction", "fig14_moment_correction")
+ONCE_WITH_BEAM_POLAR = ("correction_factors", "load_corrections")
 
 #: Rules that run once where the solver has a mesh of the section.
-ONCE_WITH_MESH = ("section_mesh", "fig05_section_mesh", "fig08_courant_number")
+ONCE_WITH_MESH = ("section_mesh", "mesh_of_section", "courant_number")
 
 #: Rules that run once where the solver has surface data.
-ONCE_WITH_SURFACE = ("bubble", "fig07_surface")
+ONCE_WITH_SURFACE = ("bubble", "surface_loads")
 
 #: Rules that run once where the solver has mesh, surface data and flow of the beam.
 ONCE_WITH_BEAM_AND = {
-    Capability.MESH: ("plate_mesh", "fig09_plate_mesh"),
-    Capability.SURFACE: ("fig11_plate_surface",),
-    Capability.FIELDS: ("fig12_tip_flow",),
+    Capability.MESH: ("plate_mesh", "mesh_of_beam"),
+    Capability.SURFACE: ("surface_of_beam",),
+    Capability.FIELDS: ("flow_at_tip",),
 }
+
+#: Rules that run once with the paper's beam and flow.
+ONCE_WITH_THE_PAPERS_CASE = ("workflow_drawing", "paper_comparison")
 
 RUN_A_SOLVER = ("steady_batch", "steady_case", "unsteady_batch", "unsteady_case")
 
 
-def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
+def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = True) -> Counter[str]:
     """Return the jobs of a run on a fresh clone, counted from its configuration alone.
 
-    ``batches`` is whether the solver takes many cases in one job.
+    ``batches`` is whether the solver takes many cases in one job, ``with_paper`` whether the clone
+    has what the paper adds.
     """
     config = load_config(raw)
     models, k_star = len(config.sweep.models), len(config.sweep.values())
@@ -85,9 +88,10 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True) -> Counter[str]:
         grid_study=plan.has_grid_study(config),
         refine_onset=models * rounds,
         section_and_beam=plan.has_both(config),
-        fig15_modal_contributions="3d" in config.sweep.models,
-        fig17_hysteresis=any(model.startswith("2d") for model in config.sweep.models),
+        modal_contributions="3d" in config.sweep.models,
     )
+    if is_paper_case(config) and with_paper:
+        jobs.update((*ONCE_WITH_THE_PAPERS_CASE, *(["rigid_beam_table"] * (dimensions == 2))))
     if batches:
         of_sweep = models * (1 + rounds)
         jobs.update(steady_cases=dimensions, steady_batch=dimensions)
@@ -115,7 +119,7 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Project:
     return Project.fresh(tmp_path_factory.mktemp("clone") / "project")
 
 
-@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", [*SHIPPED, PAPER_RESOLUTION], ids=lambda path: path.stem)
 def test_dry_run_of_a_shipped_config_plans_the_jobs_that_it_asks_for(
     path: Path, clone: Project
 ) -> None:
@@ -136,6 +140,33 @@ def test_dry_run_of_a_shipped_config_plans_the_jobs_that_it_asks_for(
         path.relative_to(clone.folder).parts[0] for path in set(clone.folder.rglob("*")) - before
     }
     assert created <= {".snakemake", ".cache"}
+
+
+@pytest.fixture(scope="module")
+def without_the_paper(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """A clone from which everything that knows the paper is gone."""
+    project = Project.fresh(tmp_path_factory.mktemp("without") / "project")
+    (project.folder / "workflow" / "rules" / "paper.smk").unlink()
+    shutil.rmtree(project.folder / "workflow" / "equisection" / "paper")
+    shutil.rmtree(project.folder / "config" / "paper")
+    return project
+
+
+@pytest.mark.parametrize("path", [ROOT / "config" / "config.yaml", *EXAMPLES], ids=lambda p: p.stem)
+def test_every_beam_runs_without_the_paper(path: Path, without_the_paper: Project) -> None:
+    raw = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+    update_config(raw, yaml.safe_load(path.read_text()))
+    said = without_the_paper.run("--dry-run", "--configfile", str(path.relative_to(ROOT)))
+    assert jobs_planned(said) == jobs_wanted(raw, with_paper=False)
+
+
+@pytest.mark.parametrize(
+    "path", [path for path in EXAMPLES if path.stem != "own_polar"], ids=lambda path: path.stem
+)
+def test_another_beam_makes_no_file_of_the_paper(path: Path, clone: Project) -> None:
+    said = clone.run("--dry-run", "--configfile", str(path.relative_to(ROOT)))
+    assert "/figures/response.png" in said
+    assert not re.search(r"/fig[0-9]|/paper\.csv|/table[0-9]", said)
 
 
 @pytest.mark.parametrize(

@@ -20,19 +20,18 @@ from tests.workflow.project import ROOT, Project, has_nothing_to_do, small
 MODELS = ("2d", "2d-corrected", "3d")
 K_STAR = ("k6", "k10", "k21")
 ANGLES = tuple(f"coarse_a{angle}" for angle in ("0", "2.5", "5", "7.5", "10"))
-FIGURES = (
-    "fig01-workflow",
-    "fig03-modes",
-    "fig06-section-polar",
-    "fig10-spanwise-loads",
-    "fig13-lift-correction",
-    "fig14-moment-correction",
-    "fig15-modal-contributions",
-    "fig16-response",
-    "fig17-hysteresis",
-    "growth-rate",
-    "section-and-beam",
-)
+NUMBERED = {
+    "mode-shapes": "fig03-modes",
+    "section-polar": "fig06-section-polar",
+    "spanwise-loads": "fig10-spanwise-loads",
+    "lift-correction": "fig13-lift-correction",
+    "moment-correction": "fig14-moment-correction",
+    "modal-contributions": "fig15-modal-contributions",
+    "response": "fig16-response",
+    "hysteresis": "fig17-hysteresis",
+}
+UNNUMBERED = ("growth-rate", "section-and-beam")
+FIGURES = ("fig01-workflow", *NUMBERED, *NUMBERED.values(), *UNNUMBERED)
 GATHERED = {
     "structure/modes.nc": {"frequency", "kind", "shape", "frequency_constant"},
     "structure/mesh_study.nc": {"frequency", "analytic_frequency", "mesh", "kind"},
@@ -246,6 +245,16 @@ def test_figures_are_pictures_of_their_format(name: str, finished: Project) -> N
     assert "<svg" in (folder / f"{name}.svg").read_text()[:2000]
 
 
+@pytest.mark.parametrize("name", NUMBERED)
+def test_figure_with_a_number_is_the_one_named_by_what_it_shows(
+    name: str, finished: Project
+) -> None:
+    folder = finished.results / "figures"
+    for suffix in ("png", "svg", "pdf"):
+        drawn, numbered = (folder / f"{one}.{suffix}" for one in (name, NUMBERED[name]))
+        assert drawn.samefile(numbered)
+
+
 @pytest.fixture(scope="module")
 def reported(finished: Project, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, str]:
     """Return what Snakemake said while it made the report, and the report."""
@@ -257,10 +266,16 @@ def reported(finished: Project, tmp_path_factory: pytest.TempPathFactory) -> tup
 def test_report_shows_every_figure_and_table_with_its_caption(reported: tuple[str, str]) -> None:
     entry = r'"name": "([^"]+)", "filename": .{0,300}?"caption": "((?:[^"\\]|\\.)*)"'
     captions = dict(re.findall(entry, reported[1]))
-    shown = {f"{name}.png": re.sub(r"^(fig\d+)-.*", r"\1", name) for name in FIGURES}
-    shown |= {f"{name}.csv": name for name in REPORTED_TABLES}
+    report, paper = ROOT / "workflow/report", ROOT / "workflow/equisection/paper/captions"
+    shown = {f"{name}.png": report / "figures" / f"{name}.rst" for name in UNNUMBERED}
+    for name in ("fig01-workflow", *NUMBERED.values()):
+        shown[f"{name}.png"] = paper / f"{name.partition('-')[0]}.rst"
+    for name in REPORTED_TABLES:
+        place = paper if (paper / f"{name}.rst").exists() else report
+        shown[f"{name}.csv"] = place / f"{name}.rst"
+    assert set(captions) == set(shown)
     for name, source in shown.items():
-        text = (ROOT / "workflow" / "report" / f"{source}.rst").read_text()
+        text = source.read_text()
         words = re.search(r"[A-Za-z]+(?: [A-Za-z]+){2,}", text)
         assert words is not None, f"the caption of {name} has no words"
         assert words.group() in captions[name]

@@ -57,7 +57,7 @@ def test_steady_polar_keeps_the_angles_that_have_a_value(run_beyond_its_polar: P
 
 def test_figures_and_tables_are_made_all_the_same(run_beyond_its_polar: Project) -> None:
     figures = {path.name for path in Path(run_beyond_its_polar.results / "figures").iterdir()}
-    assert {"fig16-response.png", "fig17-hysteresis.png", "fig13-lift-correction.png"} <= figures
+    assert {"response.png", "fig17-hysteresis.png", "lift-correction.png"} <= figures
     assert (run_beyond_its_polar.results / "comparison" / "paper.csv").exists()
 
 

@@ -12,7 +12,7 @@ TARGETS = (
     "results/shown/comparison/missing.csv",
     "results/shown/comparison/onset.csv",
     "results/shown/figures/fig16-response.png",
-    "results/shown/figures/fig15-modal-contributions.png",
+    "results/shown/figures/modal-contributions.png",
 )
 
 

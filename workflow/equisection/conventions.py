@@ -29,8 +29,8 @@ Non-dimensional numbers (Eq. 18)
     where its axes are at mid-chord and it has no dampers (:mod:`equisection.beam.section`).
 
     The k* on every axis is that of Eq. 17 in the paper's form: the uncorrected structural
-    stiffness, with K_theta from the slope of the first torsion shape. It stands for all of the
-    beam's stiffness, root springs included, over q: all models at one k* are the same beam, and
+    stiffness, with K_theta from the slope of the first torsion shape. It is a measure of all of the
+    beam's stiffness, with root springs, over q: all models at one k* are the same beam, and
     another k* is that beam at another dynamic pressure. (With shapes from three-dimensional
     elasticity the consistent section of that beam is some 6 % stiffer than k* says, since
     warping is restrained at the clamp; see docs/errata.md.)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import re
+import shutil
 import tempfile
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
@@ -15,7 +16,7 @@ TEMPORARY = ".tmp-"
 
 @contextmanager
 def written_whole(path: Path) -> Iterator[Path]:
-    """Give a path beside ``path`` to write to; rename it to ``path`` when the block ends well.
+    """Yield a path in the folder of ``path`` to write to; rename it to ``path`` at the end.
 
     The temporary file has the same suffix, since some writers choose a format by it. It is
     removed if the block raises, and left behind only by a kill.
@@ -38,17 +39,27 @@ def write_text(path: Path, text: str) -> None:
         aside.write_text(text, encoding="utf-8")
 
 
+def second_name(path: Path, further: Path) -> None:
+    """Give a file a second name; where the file system has none, copy the file."""
+    with written_whole(further) as aside:
+        aside.unlink()
+        try:
+            os.link(path, aside)
+        except OSError:
+            shutil.copyfile(path, aside)
+
+
 #: Names of files that stay in their folder, whatever reads them.
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 
 
 def require_plain_names(names: Iterable[str]) -> None:
-    """Refuse names, from a file, that would lead out of the folder that they are to stand in.
+    """Refuse names read from a file that would lead out of their folder.
 
     Raises
     ------
     ValueError
-        One does, or would be more than a name to a shell.
+        A name does, or would be more than a name to a shell.
     """
     for name in names:
         if not _PLAIN_NAME.fullmatch(name) or len(name) > 200:

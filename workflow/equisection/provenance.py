@@ -1,4 +1,4 @@
-"""What made a file: version and commit of equisection, configuration, command."""
+"""Origin of a file: version and commit of equisection, configuration, command."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ ATTRIBUTES = ("equisection_version", "equisection_commit", "config_hash", "comma
 
 @cache
 def made_by_this() -> dict[str, str]:
-    """Return what makes the files of this process, as attributes.
+    """Return the origin of the files that this process makes, as attributes.
 
     ``config_hash`` is empty where no workflow started the process, ``equisection_commit`` where the
     package is not in a clone of the project.
@@ -42,15 +42,15 @@ def made_by_this() -> dict[str, str]:
 
 
 def made_by(attributes: Mapping[str, Any]) -> dict[str, str]:
-    """Return what made a file, of its attributes; one from before lacks some of them."""
+    """Return the origin of a file from its attributes; an older file lacks some of them."""
     return {name: str(attributes[name]) for name in ATTRIBUTES if name in attributes}
 
 
 def commit_of(package: Path) -> str:
     """Return the commit of the clone that the package is in, with ``-modified`` if it differs.
 
-    Empty without git, and where the package is not the one of the clone: an environment may lie
-    within a repository of something else.
+    Empty without git, and where the package is not the one of the clone: an environment may be
+    inside the repository of something else.
     """
     try:
         prefix = _git(package, "rev-parse", "--show-prefix")
@@ -65,10 +65,10 @@ def commit_of(package: Path) -> str:
 
 
 def refused_by_git(package: Path) -> str:
-    """Return why git does not tell the commit of the clone that the package is in, and what helps.
+    """Return the reason why git refuses the commit of the package's clone, with the remedy.
 
-    Empty without a clone, and where git tells it. Git is asked only if the clone belongs to another
-    user, which is when it refuses.
+    Empty without a clone, and where git gives the commit. Git is asked only if the clone belongs to
+    another user, since it refuses only then.
     """
     clone = package.parents[1]
     try:
@@ -93,7 +93,7 @@ def refused_by_git(package: Path) -> str:
 
 
 def command_line(words: Sequence[str]) -> str:
-    """Return a command as it can be given to a shell, its program without the way to it."""
+    """Return a command as a shell takes it, with the program's name without its folder."""
     if not words:
         return ""
     program = Path(words[0])
@@ -107,7 +107,7 @@ def config_text(resolved: Mapping[str, Any]) -> str:
 
 
 def config_hash(resolved: Mapping[str, Any]) -> str:
-    """Return the SHA-256 of that file: what ``sha256sum config.resolved.yaml`` prints."""
+    """Return the SHA-256 of that file, as ``sha256sum config.resolved.yaml`` prints it."""
     return hashlib.sha256(config_text(resolved).encode()).hexdigest()
 
 

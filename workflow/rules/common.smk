@@ -1,4 +1,4 @@
-"""What all rules share: the validated configuration, where files go, and package sources."""
+"""Common to all rules: the validated configuration, places of files, and package sources."""
 
 import hashlib
 import os
@@ -7,10 +7,11 @@ import equisection
 from equisection.study import plan
 from equisection.config import resolve_config
 from equisection.config.groups import FLAT_PLATE
-from equisection.figures.models_shown import beam_model, section_model
 from equisection.provenance import command_line, config_hash
+from equisection.run.source_digest import source_digest
 from equisection.store.mend import mend
 from equisection.study.axes import RIGID_PATTERN, SWEEP_PATTERN
+from equisection.study.result_files import index_of_beam, indices_of_sweep
 from equisection.solvers.registry import SOLVERS, Capability
 
 # The folder of results, as rules name it and, in a module with a prefix, as it is on the disk.
@@ -58,23 +59,15 @@ wildcard_constraints:
     batch=plan.BATCH_PATTERN,
 
 
-# Modules that decide what stands in a case file.
-CASES_MADE_OF = (
-    "study/assemble.py",
-    "study/axes.py",
-    "study/plan.py",
-    "aerodynamics",
-    "cases",
-    "reduction",
-    "results",
-    "solvers",
-    "beam",
-    "io",
-)
+# What may be added to the runs of one beam (paper.smk): further names of figures, tables of values
+# to draw beside their own, and further files.
+FURTHER_NAMES = {}
+REFERENCES = []
+FURTHER_FILES = []
 
 
 def given(paths):
-    """Return files that no rule makes: the prefix of a module is not put before them."""
+    """Return files from outside as such: the prefix of a module is not put before them."""
     return [local(path) for path in paths]
 
 
@@ -85,17 +78,17 @@ def of_project(pattern):
     return given(os.path.relpath(path) for path in sorted(PROJECT.glob(pattern)))
 
 
-def code(*parts):
-    """Return a digest of some of the package's modules, for `params`: editing one redraws or
-    recomputes what is cheap. Rules that run a solver have none: their case file decides.
+def code(script, *further):
+    """Return a function that gives the digest of the modules of a script, for `params`: editing one
+    makes the outputs of cheap rules anew. `further` are modules that are loaded by name. Rules that
+    run a solver have no digest: their case file decides.
     """
-    package = Path(equisection.__file__).parent
-    digest = hashlib.sha256()
-    for part in parts:
-        place = package / part
-        for path in sorted(place.rglob("*.py")) if place.is_dir() else [place]:
-            digest.update(path.read_bytes())
-    return digest.hexdigest()[:16]
+    path = PROJECT / "scripts" / f"{script}.py"
+
+    def digest(wildcards):
+        return source_digest(path, further)
+
+    return digest
 
 
 def solver_input_files():
@@ -104,7 +97,7 @@ def solver_input_files():
 
 
 def kept_files():
-    """Return the results that are taken, where none is computed: new ones are looked at."""
+    """Return the kept results that are taken where none is computed, so that new ones are seen."""
     found = Path(CONFIG.reuse).rglob("*.nc") if not CONFIG.compute else []
     return given(sorted(map(str, found)))
 
@@ -116,7 +109,7 @@ def section_polar():
 
 
 def structure_of_model(wildcards):
-    """Return what a model's cases are made from."""
+    """Return the files that a model's cases are made from."""
     model = plan.model(wildcards.model, CONFIG.reduction)
     files = {"equivalent": f"{RESULTS}/structure/equivalent.nc"}
     if model.dimension == "3d":
@@ -127,7 +120,7 @@ def structure_of_model(wildcards):
 
 
 def inputs_of_batch(wildcards):
-    """Return what a batch of a model's cases is made from; a round has the k* chosen for it."""
+    """Return the files that a batch of a model's cases is made from, with the k* of a round."""
     files = structure_of_model(wildcards)
     if wildcards.batch != plan.SWEEP_BATCH:
         files["chosen"] = (
@@ -136,23 +129,10 @@ def inputs_of_batch(wildcards):
     return files
 
 
-def indices_of_sweep(wildcards):
-    """Return the indices of all results of all models."""
-    return [index for model in CONFIG.sweep.shown for index in indices_of_model(model)]
-
-
-def indices_of_model(model):
-    """Return the indices of a model's results, of this run or of the one they are taken from."""
-    if model in CONFIG.sweep.taken:
-        return given([CONFIG.sweep.taken[model]])
-    return [
-        f"{RESULTS}/unsteady/{model}/{batch}.json" for batch in plan.batches(CONFIG)
-    ]
-
-
-def index_of_beam():
-    """Return the index of the beam's results, if the beam is run or taken."""
-    return indices_of_model("3d")[:1] if "3d" in CONFIG.sweep.shown else []
+def placed(paths):
+    """Return files of results, of which those that are taken from elsewhere get no prefix."""
+    taken = set(CONFIG.sweep.taken.values())
+    return [local(path) if path in taken else path for path in paths]
 
 
 def indices_before_round(wildcards):
@@ -160,21 +140,6 @@ def indices_before_round(wildcards):
     return [
         f"{RESULTS}/unsteady/{wildcards.model}/{batch}.json"
         for batch in plan.batches_before(wildcards.batch)
-    ]
-
-
-def indices_of_histories(wildcards):
-    """Return the runs of which histories are shown: of the corrected section and the beam."""
-    if (
-        not CONFIG.compute
-    ):  # a model of which nothing is kept is not the one that is shown
-        return indices_of_sweep(wildcards)
-    models = (section_model(CONFIG.sweep.shown), beam_model(CONFIG.sweep.shown))
-    return [
-        index
-        for model in models
-        if model is not None
-        for index in indices_of_model(model)
     ]
 
 
@@ -202,7 +167,7 @@ def this_angle(wildcards):
 
 
 def structure_files():
-    """Return what is known of the beam without a flow."""
+    """Return the results on the beam without a flow."""
     return [
         f"{RESULTS}/structure/{name}.nc"
         for name in ("modes", "mesh_study", "equivalent")
@@ -229,11 +194,12 @@ def correction_of_beam():
 
 
 def figure_files():
-    """Return the figures of the run, each in three formats."""
+    """Return the figures of the run, under all of their names."""
     return [
         f"{RESULTS}/figures/{name}.{suffix}"
-        for name in plan.figures(CONFIG)
-        for suffix in ("png", "svg", "pdf")
+        for entry in catalogue.figures(CONFIG)
+        for name in filter(None, names_of([entry]).popitem())
+        for suffix in catalogue.FORMATS
     ]
 
 
@@ -247,26 +213,23 @@ def bubble_of_section():
     return [f"{RESULTS}/tables/bubble.csv"] if plan.has_surface(CONFIG) else []
 
 
+def sections_against_beam():
+    """Return the table of the sections against the beam, if models of both are run."""
+    if not plan.has_both(CONFIG):
+        return []
+    return [f"{RESULTS}/comparison/section_and_beam.csv"]
+
+
 def comparison_files():
-    """Return the tables that compare the models with each other and with the paper."""
+    """Return the tables that compare the models with each other."""
+    tables = ("summary", "onset", "linear_theory")
+    missing = () if CONFIG.compute else ("missing",)
     return [
-        f"{RESULTS}/comparison/{name}.csv"
-        for name in (
-            "summary",
-            "onset",
-            "linear_theory",
-            "paper",
-            *(("section_and_beam",) if plan.has_both(CONFIG) else ()),
-            *(() if CONFIG.compute else ("missing",)),
-        )
+        *(f"{RESULTS}/comparison/{name}.csv" for name in (*tables, *missing)),
+        *sections_against_beam(),
     ]
 
 
 def table_files():
-    """Return the paper's tables; Table 1 is that of the rigid beam."""
-    tables = ("table1", "table2") if "3d" in DIMENSIONS else ("table2",)
-    return [
-        *(f"{RESULTS}/tables/{name}.csv" for name in tables),
-        *grid_study_of_section(),
-        *bubble_of_section(),
-    ]
+    """Return the tables of the steady cases."""
+    return [*grid_study_of_section(), *bubble_of_section()]

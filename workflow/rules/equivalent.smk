@@ -12,20 +12,8 @@ rule equivalent_section:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code(
-            "beam",
-            "motion/beam_flutter.py",
-            "motion/linear_flutter.py",
-            "reduction",
-            "structure/modal_matrices.py",
-            "results/modes_dataset.py",
-            "results/section_dataset.py",
-        ),
+        code=code("equivalent_section"),
         beam=RESOLVED["beam"],
         flow=RESOLVED["flow"],
     message:
@@ -47,17 +35,8 @@ rule correction_factors:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code(
-            "reduction/correction.py",
-            "reduction/modal_load.py",
-            "results/correction_dataset.py",
-            "results/polar_dataset.py",
-        ),
+        code=code("correction_factors"),
         resolution=CONFIG.steady.resolution,
     message:
         "correction factors"

@@ -16,12 +16,11 @@ rule identification:
         f"{LOGS}/identification.log",
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
         mem_mb=1000,
         runtime=10,
     params:
-        code=code("aerodynamics", "motion", "figures/identified_lags.py", *DRAWING),
+        code=code("identification"),
         embedded=RESOLVED["embedded"],
         resolution=CONFIG.steady.resolution,
     message:

@@ -30,7 +30,7 @@ def ranks(wildcards):
 
 
 def launcher(wildcards):
-    """Return what starts the ranks on one machine; nothing for a job on one rank."""
+    """Return the command that starts the ranks on one machine; empty for a job on one rank."""
     return MPIRUN if ranks(wildcards) > 1 else ""
 
 

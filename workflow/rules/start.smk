@@ -1,4 +1,4 @@
-"""Before anything else: the package is there, and so is a configuration that can be read."""
+"""Checks before anything else: the package is there, and the configuration can be read."""
 
 import sys
 from pathlib import Path

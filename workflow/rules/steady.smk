@@ -2,7 +2,7 @@
 
 Case files are written by checkpoints: after one, Snakemake looks again at what has to run, by
 content, and so drops the solver jobs whose case came out unchanged. After a rule it would run
-every job that depends on a file written anew.
+every job that depends on a file written anew. (A rule that is inherited is no checkpoint.)
 """
 
 
@@ -17,12 +17,8 @@ checkpoint steady_cases:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code(*CASES_MADE_OF),
+        code=code("steady_cases", "solvers"),
         config=RESOLVED,
         cases=STEADY,
     message:
@@ -42,12 +38,8 @@ checkpoint steady_case_file:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code(*CASES_MADE_OF),
+        code=code("steady_cases", "solvers"),
         config=RESOLVED,
         cases=this_angle,
     message:
@@ -57,7 +49,7 @@ checkpoint steady_case_file:
 
 
 rule steady_case:
-    """Run one incidence."""
+    """Run one case."""
     input:
         f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
     output:
@@ -86,7 +78,7 @@ rule steady_case:
 if IN_ONE_JOB:
 
     rule steady_batch:
-        """Run all incidences of a dimension in one job."""
+        """Run all cases of a batch in one job."""
         input:
             f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
             kept=kept_files(),
@@ -96,7 +88,6 @@ if IN_ONE_JOB:
             f"{LOGS}/steady_{{dimension}}.log",
         conda:
             ENVIRONMENT
-        threads: 1
         resources:
             mem_mb=memory,
             runtime=runtime,
@@ -112,7 +103,7 @@ if IN_ONE_JOB:
 else:
 
     rule steady_results:
-        """Index the results of all incidences of a dimension, which ran one by one."""
+        """Index the results of a batch whose cases ran one by one."""
         input:
             cases=expand(
                 f"{RESULTS}/cases/steady/{{dimension}}/{{angle}}.json",
@@ -131,10 +122,6 @@ else:
         localrule: True
         conda:
             ENVIRONMENT
-        threads: 1
-        resources:
-            mem_mb=500,
-            runtime=5,
         message:
             "index of the steady {wildcards.dimension} results"
         script:
@@ -156,16 +143,8 @@ if CONFIG.steady.beam_polar:
         localrule: True
         conda:
             ENVIRONMENT
-        threads: 1
-        resources:
-            mem_mb=500,
-            runtime=5,
         params:
-            code=code(
-                "results/polar_dataset.py",
-                "aerodynamics/polar.py",
-                "io",
-            ),
+            code=code("given_beam_polar"),
             resolution=CONFIG.steady.resolution,
         message:
             "3d polar, given"
@@ -184,12 +163,8 @@ rule polar:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code("results"),
+        code=code("polar"),
         cases=STEADY,
     message:
         "{wildcards.dimension} polar"
@@ -208,7 +183,6 @@ rule section_mesh:
         f"{LOGS}/section_mesh.log",
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
         mem_mb=2000,
         runtime=60,
@@ -234,7 +208,6 @@ rule plate_mesh:
         f"{LOGS}/plate_mesh.log",
     conda:
         ENVIRONMENT
-    threads: 1
     resources:
         mem_mb=memory_of_plate_mesh,
         runtime=60,
@@ -267,12 +240,8 @@ rule grid_study:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code("analysis/grid_convergence.py", "analysis/grid_study.py"),
+        code=code("grid_study"),
         config=RESOLVED,
     message:
         "grid study of the section polar"
@@ -299,12 +268,8 @@ rule bubble:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code("analysis/bubble.py", "results/surface.py"),
+        code=code("bubble"),
         cases=STEADY,
     message:
         "bubble of the section"

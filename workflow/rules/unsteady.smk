@@ -16,12 +16,8 @@ checkpoint unsteady_cases:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code(*CASES_MADE_OF),
+        code=code("unsteady_cases", "solvers"),
         config=RESOLVED,
         cases=SWEEP,
     message:
@@ -42,12 +38,8 @@ checkpoint unsteady_case_file:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code(*CASES_MADE_OF),
+        code=code("unsteady_cases", "solvers"),
         config=RESOLVED,
         cases=this_case,
     message:
@@ -56,37 +48,20 @@ checkpoint unsteady_case_file:
         "../../scripts/unsteady_cases.py"
 
 
-rule unsteady_case:
-    """Run one k* of a model until its verdict is in."""
+use rule steady_case as unsteady_case with:
     input:
         f"{RESULTS}/cases/unsteady/{{model}}/{{case}}.json",
     output:
         f"{RESULTS}/unsteady/{{model}}/{{case}}.nc",
     log:
         f"{LOGS}/unsteady_{{model}}_{{case}}.log",
-    conda:
-        ENVIRONMENT
-    threads: ranks
-    resources:
-        mem_mb=memory,
-        runtime=runtime,
-        tasks=ranks,
-        cpus_per_task=1,
-        mpi=launcher,
-    params:
-        store=STORE,
-        reuse=CONFIG.reuse,
-        compute=True,
     message:
         "{wildcards.model} at {wildcards.case}"
-    script:
-        "../../scripts/run_cases.py"
 
 
 if IN_ONE_JOB:
 
-    rule unsteady_batch:
-        """Run all k* of a batch in one job."""
+    use rule steady_batch as unsteady_batch with:
         input:
             f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
             kept=kept_files(),
@@ -94,42 +69,20 @@ if IN_ONE_JOB:
             f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
             f"{LOGS}/unsteady_{{model}}_{{batch}}.log",
-        conda:
-            ENVIRONMENT
-        threads: 1
-        resources:
-            mem_mb=memory,
-            runtime=runtime,
-        params:
-            store=STORE if CONFIG.compute else KEPT_STORE,
-            reuse=CONFIG.reuse,
-            compute=CONFIG.compute,
         message:
             "{wildcards.model}, {wildcards.batch}"
-        script:
-            "../../scripts/run_cases.py"
 
 else:
 
-    rule unsteady_results:
-        """Index the results of a batch whose k* ran one by one."""
+    use rule steady_results as unsteady_results with:
         input:
             unpack(cases_of_batch),
         output:
             f"{RESULTS}/unsteady/{{model}}/{{batch}}.json",
         log:
             f"{LOGS}/unsteady_results_{{model}}_{{batch}}.log",
-        localrule: True
-        conda:
-            ENVIRONMENT
-        threads: 1
-        resources:
-            mem_mb=500,
-            runtime=5,
         message:
             "index of {wildcards.model}, {wildcards.batch}"
-        script:
-            "../../scripts/index_results.py"
 
 
 checkpoint refine_onset:
@@ -143,12 +96,8 @@ checkpoint refine_onset:
     localrule: True
     conda:
         ENVIRONMENT
-    threads: 1
-    resources:
-        mem_mb=500,
-        runtime=5,
     params:
-        code=code("analysis/onset.py", "analysis/summary.py", "study/axes.py"),
+        code=code("refine_onset"),
         tolerance=CONFIG.sweep.onset_tolerance,
         points=CONFIG.sweep.onset_points,
     message:

@@ -16,8 +16,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
@@ -95,7 +95,7 @@ def identify_lags(
         parts = [part for history in histories for part in _scaled_errors(history, loads, start)]
         return np.concatenate(parts)
 
-    found = least_squares(residuals, FIRST_GUESS, bounds=BOUNDS, x_scale=FIRST_GUESS)
+    found = scipy.optimize.least_squares(residuals, FIRST_GUESS, bounds=BOUNDS, x_scale=FIRST_GUESS)
     sources = "; ".join(history.name for history in histories)
     relaxation, delay, lift_lag = (float(value) for value in found.x)
     lags = SeparationLags(relaxation, delay, lift_lag, provenance=sources)

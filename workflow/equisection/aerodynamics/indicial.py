@@ -17,8 +17,8 @@ and the circulatory coefficients are those of steady flow at alpha_E.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.special import hankel2
 
 Floats = NDArray[np.float64]
 
@@ -48,12 +48,12 @@ def theodorsen(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
     C = H_1/(H_1 + i H_0) with Hankel functions of the second kind (NACA Report 496).
     """
     k = np.asarray(reduced_frequency, dtype=np.float64)
-    first, zeroth = hankel2(1, k), hankel2(0, k)
+    first, zeroth = scipy.special.hankel2(1, k), scipy.special.hankel2(0, k)
     return np.asarray(first / (first + 1j * zeroth), dtype=np.complex128)
 
 
 def theodorsen_of_jones(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
-    """C(k) that belongs to Jones' form of phi: what the states can reproduce exactly."""
+    """C(k) of Jones' form of phi, that of the states z_i, at k = omega c/(2 V), any shape."""
     ik = 1j * np.asarray(reduced_frequency, dtype=np.float64)
     lags = zip(JONES_AMPLITUDES, JONES_RATES_SEMICHORD, strict=True)
     return np.asarray(1.0 - sum(a * ik / (ik + b) for a, b in lags), dtype=np.complex128)

@@ -85,7 +85,7 @@ def induction_matrix(
     chord, length
         c and L (m); only ratios of lengths matter.
     channel_width
-        W (m), distance of the side walls. The root stands on one of them, or, without
+        W (m), distance of the side walls. The root is on one of them, or, without
         ``root_on_wall``, the beam is in the middle between them. With L = W both ends are closed
         by walls, nothing trails and D = 0 up to a constant c_l. None: no other side wall.
     channel_height

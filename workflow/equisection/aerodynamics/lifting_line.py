@@ -9,14 +9,14 @@ direction and alpha_i tilts it back into the induced drag c_l alpha_i. The momen
 that of its polar at alpha_e.
 
 The equation is solved by Newton's method with a line search from the load of a linear polar with
-the steepest slope a of this one. Near the lift peak, where that may stall, the chord method
-alpha_e <- alpha_e - (1 + a D)^-1 residual, a pseudo-time that follows the attached flow upwards,
-comes to its aid. Beyond the peak a lift curve that falls faster than 4 h/c per radian, h being the
-width of a strip, lets the load alternate from strip to strip (a wave of two strips induces
-c_l c/(4 h)): such a saw-tooth is an error, as is what does not converge.
+the steepest slope a of this one. It may stall near the lift peak. Then the chord method
+alpha_e <- alpha_e - (1 + a D)^-1 residual takes over, a pseudo-time iteration that follows the
+attached flow upwards. Beyond the peak a lift curve that falls faster than 4 h/c per radian, h being
+the width of a strip, lets the load alternate from strip to strip (a wave of two strips induces
+c_l c/(4 h)): such a saw-tooth is an error, as is a solution that does not converge.
 
-What the theory leaves out: chordwise variation of the induced flow (short spans), and the tip
-vortex rolling up over the plate.
+The theory leaves out the chordwise variation of the induced flow (short spans) and the tip
+vortex that rolls up over the plate.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ class SpanwiseLoads:
 
 @dataclass(frozen=True, eq=False)
 class LiftingLine:
-    """A beam of one section: its polar, its strips and what they induce on each other.
+    """Beam of one section: its polar, its strips and the incidence that they induce on each other.
 
     Attributes
     ----------

@@ -20,8 +20,8 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator, PPoly
 
 from equisection.conventions import SYMMETRY_TOLERANCE
 from equisection.errors import IncidenceOutOfRangeError
@@ -41,7 +41,7 @@ NIL = 1e-3
 
 
 def is_nil(value: float, coefficients: Floats) -> bool:
-    """Whether a coefficient vanishes beside others, but for what a solver leaves of zero."""
+    """Tell whether a value is zero up to a solver's residue, relative to the largest of a polar."""
     return bool(abs(value) <= NIL * np.max(np.abs(coefficients)))
 
 
@@ -53,8 +53,8 @@ class _Curve:
     values: Floats
 
     @cached_property
-    def cubic(self) -> PchipInterpolator:
-        return PchipInterpolator(self.incidence, self.values)
+    def cubic(self) -> scipy.interpolate.PchipInterpolator:
+        return scipy.interpolate.PchipInterpolator(self.incidence, self.values)
 
     @cached_property
     def _first_node(self) -> int:
@@ -218,9 +218,9 @@ class Polar:
     def continued(self) -> Polar:
         """The polar, continued to alpha < 0 by symmetry where it starts at 0 without loads there.
 
-        c_l and c_m are continued as odd functions about what a solver leaves of zero at zero
-        incidence, so that the cubics have the slope of a symmetric section there; between the
-        given points beyond the first they are what they are without it.
+        c_l and c_m are continued as odd functions about their values at zero incidence, which are
+        zero up to a solver's residue. So the cubics have the slope of a symmetric section there.
+        Beyond the second given point they do not change.
         """
         coefficients = (self.lift, self.moment)
         if self.incidence[0] != 0.0 or not all(is_nil(c[0], c) for c in coefficients):
@@ -243,7 +243,7 @@ class Polar:
         return float(self.incidence[0]), float(self.incidence[-1])
 
     def covers(self, alpha: ArrayLike) -> bool:
-        """Whether every incidence in ``alpha`` (rad) is inside the data; False for NaN."""
+        """Tell whether every incidence in ``alpha`` (rad) is inside the data; False for NaN."""
         angles = np.asarray(alpha, dtype=np.float64)
         least, greatest = self.incidence_range
         return bool(np.all((angles >= least) & (angles <= greatest)))
@@ -283,7 +283,7 @@ class Polar:
         with np.errstate(invalid="ignore"):  # a lane that failed may be at infinity
             return np.asarray(lift * (np.cos(angles) - 1.0) + drag * np.sin(angles))
 
-    def moment_cubic_about(self, axis: float) -> PPoly:
+    def moment_cubic_about(self, axis: float) -> scipy.interpolate.PPoly:
         """Moment about another point as a piecewise cubic: c_m + x (c_l cos alpha + c_d sin alpha).
 
         The formula holds between the points of the polar, too: its value and its slope are met
@@ -311,19 +311,19 @@ class Polar:
             [curve.cubic(alpha, order) for curve in (self._lift, self._drag, self._moment)]
             for order in (0, 1)
         )
-        return CubicHermiteSpline(
+        return scipy.interpolate.CubicHermiteSpline(
             alpha,
             moment + axis * (lift * cos + drag * sin),
             by_moment + axis * ((by_lift + drag) * cos + (by_drag - lift) * sin),
         )
 
     @property
-    def lift_cubic(self) -> PchipInterpolator:
+    def lift_cubic(self) -> scipy.interpolate.PchipInterpolator:
         """c_l as the piecewise cubic itself, for roots and quotients; no limit of range."""
         return self._lift.cubic
 
     @property
-    def moment_cubic(self) -> PchipInterpolator:
+    def moment_cubic(self) -> scipy.interpolate.PchipInterpolator:
         """c_m as the piecewise cubic itself, for roots and quotients; no limit of range."""
         return self._moment.cubic
 

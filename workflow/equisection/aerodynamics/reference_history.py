@@ -1,7 +1,7 @@
 """Histories of a moving section from a flow solver, to identify the lags from and judge them by.
 
 The loads are the section's own, with or without correction for the finite span: the correction
-changes what the section is made of, and so how it moves, and no load.
+changes masses and stiffnesses, and so the motion, but not the loads under a given motion.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ class ReferenceHistory:
     incidence_rad
         Rigid incidence theta_0 (rad).
     k_star
-        k* of the beam that the section stands for.
+        k* of the section's beam.
     section
         The section in its flow as it moved (Eq. 18), corrected where it was.
     name

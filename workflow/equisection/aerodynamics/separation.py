@@ -2,7 +2,7 @@
 
 Branches
     The *attached* branch is linear, c_l = a_l alpha and c_m = a_m alpha, with the slopes that
-    the polar has at zero lift. What the polar lacks of it is the *deficit* of the bubble,
+    the polar has at zero lift. Attached branch minus polar is the *deficit* of the bubble,
 
         Delta_l(alpha) = a_l alpha - c_l(alpha),    Delta_m(alpha) = a_m alpha - c_m(alpha),
 
@@ -18,8 +18,8 @@ State
     the incidence that has it. Labelling the same bubble by its incidence needs no fitted
     x_0(alpha), and a polar that is non-linear from one degree on offers nothing to fit it to.
 Lift
-    Leading-edge suction, and so most of the moment, answers at once; the circulation has to wait
-    until what the bubble sheds has passed the trailing edge. The circulatory lift follows with
+    Leading-edge suction, and so most of the moment, answers at once. The circulation waits until
+    the vorticity that the bubble sheds has passed the trailing edge. The circulatory lift follows
 
         tau_3 c' + c = a_l alpha_E - Delta_l(x).
 

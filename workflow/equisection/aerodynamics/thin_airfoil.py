@@ -6,8 +6,8 @@ the pitch axis x_a chords behind mid-chord, and moments about that axis,
     (c_l, c_m) = A_2 q'' + A_1 q' + C(k) r (theta - w' + (1/4 - x_a) theta'),    ' = d/ds,
 
 where k = omega c/(2 V), r = 2 pi (1, 1/4 + x_a), and the bracket is the incidence at three quarters
-of the chord. A_2 and A_1 are the apparent mass and what it does with the stream. Theodorsen's b is
-c/2 here, his a is 2 x_a, and his h is -w.
+of the chord. A_2 and A_1 hold the loads without circulation: the apparent mass, and its terms with
+the speed of the stream. Theodorsen's b is c/2 here, his a is 2 x_a, and his h is -w.
 """
 
 from __future__ import annotations

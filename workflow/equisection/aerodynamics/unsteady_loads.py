@@ -15,11 +15,12 @@ alpha_i is the incidence that the wake of a finite beam induces; zero for a sect
 with pi are Theodorsen's apparent-mass terms about mid-chord (NACA Report 496 with a = 0), those of
 a thin plate in free air.
 
-alpha_S is what the suction at the leading edge is proportional to: (sqrt 2/2)(2 C Q - b theta') of
-Garrick (NACA Report 567), the first coefficient A_0 of thin-airfoil theory. The flow separates at
-the sharp edge for its sake, so it and not alpha_E drives the bubble (Ramesh et al., J. Fluid Mech.
-751, 2014). The moment of a thin plate about mid-chord is that of its leading edge: Theodorsen's
-(pi/2) alpha_E - (pi/8) theta' is (pi/2) alpha_S, and here the polar's slope a_m stands for pi/2.
+The suction at the leading edge is proportional to alpha_S: (sqrt 2/2)(2 C Q - b theta') of
+Garrick (NACA Report 567), the first coefficient A_0 of thin-airfoil theory. This suction makes the
+flow separate at the sharp edge, so alpha_S and not alpha_E drives the bubble (Ramesh et al.,
+J. Fluid Mech. 751, 2014). The moment of a thin plate about mid-chord is that of its leading edge:
+Theodorsen's (pi/2) alpha_E - (pi/8) theta' is (pi/2) alpha_S. Here the polar's slope a_m takes the
+place of pi/2.
 With a_l = 2 pi, a_m = pi/2, no deficit and no lag of the bubble this *is* Theodorsen's theory.
 
 The derivative of alpha_S is not needed: with y' = (alpha_S - y)/tau_1,
@@ -36,6 +37,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.indicial import IMMEDIATE_SHARE, JONES_AMPLITUDES, LAG_RATES
@@ -115,11 +117,9 @@ def follow(signal: Floats, rate: float, time_step: float) -> Floats:
     """
     decay = math.exp(-rate * time_step)
     mean = (1.0 - decay) / (rate * time_step)
-    from scipy.signal import lfilter  # noqa: PLC0415 (half a second, for the identification alone)
-
     old, new = mean - decay, 1.0 - mean
     change = signal - signal[0]
-    followed, _ = lfilter([new, old], [1.0, -decay], change, zi=[0.0])
+    followed, _ = scipy.signal.lfilter([new, old], [1.0, -decay], change, zi=[0.0])
     return np.asarray(followed + signal[0], dtype=np.float64)
 
 

@@ -10,8 +10,8 @@ are solved here without the outer absolute value, as
     r_21^p (r_32^p - s)/(r_21^p - s) = |e_32/e_21|,
 
 which is exact for f = f_0 + C h^p where s = 1. The left side grows with p, so that there is one
-solution or none; none is a value whose changes do not become smaller as fast as any positive order
-asks, and is said so rather than given a positive order.
+solution or none. Without one the changes of the value fall more slowly than at any positive order,
+and the order is reported as undefined.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ import math
 from dataclasses import dataclass
 from enum import StrEnum
 
-from scipy.optimize import brentq
+import scipy
 
 #: Factor of safety of the index for three grids (Celik et al. 2008, Eq. 7).
 SAFETY = 1.25
@@ -31,7 +31,7 @@ _NO_CHANGE = 1e-12
 
 
 class Convergence(StrEnum):
-    """How a value goes with the grid."""
+    """Kind of convergence of a value with the grid."""
 
     MONOTONIC = "monotonic"
     OSCILLATORY = "oscillatory"  # the changes have opposite signs
@@ -45,16 +45,16 @@ class GridConvergence:
     Attributes
     ----------
     convergence
-        How it converges.
+        Kind of convergence.
     order
         Observed order p (-); NaN where it is undefined.
     extrapolated
-        Value at h = 0 (unit of the value), by Eq. 6, which is the limit of a monotonic convergence;
-        of an oscillatory one the paper gives the same, and it lies on the far side of the finest.
+        Value at h = 0 (unit of the value), by Eq. 6: the limit of a monotonic convergence. For an
+        oscillatory one it is computed in the same way, and is on the far side of the finest value.
     index
         Grid convergence index of the finest grid, as a part of its value (-).
     index_second_order
-        The same with the formal order 2 in place of p: the larger one if p is beyond 2. NaN where
+        Index with the formal order 2 in place of p, the larger one if p is beyond 2 (-). NaN where
         the last change is not smaller than the one before, so that nothing converges.
     """
 
@@ -114,7 +114,7 @@ def _order(ratio: float, r_21: float, r_32: float, sign: float) -> float:
 
     if excess(SMALLEST_ORDER) >= 0 or excess(LARGEST_ORDER) <= 0:
         return math.nan
-    return float(brentq(excess, SMALLEST_ORDER, LARGEST_ORDER, xtol=1e-12))
+    return float(scipy.optimize.brentq(excess, SMALLEST_ORDER, LARGEST_ORDER, xtol=1e-12))
 
 
 def _index(change: float, fine: float, r_21: float, order: float) -> float:

@@ -1,8 +1,8 @@
 """Grid study of the section's polar: every coefficient at every incidence on three meshes.
 
 Lift and moment at 0 deg are left out. Plate, channel and meshes are symmetric about the chord line
-there, so both are nil by symmetry on any mesh. What a solver gives for them is what its iterations
-have left, and an index, which is a part of the value, is one remainder over another.
+there, so both are nil by symmetry on any mesh. A solver's values of them are residues of its
+iterations, and an index, which is a part of the value, would be one residue over another.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ def grid_study(polar: xr.Dataset, cells: Mapping[str, int | None]) -> pd.DataFra
     polar
         ``steady/polar_2d.nc``.
     cells
-        Number of cells at each resolution; none for a mesh that is not similar to the others,
-        which is left out, as is one that the polar has nothing of. The three finest of the rest are
-        compared; there are no lines if there are fewer, nor of an incidence that one of the three
+        Number of cells at each resolution; None for a mesh that is not similar to the others. Such
+        a mesh is left out, and so is one that the polar does not have. The three finest of the rest
+        are compared. With fewer there are no lines, and none for an incidence that one of the three
         was not run at.
     """
     known = set(polar["resolution"].values)

@@ -1,9 +1,9 @@
-"""What classical linear theory says of the equivalent section: divergence and flutter.
+"""Divergence and flutter of the equivalent section by classical linear theory.
 
 The theory is that of a thin plate in attached, inviscid flow in free air (Theodorsen). It knows
-neither the incidence at which the section stands nor separation, so what it does not see of the
-instability is what these two make of it. k* is the axis of every comparison (Eq. 17 in the paper's
-form); a section of the other reduction has its own stiffness at that k*.
+neither the mean incidence of the section nor separation, so an instability that it does not see
+comes from these two. k* is the axis of every comparison (Eq. 17 in the paper's form); a section of
+the other reduction has its own stiffness at that k*.
 """
 
 from __future__ import annotations
@@ -101,8 +101,8 @@ def linear_onset(equivalent: xr.Dataset, slope: float) -> dict[str, dict[str, fl
     equivalent
         ``structure/equivalent.nc``.
     slope
-        dc_m/dtheta about the elastic axis of the section's polar (1/rad), for the divergence beside
-        the thin plate's.
+        dc_m/dtheta about the elastic axis of the section's polar (1/rad), for a divergence in
+        addition to that of the thin plate.
 
     Returns
     -------
@@ -129,7 +129,7 @@ def linear_onset(equivalent: xr.Dataset, slope: float) -> dict[str, dict[str, fl
 def with_linear_theory(
     onset: pd.DataFrame, linear: dict[str, dict[str, float]], default_reduction: str
 ) -> pd.DataFrame:
-    """Return ``comparison/onset.csv`` with what linear theory says of sections and beam.
+    """Return ``comparison/onset.csv`` with the linear theory of sections and beam.
 
     A corrected section has other masses in another flow: its columns are empty. Of the beam there
     is the flutter, with all of its modes.

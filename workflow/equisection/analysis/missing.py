@@ -19,7 +19,7 @@ def missing_table(indices: Iterable[Path]) -> pd.DataFrame:
     Parameters
     ----------
     indices
-        Indices as a run has them: ``<kind>/<model>/<batch>.json``.
+        Indices of a run, ``<kind>/<model>/<batch>.json``.
     """
     rows = [
         (index.parent.parent.name, index.parent.name, case, reason)

@@ -1,8 +1,8 @@
 """Onset of the instability in a sweep, and the points to run next to know it better.
 
 A section is unstable below an onset over k* and stable above it: k* is a stiffness over a dynamic
-pressure. Over speed it is the other way round. The onset that matters to whoever comes from the
-stable side is the *first* one met, so the bracket over k* is
+pressure. Over speed it is the other way round. On the way from the stable side the *first* onset
+that is met counts, so the bracket over k* is
 
     unstable = the highest k* that is unstable,
     stable   = the lowest stable k* above it.
@@ -11,8 +11,8 @@ Every k* above the bracket is then stable (or failed). A sequence that is not mo
 unstable, stable, unstable, stable, gives the bracket of its upper change; stable k* further
 down are islands and do not count.
 
-A failed run says neither: it is left out, and when it lies inside the bracket it is named
-there, since only repeating it can narrow that bracket.
+A failed run is neither: it is left out. Inside the bracket it is named, since only repeating it can
+narrow that bracket.
 
 With further axes (the incidence) there is a bracket for each of their values.
 """
@@ -54,7 +54,7 @@ class OnsetBracket:
 
     @property
     def closed(self) -> bool:
-        """Whether both sides are known."""
+        """Tell whether both sides are known."""
         return not (math.isnan(self.stable) or math.isnan(self.unstable))
 
     @property
@@ -64,7 +64,7 @@ class OnsetBracket:
 
 
 def is_unstable(regime: str, twist_amplitude_deg: float, threshold_deg: float) -> bool | None:
-    """Whether a run is unstable; None if it says neither.
+    """Tell whether a run is unstable; None for a failed run, which is neither.
 
     Parameters
     ----------
@@ -109,7 +109,7 @@ def onset_bracket(
     threshold_deg : float
         Amplitude (deg) above which a limit cycle is unstable.
     axis : Axis
-        Axis, which says on what side of the onset a beam is stable.
+        Axis, with the side of the onset on which a beam is stable.
     """
     amplitudes = [math.nan] * len(values) if twist_amplitude_deg is None else twist_amplitude_deg
     states = [
@@ -142,7 +142,7 @@ def refinement_points(bracket: OnsetBracket, tolerance: float, count: int = 1) -
     tolerance : float
         Relative width abs(stable - unstable)/unstable that is narrow enough (-).
     count : int
-        Runs that go side by side.
+        Number of runs at a time.
 
     Returns
     -------
@@ -200,7 +200,7 @@ def next_points(summary: pd.DataFrame, tolerance: float, count: int) -> list[Poi
 
 
 def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
-    """Return ``comparison/onset.csv``: the bracket of each model of a summary; none of no run.
+    """Return ``comparison/onset.csv``: the bracket of each model of a summary that has runs.
 
     Its columns are the model, the values on the further axes of the study, the sides of the bracket
     (``k_star_stable``, ``k_star_unstable``), ``failed_inside`` and ``stable_below``.

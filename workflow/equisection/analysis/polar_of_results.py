@@ -17,8 +17,8 @@ from equisection.results.netcdf import read_dataset
 def polar_csv(paths: Sequence[Path]) -> str:
     """Return the polar of steady results as CSV, by ascending incidence.
 
-    The last column says how each value was obtained; comments say what solver did, and which
-    results are left out because they failed.
+    The last column has the origin of each value. Comments name the solver, and the results that are
+    left out because they failed.
 
     Raises
     ------
@@ -69,7 +69,10 @@ def _flow(data: xr.Dataset) -> list[str]:
     reynolds = medium["density"] * medium["speed"] * geometry["chord"] / medium["dynamic_viscosity"]
     height = geometry["channel_height"]
     around = "free air" if height is None else f"channel {height:g} c high"
-    return [f"Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}."]
+    return [
+        f"Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}.",
+        f"Valid for: h/c {geometry['thickness']:g}",
+    ]
 
 
 def _require_one_polar(results: Sequence[xr.Dataset]) -> None:

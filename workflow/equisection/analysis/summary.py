@@ -43,13 +43,13 @@ def summary_of(indices: Iterable[Path]) -> pd.DataFrame:
     Parameters
     ----------
     indices
-        Indices as a run has them: ``unsteady/<model>/<batch>.json``. The axes of the study are
-        those of the names of its cases.
+        Indices of a run, ``unsteady/<model>/<batch>.json``. The axes of the study come from the
+        names of its cases.
 
     Raises
     ------
     ResultFileError
-        An index cannot be read, or names what is no case.
+        An index cannot be read, or has a name that is not that of a case.
     """
     runs = [
         (index.parent.name, _point(index, name), attributes)

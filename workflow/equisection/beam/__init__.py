@@ -1,1 +1,1 @@
-"""The object in the flow as it is given: the beam, and the section that stands for it."""
+"""The beam in the flow as it is given, and the section that it is reduced to."""

@@ -1,12 +1,12 @@
-"""The beam: a flat plate or a cross-section as given, and how its two ends are held.
+"""The beam: a flat plate or a given cross-section, and the supports of its two ends.
 
-It is the section ``beam`` of the configuration too, whose keys are its members, in SI units. It is
-homogeneous, of a rectangular section, unless ``cross_section`` says what its section is. Elastic
-axis and mass axis are parallel lines along the span, each at a part of the chord.
+It is also the section ``beam`` of the configuration: its members are the keys, in SI units. It is
+homogeneous, of a rectangular section, unless ``cross_section`` gives another. Elastic axis and mass
+axis are parallel lines along the span, each at a part of the chord.
 
 Each boundary is a pair of end conditions for bending and one for torsion. A *fork* holds the
-deflection and the twist of a section and leaves its bending slope free, which is what a pinned
-end has to be if the twist is to have any restraint at all.
+deflection and the twist of a section and leaves its bending slope free. A pinned end is a fork,
+since otherwise nothing would restrain the twist.
 """
 
 from __future__ import annotations
@@ -90,7 +90,7 @@ class CrossSection(KeyGroup):
 
 
 class Beam(KeyGroup):
-    """The flexible beam, of constant section, and how it is held."""
+    """The flexible beam of constant section, and its supports."""
 
     chord: Positive = Field(0.1, description="Chord c (m).")
     length: Positive = Field(0.37, description="Span L (m), longer than the chord.")
@@ -175,7 +175,7 @@ class Beam(KeyGroup):
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Warnings where formulas of a thin strip do not hold; none of a section as given."""
+        """Warnings where formulas of a thin strip do not hold; none with a ``cross_section``."""
         ratio = self.thickness / self.chord
         if self.cross_section is not None or ratio <= _THIN:
             return ()
@@ -211,7 +211,7 @@ class Beam(KeyGroup):
     def inertia_per_length(self) -> float:
         """Polar inertia I about the elastic axis (kg m^2/m).
 
-        That of a rectangle is rho_s c^3 h/12, Eq. 5 (h^2 against c^2 left), and m d^2 (Steiner).
+        That of a rectangle is rho_s c^3 h/12, Eq. 5 (h^2 is neglected), and m d^2 (Steiner).
         """
         if self.cross_section is not None:
             return self.cross_section.inertia_per_length

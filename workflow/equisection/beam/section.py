@@ -153,7 +153,7 @@ class Section(BaseModel):
 
     @property
     def has_offset(self) -> bool:
-        """Whether its centre of mass is off the elastic axis, or the axis off mid-chord."""
+        """Presence of an imbalance, or of an elastic axis off mid-chord."""
         return self.static_imbalance != 0.0 or self.axis_behind_mid_chord != 0.0
 
     def in_flow(self, density: float, speed: float) -> Section:
@@ -242,14 +242,14 @@ class Section(BaseModel):
             )
 
     def require_defaults(self, model: str, members: Iterable[str] = MORE_THAN_SPRINGS) -> None:
-        """Refuse a section with more than a model has a place for.
+        """Refuse a section that has more than a model can represent.
 
         Parameters
         ----------
         model
-            The model, as the message names it.
+            Name of the model in the message.
         members
-            Members that it takes at their defaults alone: those of :data:`MORE_THAN_SPRINGS`.
+            Members that have to be at their defaults, by default :data:`MORE_THAN_SPRINGS`.
 
         Raises
         ------

@@ -1,4 +1,4 @@
-"""What decides a result, and nothing else, as a small canonical file with a hash."""
+"""Cases: all that decides a result, and nothing else, as a small canonical file with a hash."""
 
 from equisection.cases.case import (
     BeamModes,

@@ -1,7 +1,7 @@
 """The case: everything that decides the result of one solver run, and nothing else.
 
-No name, no path, no machine stands in a case, so that two runs that ask for the same thing
-share its result, and nothing that was edited around the solver asks for a new one.
+A case holds no name, path or machine. So two runs that ask for the same case share its result, and
+an edit of code around the solver asks for no new one.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class Block(BaseModel):
 
 
 class SolverBlock(Block):
-    """Which solver, in which version of its numerics, with which settings."""
+    """Solver of a case: its name, the version of its numerics, and its settings."""
 
     name: str
     version: str
@@ -72,7 +72,7 @@ class Medium(Block):
 class Case(Block):
     """Base of the cases of every kind.
 
-    ``kind`` is a word of its own in each class, by which a case file is read
+    ``kind`` is a word that each class has for itself; a case file is read by it
     (:mod:`equisection.cases.kinds`).
     """
 
@@ -87,12 +87,12 @@ class Case(Block):
 
     @property
     def longest(self) -> float | None:
-        """Longest time that its history may take (c/V); None of a case without one."""
+        """Longest duration of its history (c/V); None for a case without a history."""
         return None
 
     @property
     def not_run(self) -> str:
-        """Reason for which no solver runs it; empty for a case that is run."""
+        """Reason for not running it with any solver; empty for a case that is run."""
         return ""
 
 
@@ -149,7 +149,7 @@ class BeamModes(Block):
 
 
 class EndCriteria(Block):
-    """When the run ends and what it is called; they decide nothing of its history.
+    """Criteria for the end and the regime of a run, which leave its history as it is.
 
     ``rules`` is the version of the judgement in equisection.verdict. It changes whenever the same
     history would get another verdict, or get it at another time.
@@ -182,12 +182,12 @@ class UnsteadyCase(Case):
 
     @property
     def longest(self) -> float:
-        """Longest time that its history may take (c/V)."""
+        """Longest duration of its history (c/V)."""
         return self.duration
 
     @property
     def not_run(self) -> str:
-        """Reason for which there is no structure to move; empty for a case that is run."""
+        """Reason for the lack of a structure to move; empty for a case that is run."""
         return self.refusal
 
     @model_validator(mode="after")

@@ -1,8 +1,8 @@
 """Case files: canonical JSON, so that the same case is the same bytes and the same hash.
 
-A case file holds the cases of one job, one or a thousand: what they share stands once, under
-``shared``; what differs stands under the name of each. The hash is that of the whole case, so it
-does not depend on the company that a case keeps.
+A case file holds the cases of one job, one or a thousand. Values that all share are written once,
+under ``shared``, the others under the name of each case. The hash is that of the whole case, so it
+does not depend on the other cases of the file.
 """
 
 from __future__ import annotations
@@ -41,21 +41,20 @@ def case_hash(case: Case) -> str:
 
 
 def history_hash(case: Case) -> str:
-    """Return the SHA-256 of what decides the history of a case: all but when it is to end.
+    """Return the SHA-256 of all that decides the history of a case: all but the fields that end it.
 
-    Cases that differ in what ends them alone have the same history, one of them more of it than
-    the other.
+    Cases that differ in those fields alone have the same history; one is longer than the other.
     """
     values = _rounded(case.model_dump(mode="json", exclude=set(kind_of(case).ends)))
     return hashlib.sha256(json.dumps(values, sort_keys=True).encode()).hexdigest()
 
 
 def are_alike(one: Any, other: Any, tolerance: float = ALIKE) -> bool:
-    """Tell whether two cases, as what JSON holds, ask for the same but for what is not known.
+    """Tell whether two cases, as JSON values, are the same within the scatter between machines.
 
-    Numbers may differ by a part of their size, those of a list by that part of its largest: on
-    the way from one machine to the next the last digits of eigenvectors change, and the iteration
-    at which a steady run is found to have converged.
+    Numbers may differ by ``tolerance`` times their size, those of a list by that times its largest.
+    From one machine to another the last digits of eigenvectors change, and the iteration at which a
+    steady run is found to have converged.
     """
     if isinstance(one, dict) and isinstance(other, dict):
         return one.keys() == other.keys() and all(

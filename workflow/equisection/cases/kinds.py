@@ -1,9 +1,9 @@
-"""Registry of the kinds of case: everything in which a run differs from one kind to another.
+"""Registry of the kinds of case: everything that differs from one kind to another.
 
 The store, the kept results, the status, the verification and the cost of a run go through
 :data:`KINDS`, and name no kind. A new kind takes
 
-- a class of cases, beside those in :mod:`equisection.cases.case`;
+- a class of cases in :mod:`equisection.cases.case`;
 - an entry in :data:`KINDS`;
 - a class of results, which fulfils :class:`equisection.results.case_result.CaseResult`;
 - the method ``run_<folder>`` of the solvers that run it, and ``<folder>_work`` of their work;
@@ -28,18 +28,18 @@ class Kind:
     name
         Name.
     case
-        Class of its cases. The word by which this calls itself names the folders of a run, too.
+        Class of its cases. Its ``kind`` also names the folders of a run.
     point
-        Fields of a case that tell it from others of its study; its result has them as attributes.
+        Fields that distinguish a case from others of its study; its result has them as attributes.
     has_history
-        Whether its results are histories over time.
+        True if its results are histories over time.
     ends
-        Fields that decide when a history ends, and nothing before its end. Cases that differ in
-        these alone share a history.
+        Fields that decide the end of a history, and nothing before it. Cases that differ in these
+        alone share a history.
     of_sweep
-        Whether its cases are those of the sweep's models; the others are named after a dimension.
+        True if its cases are those of the sweep's models. Others are named after a dimension.
     title
-        Title of its cases in a summary, and before the model in a list; a model of the sweep is
+        Title of its cases in a summary, and before the model in a list. A model of the sweep is
         listed by its own name.
     """
 
@@ -63,7 +63,7 @@ class Kind:
 
     @property
     def cost_term(self) -> str:
-        """Coefficient of the cost model that its cases are the measure of."""
+        """Coefficient of the cost model that is fitted to its cases."""
         return "step" if self.has_history else "iteration"
 
     @property
@@ -73,11 +73,11 @@ class Kind:
 
     @property
     def work_function(self) -> str:
-        """Function of a solver's module of work that tells the work of a job."""
+        """Name of the function that gives the work of a job, in a solver's module of work."""
         return f"{self.folder}_work"
 
     def model_of(self, part: str) -> str:
-        """Return the model of the cases in a folder ``<kind>/<part>``, as lists have it."""
+        """Return the model of the cases in a folder ``<kind>/<part>``, in the words of lists."""
         return part if self.of_sweep else f"{self.title} {part}"
 
 
@@ -105,7 +105,7 @@ def kind_of(case: Case) -> Kind:
 
 
 def kind_named(word: Any) -> Kind:
-    """Return the kind whose cases call themselves by a word.
+    """Return the kind of cases whose ``kind`` is a word.
 
     Raises
     ------
@@ -118,11 +118,11 @@ def kind_named(word: Any) -> Kind:
 
 
 def point_of(case: Case) -> dict[str, float]:
-    """Return where in its study a case is: the values of its kind's ``point`` by their names."""
+    """Return the point of a case in its study: the values of its kind's ``point`` by name."""
     return {name: getattr(case, name) for name in kind_of(case).point}
 
 
 def ends_of(case: dict[str, Any]) -> frozenset[str]:
-    """Return what ends the history of a case, as JSON holds it, and decides nothing of it."""
+    """Return the fields that decide the end of a case's history; ``case`` is as JSON holds it."""
     kind = KINDS.get(case.get("kind", ""))
     return kind.ends if kind else frozenset()

@@ -1,7 +1,7 @@
-"""Files that a configuration names: found, and looked at, before any job starts.
+"""Files that a configuration names, found and checked before any job starts.
 
-A relative path is seen from the working directory first. What is not there is taken from the
-project, with which polars and kept results come.
+A relative path is seen from the working directory first. A file that is not there is taken from the
+project, which comes with polars and kept results.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ _USUAL_REUSE = Config.model_fields["reuse"].default
 
 
 def find_files(config: Config, project: Path, directory: Path | None = None) -> Config:
-    """Return the configuration with the project's files in the place of those that are not there.
+    """Return the configuration with the project's files in the place of missing ones.
 
     Their paths are relative to ``directory`` (by default the working one), so that both may move
-    together. Of what the configuration names the project has polars and kept results; an index of
-    another run's results (``sweep.taken``) is always the working directory's. In the project's own
-    folder nothing changes.
+    together. The project has polars and kept results; an index of another run's results
+    (``sweep.taken``) is always the working directory's. In the project's own folder nothing
+    changes.
     """
     directory = directory or Path.cwd()
     if _is_same(project, directory):
@@ -82,13 +82,13 @@ def check_files(
     project: Path | None = None,
     results: Path = Path("results"),
 ) -> None:
-    """Refuse what is named and not there, seen from ``directory`` (by default the working one).
+    """Refuse missing files, seen from ``directory`` (by default the working one).
 
     These are polars, the folder that results come from, and the indices of other runs' results. An
-    index of this run, in ``results``, is no other's: its rules make it. ``project`` is where
-    :func:`find_files` has looked as well.
+    index of this run, in ``results``, is made by its rules and may be missing. ``project`` is the
+    folder that :func:`find_files` has searched as well.
 
-    Braces in a path are Snakemake's, which would take what is in them for a wildcard.
+    Braces in a path are refused too, since Snakemake would read them as a wildcard.
 
     Raises
     ------

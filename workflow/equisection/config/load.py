@@ -1,4 +1,4 @@
-"""Validate what Snakemake hands over, and say what is wrong with it in one line a problem."""
+"""Validation of the keys that Snakemake hands over, with one line for each problem."""
 
 from __future__ import annotations
 
@@ -77,7 +77,7 @@ def _field_of(path: Path) -> Path:
 
 
 def _section_in(annotation: Any) -> type[BaseModel] | None:
-    """Return the section that an annotation holds, alone or beside ``None``."""
+    """Return the section that an annotation holds, alone or with ``None``."""
     kinds = [kind for kind in get_args(annotation) or (annotation,) if kind is not type(None)]
     if len(kinds) == 1 and isinstance(kinds[0], type) and issubclass(kinds[0], KeyGroup):
         return kinds[0]

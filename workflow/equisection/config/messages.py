@@ -1,6 +1,6 @@
-"""A problem that pydantic found, in the words of the person who wrote the configuration.
+"""Problems that pydantic found, in the words of the person who wrote the configuration.
 
-Whatever the kind of the error, the answer is what the key allows; it comes from the schema.
+Whatever the kind of the error, the message says what the key allows, by the schema.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def problem_of(error: ErrorDetails) -> Problem:
 
 
 def meant_key(error: ErrorDetails) -> Path | None:
-    """Return the path of the key that an unknown one most likely stands for."""
+    """Return the path of the key that was most likely meant by an unknown one."""
     if error["type"] != "extra_forbidden":
         return None
     path, _ = _find(error["loc"])

@@ -1,11 +1,8 @@
-"""The whole configuration, and what its sections must agree on."""
+"""The whole configuration, and the checks between its sections."""
 
 from __future__ import annotations
 
-import math
-import os
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, model_validator
@@ -25,16 +22,7 @@ from equisection.config.groups import (
     Unsteady,
 )
 from equisection.keys.checks import DisagreementError, Problem, check, disagreements
-from equisection.keys.shown import shown
 from equisection.keys.values import EMPTY, Name
-
-#: The polar of the paper's rigid plate, of this L/c, h/c, Reynolds number and channel alone.
-PAPER_BEAM_POLAR = Path("config/polars/paper_plate_3d.csv")
-#: Polar of the paper's section, and how many times its h/c another may have that it serves for.
-PAPER_POLAR = Path("config/polars/plate_2d_11136.csv")
-_LIKE_THICKNESS = 1.25
-#: Relative difference in these up to which it is the same plate.
-_SAME_POLAR = 0.01
 
 #: Holds the recorded reference runs, which no run may mix with.
 RESERVED_RUN = "reference"
@@ -57,7 +45,7 @@ class Config(KeyGroup):
     correction: Literal["mean", "modal"] = Field(
         "mean",
         description="Lift and moment of the rigid beam that the section is corrected by (Eq. 20): "
-        "`mean`, over the span, as the paper does; `modal`, as the first bending and the first "
+        "`mean`, over the span; `modal`, as the first bending and the first "
         "torsion mode feel them.",
     )
     reuse: Annotated[str, EMPTY] = Field(
@@ -98,11 +86,6 @@ class Config(KeyGroup):
         }
         return sections[self.solver]
 
-    @property
-    def is_paper_case(self) -> bool:
-        """Whether beam and flow are those of the paper, so that its numbers can stand beside."""
-        return self.beam == Beam() and self.flow == Flow()
-
 
 @check("correction", "steady.beam_polar")
 def _loads_along_the_span(correction: str, beam_polar: str) -> Iterator[Problem]:
@@ -113,43 +96,6 @@ def _loads_along_the_span(correction: str, beam_polar: str) -> Iterator[Problem]
             "allowed is 'mean' with steady.beam_polar, whose file has no loads along the span that "
             'modes could weight; or steady.beam_polar: "", with which the solver runs the beam',
         )
-
-
-@check("steady.beam_polar", "beam", "flow")
-def _polar_of_this_beam(beam_polar: str, beam: Beam, flow: Flow) -> Iterator[Problem]:
-    """Refuse the paper's polar of the rigid plate for another beam or flow.
-
-    What bends the beam is free: modulus, density, boundary and springs.
-    """
-    if Path(os.path.normpath(beam_polar)).parts[-3:] != PAPER_BEAM_POLAR.parts:
-        return
-    here, paper = _decides_rigid_polar(beam, flow), _decides_rigid_polar(Beam(), Flow())
-    for name, value in paper.items():
-        if not math.isclose(here[name], value, rel_tol=_SAME_POLAR):
-            yield Problem(
-                "steady.beam_polar",
-                beam_polar,
-                f'allowed is the polar of this beam, or "", with which the solver runs it; this '
-                f"one is the paper's plate, of {name} {_short(value)} and not {_short(here[name])}",
-            )
-            return
-
-
-def _decides_rigid_polar(beam: Beam, flow: Flow) -> dict[str, float]:
-    """Return what the polar of the rigid beam depends on, by name (-); free air is infinite."""
-    channel = flow.channel
-    return {
-        "L/c": beam.length / beam.chord,
-        "h/c": beam.thickness / beam.chord,
-        "Reynolds number": flow.density * flow.speed * beam.chord / flow.dynamic_viscosity,
-        "flow.root_on_wall": flow.root_on_wall,
-        "flow.channel.height_chords": channel.height_chords if channel else math.inf,
-        "flow.channel.tip_gap_chords": channel.tip_gap_chords if channel else math.inf,
-    }
-
-
-def _short(value: float) -> str:
-    return shown(value if isinstance(value, bool) else float(f"{value:.4g}"))
 
 
 @check("compute", "reuse")
@@ -231,24 +177,6 @@ def _resolutions_exist(
             yield Problem(
                 key, name, f"allowed is a name in {key_of_names}: {', '.join(sorted(there))}"
             )
-
-
-@check("embedded.polars", "steady.resolution", "beam.thickness", "beam.chord", "solver")
-def _polar_of_this_section(
-    polars: dict[str, str], resolution: str, thickness: float, chord: float, solver: str
-) -> Iterator[Problem]:
-    """Refuse the polar of the paper's plate for a section that is much thicker."""
-    polar = polars.get(resolution, "")
-    if solver != "embedded" or Path(os.path.normpath(polar)).parts[-3:] != PAPER_POLAR.parts:
-        return
-    ratio, paper = thickness / chord, Beam().thickness / Beam().chord
-    if ratio > _LIKE_THICKNESS * paper:
-        yield Problem(
-            f"embedded.polars.{resolution}",
-            polar,
-            f"allowed is the polar of this section, of h/c {_short(ratio)}, or flat-plate, of a "
-            f"thin one; this file is of a sharp-edged plate of h/c {_short(paper)}",
-        )
 
 
 @check("flow.incidence_deg", "embedded.symmetric", "solver")

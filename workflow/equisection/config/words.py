@@ -1,4 +1,4 @@
-"""What a key allows, in words; from the JSON schema, for errors and reference alike."""
+"""Words for the values that a key allows, from the JSON schema, for errors and reference alike."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ def resolved(fragment: Fragment) -> Fragment:
 
 
 def alternatives(fragment: Fragment) -> list[Fragment]:
-    """Return what a fragment may be, one or more, ``null`` among them."""
+    """Return the alternatives of a fragment, one or more, including ``null``."""
     fragment = resolved(fragment)
     choices = fragment.get("anyOf") or fragment.get("oneOf")
     return [resolved(choice) for choice in choices] if choices else [fragment]
 
 
 def allowed(fragment: Fragment) -> str:
-    """Return what a fragment allows, for instance ``a number above 0, or null``."""
+    """Return the allowed values of a fragment, for instance ``a number above 0, or null``."""
     return ", or ".join(_allowed(choice) for choice in alternatives(fragment))
 
 

@@ -1,1 +1,1 @@
-"""The paper's figures, one module each."""
+"""Figures, one module each, named by what they show."""

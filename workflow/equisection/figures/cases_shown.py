@@ -1,4 +1,4 @@
-"""Which cases Figs. 16 and 17 show, as the paper's A to F.
+"""Cases of which histories and loops are shown, by the letters A to F.
 
 A and D are just inside the instability (the highest unstable k*), B and E are just outside
 (the lowest stable k* above the onset), C and F are the stiffest that did not fail; A, B, C of
@@ -23,7 +23,7 @@ BEAM_LETTERS = ("D", "E", "F")
 
 @dataclass(frozen=True)
 class ShownCase:
-    """A letter of the figure and the case that it stands for, or why there is none.
+    """A letter of the figure with its case, or with the reason why there is none.
 
     Attributes
     ----------
@@ -32,7 +32,7 @@ class ShownCase:
     value : float
         Its value on the axis of the onset; NaN if there is no such case.
     regime : str
-        Its regime, or why there is no such case.
+        Its regime, or the reason why there is no such case.
     mean_twist_deg, mean_deflection_chords : float
         Its means (NaN if there is none).
     axis : Axis
@@ -48,12 +48,12 @@ class ShownCase:
 
     @property
     def exists(self) -> bool:
-        """Whether there is such a case."""
+        """Tell whether there is such a case."""
         return not math.isnan(self.value)
 
     @property
     def has_mean(self) -> bool:
-        """Whether it has a mean; a section that diverges statically has none."""
+        """Tell whether the case has a mean; a section that diverges statically has none."""
         return not math.isnan(self.mean_twist_deg)
 
 

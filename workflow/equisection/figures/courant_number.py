@@ -1,6 +1,9 @@
-"""Fig. 8: Courant number on the mesh of the section, where it is and how much of it there is."""
+"""Courant number on the mesh of the section, and its distribution."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -12,31 +15,41 @@ from numpy.typing import NDArray
 
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import legend_above, letter, without_data
+from equisection.figures.references import read_references
 from equisection.figures.style import BLUE, COLOURS, DASHES, GREY, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
 from equisection.results.section_mesh import share_below
 
 #: Window of the map (chords), and smallest number of its colours.
 WINDOW, SMALLEST = ((-1.2, 1.8), (-0.9, 0.9)), 0.01
-#: Limit that the paper states a share of the volume for.
-LIMIT = 1.5
+#: Courant number whose share of the area is told, unless another one is to be compared with.
+LIMIT = 1.0
 
 Floats = NDArray[np.float64]
 
 
-def draw(mesh: xr.Dataset) -> Figure:
+def from_files(section_mesh: Path, references: Sequence[Path]) -> Figure:
+    """Draw ``steady/section_mesh.nc``."""
+    limits = read_references(references, "courant_number_limit")["value"]
+    return draw(read_dataset(section_mesh), *map(float, limits[:1]))
+
+
+def draw(mesh: xr.Dataset, limit: float = LIMIT) -> Figure:
     """Draw the Courant number around the section (left) and its distribution (right).
 
     Parameters
     ----------
     mesh
         ``steady/section_mesh.nc``.
+    limit
+        Courant number below which the share of the area is given.
     """
     if not mesh.sizes["cell"]:
         return without_data("The mesh of the section, and the flow on it, is not kept.")
     figure = Figure(figsize=(PAGE_WIDTH, 3.0))
     left, right = figure.subplots(1, 2, width_ratios=[1.25, 1.0])
     _map(figure, left, mesh)
-    _distribution(right, mesh["courant"].values, mesh["area"].values)
+    _distribution(right, mesh["courant"].values, mesh["area"].values, limit)
     letter(left, "a", "around the section")
     letter(right, "b", "distribution")
     legend_above(figure, right, columns=3)
@@ -71,7 +84,7 @@ def _map(figure: Figure, axes: Axes, mesh: xr.Dataset) -> None:
     figure.colorbar(drawn, ax=axes, label="Co", shrink=0.8, extend="min")
 
 
-def _distribution(axes: Axes, courant: Floats, area: Floats) -> None:
+def _distribution(axes: Axes, courant: Floats, area: Floats, limit: float) -> None:
     order = np.argsort(courant)
     for number, (weight, name) in enumerate(
         ((area, "part of the area"), (np.ones_like(area), "part of the cells"))
@@ -84,13 +97,13 @@ def _distribution(axes: Axes, courant: Floats, area: Floats) -> None:
             linestyle=DASHES[number],
             label=f"{name}, mean {mean:.2g}",
         )
-    below = 100 * share_below(LIMIT, courant, area)
+    below = 100 * share_below(limit, courant, area)
     axes.axvline(
-        LIMIT,
+        limit,
         color=BLUE,
         linewidth=0.7,
         linestyle=DASHES[3],
-        label=f"{below:.1f} % of the area below {LIMIT:g}",
+        label=f"{below:.1f} % of the area below {limit:g}",
     )
     axes.axvline(courant.max(), color=GREY, linewidth=0.7, linestyle=":")
     axes.annotate(

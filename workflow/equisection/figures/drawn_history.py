@@ -68,7 +68,7 @@ class Extent:
 
 
 def extent_from_dataset(run: xr.Dataset) -> Extent:
-    """Return between what values a run moves over the window that its verdict rests on."""
+    """Return the range of the motion over the window of the verdict."""
     start = float(run.attrs["window_start"])
     window = run["time"].values >= (0.0 if math.isnan(start) else start)
     twist = np.degrees(run["tip_twist"].values[window])
@@ -80,5 +80,5 @@ def extent_from_dataset(run: xr.Dataset) -> Extent:
 
 
 def read_extent(path: Path) -> Extent:
-    """Read between what values a run moves from its result file."""
+    """Read the range of the motion from the result file of a run."""
     return extent_from_dataset(read_dataset(path))

@@ -1,9 +1,10 @@
-"""Fig. 12: the flow across the stream near the tip with its turbulence, rigid and flexible."""
+"""Flow across the stream near the tip with its turbulence, rigid and flexible."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -15,12 +16,17 @@ from matplotlib.patches import Polygon
 
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, say
+from equisection.figures.references import read_references
 from equisection.figures.style import BLACK, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.results.failures import failure_of
+from equisection.results.netcdf import read_dataset
 from equisection.results.tip_flow import TipFlow, tip_flow_from_dataset
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
+from equisection.study.axes import K_STAR, Point
 
-#: Where the paper shows the flexible plate.
-K_STAR = 6.44
+#: Regimes in which the motion stays bounded.
+BOUNDED = ("settled", "limit-cycle")
 
 
 @dataclass(frozen=True)
@@ -30,9 +36,9 @@ class Column:
     Attributes
     ----------
     title
-        What the plate is, for instance ``rigid``.
+        Kind of plate, for instance ``rigid``.
     says
-        Solver, resolution and state of the flow; why there is none, if there is none.
+        Solver, resolution and state of the flow; the reason if there is no flow.
     flow
         The flow near its tip, if there is one.
     """
@@ -50,6 +56,53 @@ def column_of(title: str, result: xr.Dataset) -> Column:
         return Column(title, f"The result has no flow near the tip: {why}.")
     made = solver_of(str(result.attrs["solver_description"]), str(result.attrs["resolution"]))
     return Column(title, f"{made}, {flow.state}", flow)
+
+
+def from_files(
+    index_of_rigid: Path,
+    index_of_beam: Sequence[Path],
+    references: Sequence[Path],
+    resolution: str,
+    incidence_deg: float,
+) -> Figure:
+    """Draw the rigid beam at the incidence nearest the run's (deg), and the flexible one.
+
+    ``index_of_beam`` is one index, or none where the beam is not run. The figure shows the run
+    nearest to a k* of the references, or else the softest whose motion stays bounded.
+    """
+    wanted = read_references(references, "flow_at_tip_k_star")["value"]
+    return draw(
+        [
+            _of_rigid(index_of_rigid, resolution, incidence_deg),
+            _of_flexible(index_of_beam, [float(k_star) for k_star in wanted]),
+        ]
+    )
+
+
+def _of_rigid(index: Path, resolution: str, incidence_deg: float) -> Column:
+    names = [name for name in read_index(index) if plan.rigid_point(name)[0] == resolution]
+    if not names:
+        return Column("rigid", f"The rigid beam has no result at resolution '{resolution}'.")
+    name = min(names, key=lambda name: abs(plan.rigid_point(name)[1] - incidence_deg))
+    return column_of("rigid", read_dataset(result_file(index, name)))
+
+
+def _k_star(name: str) -> float:
+    return Point.named(name)[K_STAR]
+
+
+def _of_flexible(indices: Sequence[Path], wanted: Sequence[float]) -> Column:
+    if not indices:
+        return Column("flexible", "The flexible beam is not among the models of the sweep.")
+    (index,) = indices
+    runs = {name: result for name, result in read_index(index).items() if not failure_of(result)}
+    if not runs:
+        return Column("flexible", "Every run of the flexible beam failed.")
+    bounded = [name for name, result in runs.items() if result["regime"] in BOUNDED]
+    k_star = next(iter(wanted), min(map(_k_star, bounded or runs)))
+    name = min(runs, key=lambda name: abs(_k_star(name) - k_star))
+    title = f"k* = {_k_star(name):g}"
+    return column_of(title, read_dataset(result_file(index, name)))
 
 
 def draw(columns: Sequence[Column]) -> Figure:

@@ -1,6 +1,9 @@
-"""Growth rate and frequency over k* of every model, beside those of classical linear theory."""
+"""Growth rate and frequency over k* of every model, and of classical linear theory."""
 
 from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -10,6 +13,7 @@ from matplotlib.figure import Figure
 from equisection.figures.models import LOOKS
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.panels import letter, say
+from equisection.figures.references import read_references
 from equisection.figures.style import DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.study.axes import Axis, onset_axis_among
 
@@ -18,11 +22,15 @@ _QUANTITIES = {
     "growth_rate": ("growth rate", "growth rate (V/c)"),
     "frequency_strouhal": ("frequency", "$f c/V$"),
 }
-#: k* of the onset in the paper.
-_PAPER_ONSET = 5.5
 
 
-def draw(summary: pd.DataFrame, linear: pd.DataFrame, *, is_paper_case: bool) -> Figure:
+def from_files(summary: Path, linear_theory: Path, references: Sequence[Path]) -> Figure:
+    """Draw the growth rates of the runs and of linear theory."""
+    stated = read_references(references, "onset_k_star")
+    return draw(pd.read_csv(summary), pd.read_csv(linear_theory), stated)
+
+
+def draw(summary: pd.DataFrame, linear: pd.DataFrame, onsets: pd.DataFrame) -> Figure:
     """Draw growth rates (left) and frequencies (right).
 
     Parameters
@@ -31,8 +39,8 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, *, is_paper_case: bool) ->
         ``comparison/summary.csv``.
     linear
         ``comparison/linear_theory.csv``.
-    is_paper_case
-        Whether the paper's onset is a number to stand beside.
+    onsets
+        k* of onsets to mark, as :func:`read_references` returns them.
     """
     figure = Figure(figsize=(PAGE_WIDTH, 3.4))
     panels = figure.subplots(1, 2)
@@ -41,8 +49,8 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, *, is_paper_case: bool) ->
         axes.set(xlabel=along.label, ylabel=label)
         letter(axes, place, title)
         _over_study(axes, summary, linear, name, along)
-        if is_paper_case:
-            axes.axvline(_PAPER_ONSET, color=GREY, linewidth=0.8, linestyle=":")
+        for k_star, name_of in zip(onsets["value"], onsets["label"], strict=True):
+            axes.axvline(k_star, color=GREY, linewidth=0.8, linestyle=":", label=name_of)
     entries = {
         label: handle
         for axes in panels

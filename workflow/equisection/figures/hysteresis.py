@@ -1,4 +1,4 @@
-"""Fig. 17: loops of the lift over the twist, and phase portraits, inside and at the onset."""
+"""Loops of the lift over the twist, and phase portraits, inside and at the onset."""
 
 from __future__ import annotations
 
@@ -27,6 +27,8 @@ from equisection.figures.models_shown import section_model
 from equisection.figures.origin import add_provenance, solver_of, solvers_of
 from equisection.figures.panels import in_words, letter, say
 from equisection.figures.style import PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
+from equisection.store.index import result_files
 
 #: Colours of time, dark at first.
 _COLOURS = matplotlib.colormaps["viridis"]
@@ -63,6 +65,14 @@ def read_loops(
     return Loops(model, cases, histories, solver)
 
 
+def from_files(
+    summary: Path, onset: Path, indices: Sequence[Path], equivalent: Path, reduction: str
+) -> Figure:
+    """Draw the loops of cases A and B."""
+    i_star = float(read_dataset(equivalent)["i_star"].sel(reduction=reduction))
+    return draw(read_loops(pd.read_csv(summary), pd.read_csv(onset), result_files(indices), i_star))
+
+
 def draw(loops: Loops) -> Figure:
     """Draw c_l over theta (top) and d theta/dt* over theta (bottom) of case A and of case B."""
     figure = Figure(figsize=(PAGE_WIDTH, 5.6))
@@ -74,7 +84,7 @@ def draw(loops: Loops) -> Figure:
         title = name
         if case and case.exists and loops.model:
             label = LOOKS[loops.model].label
-            title = f"{name}: {label}, {case.axis.on_paper(case.value)}, {in_words(case.regime)}"
+            title = f"{name}: {label}, {case.axis.typeset(case.value)}, {in_words(case.regime)}"
         letter(top, "ab"[column], title)
         letter(bottom, "cd"[column], f"{name}, phase portrait")
         if case is None or history is None or history.time.size < 3:

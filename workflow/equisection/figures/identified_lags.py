@@ -1,4 +1,4 @@
-"""What the identified lags are worth: numbers of releases over k*, by CFD and by the model."""
+"""Judgement of the identified lags: numbers of releases over k*, by CFD and by the model."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def draw(
     Parameters
     ----------
     judgements
-        What each release was used for, and its judgement.
+        Use of each release, and its judgement.
     fitted_to
         The use of the releases that the lags were fitted to.
     label

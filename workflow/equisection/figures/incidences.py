@@ -1,4 +1,4 @@
-"""Which of the incidences that there are a figure shows."""
+"""Choice of the incidences that a figure shows."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Sequence
 def nearest_incidences(available_deg: Sequence[float], wanted_deg: Sequence[float]) -> list[float]:
     """Return the incidences (deg) nearest to those wanted, each once, ascending.
 
-    Of two that are as near the larger one is taken: at zero there is nothing to see.
+    Of two that are equally near the larger one is taken, since at zero there is nothing to see.
     """
     if not available_deg:
         return []

@@ -1,8 +1,9 @@
-"""What Figs. 13 and 14 share: a coefficient of section, root and beam, and its correction."""
+"""A coefficient of section, root and beam over incidence, and its correction factor."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -13,12 +14,13 @@ from equisection.figures.models import Look
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.style import BLACK, BLUE, GREY, PAGE_WIDTH, PURPLE, VERMILLION
+from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import at_resolution
 
 
 @dataclass(frozen=True)
 class Coefficient:
-    """A coefficient, by its names in the files and on paper."""
+    """A coefficient, by its names in files and its symbols."""
 
     name: str  # in the polars
     factor: str  # in the correction
@@ -35,6 +37,13 @@ class SteadyData:
     beam: xr.Dataset
     correction: xr.Dataset
     resolution: str
+
+
+def read_steady(polar_2d: Path, polar_3d: Path, correction: Path, resolution: str) -> SteadyData:
+    """Read the two polars and the correction between them."""
+    return SteadyData(
+        read_dataset(polar_2d), read_dataset(polar_3d), read_dataset(correction), resolution
+    )
 
 
 def draw_correction(data: SteadyData, coefficient: Coefficient) -> Figure:

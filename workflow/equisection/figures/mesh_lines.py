@@ -1,4 +1,4 @@
-"""Lines of a mesh in a window, and what a check says of the mesh, in words."""
+"""Lines of a mesh in a window, and its quality in words."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def draw_lines(axes: Axes, lines: Floats, low: Floats, high: Floats) -> None:
     Parameters
     ----------
     axes
-        Where to.
+        Axes to draw on.
     lines : (k, 2, 2) array
         Ends of the lines.
     low, high : (2,) array
@@ -36,7 +36,7 @@ def draw_lines(axes: Axes, lines: Floats, low: Floats, high: Floats) -> None:
 
 
 def quality_in_words(attributes: Mapping[Any, Any]) -> str:
-    """Return what the mesh generator's check found."""
+    """Return the numbers of the mesh generator's check as a sentence."""
     return (
         f"aspect ratio up to {attributes['max_aspect_ratio']:.0f}, non-orthogonality up to "
         f"{attributes['max_non_orthogonality_deg']:.0f} deg, skewness up to "

@@ -1,8 +1,10 @@
-"""Fig. 9: meshes of the plate: that of the solid, and that of the flow around it."""
+"""Meshes of the beam: that of the solid, and that of the flow around it."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -14,6 +16,7 @@ from equisection.figures.mesh_lines import draw_lines, quality_in_words
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, say, without_data
 from equisection.figures.style import BLACK, BLUE, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
 from equisection.results.plane_mesh import edges
 
 Floats = NDArray[np.float64]
@@ -24,6 +27,12 @@ PLATE, LEADING_EDGE = np.array([0.75, 0.5]), np.array([0.09, 0.06])
 ON_PLATE = 1e-6
 
 
+def from_files(plate_mesh: Path, method: str, elements: Mapping[str, int]) -> Figure:
+    """Draw ``steady/plate_mesh.nc``, and the mesh of the solid that the configuration asks for."""
+    counts = (elements["chord"], elements["span"], elements["thickness"])
+    return draw(read_dataset(plate_mesh), method, counts)
+
+
 def draw(grid: xr.Dataset, method: str, elements: tuple[int, int, int]) -> Figure:
     """Draw solid and flow seen from above (top), and the flow in the plane (below).
 
@@ -32,7 +41,7 @@ def draw(grid: xr.Dataset, method: str, elements: tuple[int, int, int]) -> Figur
     grid
         ``steady/plate_mesh.nc``.
     method
-        How the modes are computed, ``structure.method``.
+        Method by which the modes are computed, ``structure.method``.
     elements
         Elements along chord, span and thickness, ``structure.elements``.
     """

@@ -1,8 +1,9 @@
-"""Fig. 5: the mesh of the section, from the whole channel to the leading edge."""
+"""Mesh of the section, from the whole channel to the leading edge."""
 
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -12,10 +13,16 @@ from equisection.figures.mesh_lines import draw_lines, quality_in_words
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, without_data
 from equisection.figures.style import PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
 from equisection.results.plane_mesh import edges
 
 #: Half widths of the near field and of the leading edge's detail (chords).
 NEAR_FIELD, LEADING_EDGE = (0.95, 0.55), (0.055, 0.042)
+
+
+def from_files(section_mesh: Path) -> Figure:
+    """Draw ``steady/section_mesh.nc``."""
+    return draw(read_dataset(section_mesh))
 
 
 def draw(mesh: xr.Dataset) -> Figure:

@@ -1,8 +1,10 @@
-"""Fig. 15: how much each mode adds to the mean deformation of the beam at the reference case."""
+"""Part of each mode in the mean deformation of the beam at its stiffest case."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -12,12 +14,15 @@ from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
 from equisection.figures.origin import add_provenance, solver_of
-from equisection.figures.panels import letter, say
+from equisection.figures.panels import letter, say, without_data
 from equisection.figures.style import COLOURS, DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
 
 Floats = NDArray[np.float64]
 
-#: Modes that are shown, as in the paper.
+#: Modes that are shown.
 COUNT = 4
 
 
@@ -30,9 +35,9 @@ class ModalParts:
     span : (m,) array
         z/L.
     parts : (n, m) array
-        What each mode adds, rad or chords.
+        Part of each mode, rad or chords.
     amplitudes : (n,) array
-        Mean amplitude of each mode, that is what it adds where its shape is 1.
+        Mean amplitude of each mode, that is its part where its shape is 1 (rad or chords).
     """
 
     span: Floats
@@ -69,6 +74,15 @@ def modal_parts(modes: xr.Dataset, run: xr.Dataset, kind: str) -> ModalParts | N
     )
 
 
+def from_files(modes: Path, index_of_beam: Sequence[Path]) -> Figure:
+    """Draw the part of each mode in the deformation of the stiffest beam that was run."""
+    (index,) = index_of_beam
+    case = plan.stiffest_case(read_index(index))
+    if case is None:
+        return without_data("There is no run of the beam.")
+    return draw(read_dataset(modes), read_dataset(result_file(index, case)))
+
+
 def draw(modes: xr.Dataset, run: xr.Dataset) -> Figure:
     """Draw the deformation along the span by modes, and the size of each mode's part.
 
@@ -77,7 +91,7 @@ def draw(modes: xr.Dataset, run: xr.Dataset) -> Figure:
     modes
         ``structure/modes.nc``.
     run
-        Result of the beam at the reference case.
+        Result of the beam at one k*.
     """
     figure = Figure(figsize=(PAGE_WIDTH, 4.6))
     panels = figure.subplots(2, 2, height_ratios=(1.0, 0.8))

@@ -1,8 +1,11 @@
-"""Fig. 3: the shapes of the first modes along the span, with the analytic beam's beside."""
+"""Shapes of the first modes along the span, with those of the analytic beam."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -15,12 +18,13 @@ from equisection.beam.beam import Beam
 from equisection.figures.origin import add_provenance
 from equisection.figures.panels import letter, say
 from equisection.figures.style import COLOURS, DASHES, GREY, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
 from equisection.structure import analytic
 from equisection.structure.span import normalise
 
 Floats = NDArray[np.float64]
 
-#: Modes of either kind that are shown, as in the paper.
+#: Modes of either kind that are shown.
 COUNT = 4
 _STATIONS = 201
 
@@ -50,6 +54,11 @@ def analytic_shapes(beam: Beam) -> AnalyticShapes:
         normalise(analytic.bending_modes(beam, span, COUNT)[1]),
         normalise(analytic.torsion_modes(beam, span, COUNT)[1]),
     )
+
+
+def from_files(modes: Path, beam: Mapping[str, Any]) -> Figure:
+    """Draw ``structure/modes.nc`` of a beam, given by the configuration's section."""
+    return draw(read_dataset(modes), analytic_shapes(Beam(**beam)))
 
 
 def draw(modes: xr.Dataset, beam: AnalyticShapes) -> Figure:

@@ -1,4 +1,4 @@
-"""How each model of the sweep looks: its own colour, marker and line in every figure."""
+"""Look of each model of the sweep: its own colour, marker and line in every figure."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from equisection.figures.style import BLACK, BLUE, GREEN, ORANGE, PURPLE, SKY, V
 
 @dataclass(frozen=True)
 class Look:
-    """Name on paper, colour, marker and line of a model or another series."""
+    """Name in legends, colour, marker and line of a model or another series."""
 
     label: str
     colour: str

@@ -1,4 +1,4 @@
-"""Which models of a sweep have their histories shown. The rules ask too, so this loads nothing."""
+"""Models of a sweep that have their histories shown. The rules ask too, so this loads nothing."""
 
 from __future__ import annotations
 

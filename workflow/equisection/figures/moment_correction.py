@@ -1,12 +1,24 @@
-"""Fig. 14: moment of section, root and beam over incidence, and the factor c_m/C_M."""
+"""Moment of section, root and beam over incidence, and the factor c_m/C_M."""
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from matplotlib.figure import Figure
 
-from equisection.figures.load_correction import Coefficient, SteadyData, draw_correction
+from equisection.figures.load_correction import (
+    Coefficient,
+    SteadyData,
+    draw_correction,
+    read_steady,
+)
 
 MOMENT = Coefficient("cm", "moment_factor", "c_m", "C_M", "moment about mid-chord")
+
+
+def from_files(polar_2d: Path, polar_3d: Path, correction: Path, resolution: str) -> Figure:
+    """Draw ``steady/polar_2d.nc``, ``polar_3d.nc`` and ``correction.nc`` at a resolution."""
+    return draw(read_steady(polar_2d, polar_3d, correction, resolution))
 
 
 def draw(data: SteadyData) -> Figure:

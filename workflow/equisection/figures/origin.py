@@ -1,4 +1,4 @@
-"""The line in every picture that says which solver and which resolution made it."""
+"""The line in every picture that names its solver and resolution."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ def add_provenance(figure: Figure, *sources: str) -> None:
 
 
 def solver_of(description: str, resolution: str) -> str:
-    """Say what solver, at what resolution, in words."""
+    """Return solver and resolution in words."""
     return f"{description}, resolution {resolution}"
 
 
 def solvers_of(pairs: Iterable[tuple[str, str]]) -> tuple[str, ...]:
-    """Say each solver and resolution once, in the order in which they come."""
+    """Return each solver and resolution once in words, in the order in which they come."""
     return tuple(dict.fromkeys(solver_of(*pair) for pair in pairs))
 
 

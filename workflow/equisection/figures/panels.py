@@ -1,4 +1,4 @@
-"""What panels share: their letters, and the sentence that stands where there is no data."""
+"""Parts that panels share: their letters, and the sentence in the place of missing data."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from equisection.figures.style import GREY, PAGE_WIDTH
 
 
 def letter(axes: Axes, name: str, title: str = "") -> None:
-    """Write the panel's letter, as in "(a)", and what it shows, above its left edge."""
+    """Write the panel's letter, as in "(a)", and its title above its left edge."""
     axes.set_title(f"({name})  {title}".rstrip(), loc="left", pad=5.0)
 
 
 def say(axes: Axes, sentence: str, width: int = 38) -> None:
-    """Leave the panel empty, with a plain sentence that says why."""
+    """Leave the panel empty, with a plain sentence that gives the reason."""
     axes.text(
         0.5,
         0.5,
@@ -33,14 +33,14 @@ def say(axes: Axes, sentence: str, width: int = 38) -> None:
 
 
 def without_data(sentence: str) -> Figure:
-    """Return a figure of one empty panel, with a plain sentence that says why."""
+    """Return a figure of one empty panel, with a plain sentence that gives the reason."""
     figure = Figure(figsize=(PAGE_WIDTH, 1.6))
     say(figure.subplots(), sentence, width=90)
     return figure
 
 
 def in_words(regime: str) -> str:
-    """Return the name of a regime as it stands in a sentence."""
+    """Return the name of a regime for a sentence."""
     return regime.replace("-", " ")
 
 

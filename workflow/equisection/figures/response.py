@@ -1,4 +1,4 @@
-"""Fig. 16: mean deformation over k* for every model, and histories of the twist."""
+"""Mean deformation over k* for every model, and histories of the twist."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
+from equisection.config.groups import FREE_TIP
 from equisection.figures.cases_shown import (
     BEAM_LETTERS,
     SECTION_LETTERS,
@@ -30,6 +31,8 @@ from equisection.figures.models_shown import beam_model, section_model
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.panels import in_words, letter, say
 from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
+from equisection.store.index import result_files
 from equisection.study.axes import Axis, onset_axis_among
 
 #: Where twist and deflection are: where the first mode of each is largest, at a free tip or inside.
@@ -60,7 +63,7 @@ _EXTENT: dict[str, Any] = {
 
 @dataclass(frozen=True)
 class Response:
-    """Everything that the figure shows.
+    """All that the figure shows.
 
     Attributes
     ----------
@@ -73,9 +76,9 @@ class Response:
     extents
         Range of the section's motion by the value on the axis of the onset, where it is bounded.
     place
-        Where along the beam twist and deflection are, in words.
+        Place along the beam of twist and deflection, in words.
     reduction
-        Of models that don't name theirs, ``consistent`` or ``paper``.
+        Reduction of models that do not name theirs, ``consistent`` or ``paper``.
     """
 
     summary: pd.DataFrame
@@ -123,6 +126,29 @@ def read_response(
             values = bounded[axis.name].sort_values().iloc[::apart]
             extents = {value: read_extent(result_at(files, value, axis)) for value in values}
     return Response(summary, onset, cases, histories, extents, place, reduction)
+
+
+def from_files(
+    summary: Path,
+    onset: Path,
+    indices: Sequence[Path],
+    equivalent: Path,
+    *,
+    reduction: str,
+    boundary: str,
+) -> Figure:
+    """Draw the means of all models, and the histories of the chosen cases."""
+    i_star = float(read_dataset(equivalent)["i_star"].sel(reduction=reduction))
+    place = AT_THE_TIP if boundary in FREE_TIP else WHERE_LARGEST
+    response = read_response(
+        pd.read_csv(summary),
+        pd.read_csv(onset),
+        result_files(indices),
+        i_star,
+        place=place,
+        reduction=reduction,
+    )
+    return draw(response)
 
 
 def draw(response: Response) -> Figure:
@@ -272,7 +298,7 @@ def _history(axes: Axes, place: str, case: ShownCase, history: History | None, l
         letter(axes, place, f"{case.letter}: {look.label}")
         say(axes, f"No case {case.letter}: {case.regime}.", 24)
         return
-    outcome = f"{case.axis.on_paper(case.value)}, {in_words(case.regime)}"
+    outcome = f"{case.axis.typeset(case.value)}, {in_words(case.regime)}"
     letter(axes, place, f"{case.letter}: {look.label}\n{outcome}")
     if history.time.size == 0:
         say(axes, "The run left no history: it diverged.", 24)

@@ -36,7 +36,7 @@ def save_figure(figure: Figure, paths: Sequence[Path]) -> None:
     Raises
     ------
     FigureFormatError
-        A suffix is none of ``.png``, ``.svg`` and ``.pdf``.
+        A suffix is not ``.png``, ``.svg`` or ``.pdf``.
     """
     figure.draw_without_rendering()  # lays the panels out, which costs more than drawing them
     with matplotlib.rc_context({"figure.constrained_layout.use": False}):

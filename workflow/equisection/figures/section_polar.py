@@ -1,12 +1,14 @@
-"""Fig. 6: lift and moment of the rigid section over incidence, at each resolution.
+"""Lift and moment of the rigid section over incidence, at each resolution.
 
-With a grid study, their grid convergence index and observed order stand below, where they are not
-nil by symmetry.
+With a grid study, their grid convergence index and observed order are below, where they are not nil
+by symmetry.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from pathlib import Path
 
 import numpy as np
 import pandas as pd
@@ -18,10 +20,16 @@ from matplotlib.ticker import LogLocator, NullFormatter
 from equisection.figures.origin import add_provenance
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.style import COLOURS, DASHES, GREY, MARKERS, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
+
+
+def from_files(polar_2d: Path, grid_study: Sequence[Path]) -> Figure:
+    """Draw ``steady/polar_2d.nc``; ``grid_study`` is one table, or none."""
+    return draw(read_dataset(polar_2d), *(pd.read_csv(path) for path in grid_study))
 
 
 def draw(polar: xr.Dataset, grid_study: pd.DataFrame | None = None) -> Figure:
-    """Draw c_l (left) and c_m (right) at every resolution, and how sure they are.
+    """Draw c_l (left) and c_m (right) at every resolution, and their grid convergence (below).
 
     Parameters
     ----------

@@ -1,6 +1,8 @@
-"""Fig. 10: lift and moment along the span of the rigid beam at low and moderate incidence."""
+"""Lift and moment along the span of the rigid beam at low and moderate incidence."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import numpy as np
 import xarray as xr
@@ -11,14 +13,20 @@ from equisection.figures.incidences import nearest_incidences
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, say, without_data
 from equisection.figures.style import COLOURS, DASHES, GREY, MARKERS, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import at_resolution
 
-#: Two low incidences and a moderate one (deg), as in the paper.
+#: Two low incidences and a moderate one (deg).
 WANTED_DEG = (1.0, 2.5, 7.0)
 
 
+def from_files(polar_3d: Path, resolution: str) -> Figure:
+    """Draw ``steady/polar_3d.nc`` at a resolution."""
+    return draw(read_dataset(polar_3d), resolution)
+
+
 def draw(polar: xr.Dataset, resolution: str) -> Figure:
-    """Draw c_l (left) and c_m (right) over z/L, with the beam's C_L and C_M beside.
+    """Draw c_l (left) and c_m (right) over z/L, with the beam's C_L and C_M.
 
     Parameters
     ----------

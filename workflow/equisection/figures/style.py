@@ -1,4 +1,4 @@
-"""The look of every figure: the style file, widths, and colours by their names."""
+"""Style of every figure: the style file, widths, and colours by their names."""
 
 from __future__ import annotations
 

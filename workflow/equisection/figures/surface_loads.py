@@ -1,8 +1,9 @@
-"""Fig. 7: y+, pressure and friction along both sides of the section, and its bubble's length."""
+"""y+, pressure and friction along both sides of the section, and the length of its bubble."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 
 import pandas as pd
 from matplotlib.axes import Axes
@@ -12,8 +13,12 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.panels import letter, say
+from equisection.figures.references import read_references
 from equisection.figures.style import BLUE, COLOURS, DASHES, GREY, MARKERS, PAGE_WIDTH
-from equisection.results.surface import SectionSurface, suction_side
+from equisection.results.netcdf import read_dataset
+from equisection.results.surface import SectionSurface, suction_side, surface_from_dataset
+from equisection.store.index import result_file
+from equisection.study import plan
 
 #: Incidences (deg) that are shown beside the run's own.
 WANTED_DEG = (1.0, 5.0, 10.0)
@@ -28,11 +33,30 @@ def incidences_shown(available_deg: Sequence[float], own_deg: float) -> list[flo
     return sorted({*WANTED_DEG, own_deg} & set(available_deg))
 
 
+def from_files(
+    index: Path,
+    bubble: Path,
+    references: Sequence[Path],
+    resolution: str,
+    incidence_deg: float,
+) -> Figure:
+    """Draw the results at a resolution, at the incidence of the run (deg) and others."""
+    table = pd.read_csv(bubble)
+    there = table[(table["resolution"] == resolution) & table["bubble"].notna()]
+    surfaces = {}
+    for angle in incidences_shown(there["incidence_deg"].tolist(), incidence_deg):
+        result = read_dataset(result_file(index, plan.rigid_case(resolution, angle)))
+        surface = surface_from_dataset(result)
+        if surface is not None:
+            surfaces[angle] = surface
+    return draw(surfaces, table, resolution, read_references(references, "bubble"))
+
+
 def draw(
     surfaces: Mapping[float, SectionSurface],
     bubble: pd.DataFrame,
     resolution: str,
-    stated: Mapping[float, float],
+    stated: pd.DataFrame,
 ) -> Figure:
     """Draw y+ (a), c_p (b) and c_f (c) over x/c, and the bubble over incidence (d).
 
@@ -45,8 +69,8 @@ def draw(
     resolution
         The resolution of the run.
     stated
-        The bubble's length over the chord by incidence (deg) as the paper states it, if this is
-        its case.
+        Further lengths of the bubble over the chord to draw, by incidence (deg), as
+        :func:`read_references` returns them.
     """
     figure = Figure(figsize=(PAGE_WIDTH, 5.2))
     panels = figure.subplots(2, 2).ravel()
@@ -126,7 +150,7 @@ def _legend(surfaces: Mapping[float, SectionSurface], bubble: pd.DataFrame) -> l
     return [*angles, *sides]
 
 
-def _bubble(axes: Axes, bubble: pd.DataFrame, stated: Mapping[float, float]) -> None:
+def _bubble(axes: Axes, bubble: pd.DataFrame, stated: pd.DataFrame) -> None:
     known = bubble[bubble["bubble"].notna()]
     if known.empty:
         say(axes, "No result has surface data.")
@@ -141,15 +165,15 @@ def _bubble(axes: Axes, bubble: pd.DataFrame, stated: Mapping[float, float]) -> 
             fillstyle="full" if number == 0 else "none",
             label=str(resolution),
         )
-    if stated:
+    for label, values in stated.groupby("label", sort=False):
         axes.plot(
-            list(stated),
-            list(stated.values()),
+            values["at"],
+            values["value"],
             linestyle="none",
             color=BLUE,
             marker="*",
             markersize=9,
-            label="stated in the paper",
+            label=str(label),
         )
     axes.set(xlabel=r"$\theta$ (deg)", ylabel="reattachment $x/c$", ylim=(0.0, 1.05))
     axes.legend(loc="best")

@@ -1,29 +1,34 @@
-"""Fig. 11: pressure and lines of the wall shear stress on both sides of the rigid plate."""
+"""Pressure and lines of the wall shear stress on both sides of the rigid beam."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
+import scipy
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
-from scipy.interpolate import griddata
 
-from equisection.figures.origin import add_provenance
+from equisection.figures.incidences import nearest_incidences
+from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, say
 from equisection.figures.style import BLACK, PAGE_WIDTH, VERMILLION
-from equisection.results.plate_surface import PlateSurface
+from equisection.results.netcdf import read_dataset
+from equisection.results.plate_surface import PlateSurface, plate_surface_from_dataset
 from equisection.results.surface import suction_side
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
 
 Floats = NDArray[np.float64]
 
-#: Incidences (deg) that are shown, or those nearest: two that the paper has bubbles of, and one
-#: beyond.
+#: Incidences (deg) that are shown, or those nearest: two of a short and a long bubble, and one
+#: beyond stall.
 WANTED_DEG = (2.0, 4.0, 10.0)
 #: Distance of the points of the regular grid (chords), and part of the faces that is left out of
 #: the scale at either end.
@@ -34,7 +39,7 @@ ROUNDING = 1e-5
 
 @dataclass(frozen=True)
 class ShownSurface:
-    """Surface data of the plate at an incidence, and how they were obtained."""
+    """Surface data of the plate at an incidence, and their origin."""
 
     surface: PlateSurface
     method: str
@@ -65,7 +70,9 @@ def on_grid(faces: PlateSurface) -> Side:
     z, x = _middles(span), _middles(1.0)
     grid = np.meshgrid(_within(z, faces.z), _within(x, faces.x))
     values = np.stack([faces.pressure, faces.friction, faces.spanwise_friction], axis=-1)
-    there = griddata(np.stack([faces.z, faces.x], axis=-1), values, tuple(grid), method="linear")
+    there = scipy.interpolate.griddata(
+        np.stack([faces.z, faces.x], axis=-1), values, tuple(grid), method="linear"
+    )
     return Side(z, x, there[..., 0], there[..., 1], there[..., 2])
 
 
@@ -79,17 +86,34 @@ def _within(places: Floats, known: Floats) -> Floats:
     return np.clip(places, known.min() + ROUNDING, known.max() - ROUNDING)
 
 
+def from_files(index_of_rigid: Path, resolution: str) -> Figure:
+    """Draw the results at a resolution, at the incidences nearest to those wanted."""
+    names = {plan.rigid_point(name): name for name in read_index(index_of_rigid)}
+    found, without, source = {}, [], ""
+    for (_, angle), name in sorted(item for item in names.items() if item[0][0] == resolution):
+        result = read_dataset(result_file(index_of_rigid, name))
+        source = solver_of(str(result.attrs["solver_description"]), resolution)
+        surface = plate_surface_from_dataset(result)
+        if surface is None:
+            without.append(f"{angle:g}")
+        else:
+            found[angle] = ShownSurface(surface, str(result.attrs["method"]))
+    shown = {angle: found[angle] for angle in nearest_incidences(list(found), WANTED_DEG)}
+    missing = [f"no surface data at {', '.join(without)} deg"] if without else []
+    return draw(shown, missing, source)
+
+
 def draw(surfaces: Mapping[float, ShownSurface], missing: Sequence[str], source: str) -> Figure:
     """Draw the pressure side (left) and the suction side (right) at each incidence.
 
-    The title of a suction side says where its bubble ends in the layer at the root.
+    The title of a suction side has the end of its bubble in the layer at the root.
 
     Parameters
     ----------
     surfaces
         Surface data by incidence (deg), ascending.
     missing
-        What is known of incidences that have none, a sentence each.
+        Incidences that have none, a sentence each with the reason.
     source
         Solver and resolution, in words.
     """

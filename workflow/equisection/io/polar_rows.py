@@ -22,6 +22,9 @@ MID_CHORD = 0.5
 
 #: Lines of a text file without blanks at their ends, each with its number from 1.
 Lines = Sequence[tuple[int, str]]
+#: How a comment begins that says what beam and flow a polar is of.
+_VALID_FOR = "# Valid for:"
+_TRUTH = {"true": True, "false": False}
 
 
 @dataclass(frozen=True)
@@ -109,6 +112,33 @@ class PolarRows:
     format: PolarFormat
 
 
+def read_validity(path: Path) -> dict[str, float | bool]:
+    """Return what beam and flow a polar says that it is of, by name; nothing if it does not say.
+
+    The file says so in comments that begin with ``# Valid for:``, as in
+    ``# Valid for: L/c 3.7, flow.root_on_wall true``.
+
+    Raises
+    ------
+    PolarFileError
+        The file cannot be read, or such a comment cannot.
+    """
+    valid: dict[str, float | bool] = {}
+    for number, text in text_lines(path):
+        if not text.startswith(_VALID_FOR):
+            continue
+        for entry in filter(None, map(str.strip, text.removeprefix(_VALID_FOR).split(","))):
+            name, _, value = entry.rpartition(" ")
+            try:
+                valid[name] = _TRUTH[value] if value in _TRUTH else float(value)
+            except ValueError:
+                raise PolarFileError(
+                    f"{path}, line {number}: {entry!r} behind '{_VALID_FOR}'; wanted a name and a "
+                    "number, true or false, as in 'h/c 0.04'"
+                ) from None
+    return valid
+
+
 def text_lines(path: Path) -> Lines:
     """Return the lines of a text file.
 
@@ -134,7 +164,7 @@ def number(path: Path, line: int, name: str, text: str) -> float:
     Raises
     ------
     PolarFileError
-        It is none.
+        The value is not one.
     """
     try:
         value = float(text)

@@ -1,4 +1,4 @@
-"""What keys must agree on: checks that name the keys they read.
+"""Checks of keys that have to agree; each names the keys it reads.
 
 A check runs only when all of its keys hold allowed values, so that a mistake is reported once
 and the other checks still speak.
@@ -51,7 +51,7 @@ _CHECKS: list[tuple[tuple[str, ...], Check]] = []
 
 
 def check(*keys: str) -> Callable[[Check], Check]:
-    """Register a check; it is given the values of its keys, in their order."""
+    """Register a check, which is called with the values of its keys, in their order."""
 
     def register(function: Check) -> Check:
         _CHECKS.append((keys, function))
@@ -61,7 +61,7 @@ def check(*keys: str) -> Callable[[Check], Check]:
 
 
 def disagreements(config: object, wrong: Collection[Path] = ()) -> list[Problem]:
-    """Return what the checks find, leaving out those that read a key which is wrong itself."""
+    """Return the problems that the checks find, without checks of a key that is wrong itself."""
     found: list[Problem] = []
     for keys, function in _CHECKS:
         paths = [tuple(key.split(".")) for key in keys]
@@ -71,7 +71,7 @@ def disagreements(config: object, wrong: Collection[Path] = ()) -> list[Problem]
 
 
 def disagreements_within(name: str, group: object) -> list[Problem]:
-    """Return what the checks find that read keys of one group alone, by the group's name."""
+    """Return the problems found by the checks that read keys of one group alone, by its name."""
     whole = SimpleNamespace(**{name: group})
     found: list[Problem] = []
     for keys, function in _CHECKS:

@@ -1,4 +1,4 @@
-"""Files of a configuration: read as YAML or JSON, and whatever is wrong with one said in a line."""
+"""Files of a configuration, read as YAML or JSON, with one line for each fault."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def read_config_file(path: Path) -> dict[str, Any]:
     ------
     ConfigError
         The file is missing, a folder, not in UTF-8, neither YAML nor JSON, or holds no sections,
-        in one line with file, line and column; or keys stand twice, with one line for each.
+        in one line with file, line and column; or keys occur twice, with one line for each.
     """
     text = _text(path)
     try:
@@ -59,7 +59,7 @@ def read_config_file(path: Path) -> dict[str, Any]:
 
 
 def check_config_files(paths: Iterable[Path]) -> None:
-    """Refuse files of the configuration that cannot be read as one, and keys that stand twice.
+    """Refuse files that cannot be read as a configuration, and keys that occur twice.
 
     Raises
     ------
@@ -150,7 +150,7 @@ def _stands_twice(path: Path, key: str, first: int, again: int) -> str:
 def _repeated(
     node: yaml.Node | None, above: str = "", seen: set[int] | None = None
 ) -> Iterator[tuple[str, int, int]]:
-    """Give the path of each key that stands twice, with both of its lines: YAML takes the last.
+    """Give the path of each key that occurs twice, with both of its lines: YAML takes the last.
 
     A node that aliases repeat is looked at once: there may be billions of them.
     """

@@ -23,7 +23,7 @@ class KeyGroup(BaseModel):
         name
             Name of the section.
         info
-            Of the validation.
+            Context of the validation, from pydantic.
 
         Raises
         ------

@@ -12,8 +12,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.motion.march import Failure, Monitor, Progress, Recording, march
@@ -96,7 +96,10 @@ class BeamParameters:
         omega_i^2 times that; its damping is 2 zeta omega_i times that, viscous. Frequencies are
         those of the modes without imbalance; this couples them by S_ij = S int f_i g_j dz/L.
         """
-        torsion, bending = CubicSpline(span, torsion_shapes.T), CubicSpline(span, bending_shapes.T)
+        torsion, bending = (
+            scipy.interpolate.CubicSpline(span, torsion_shapes.T),
+            scipy.interpolate.CubicSpline(span, bending_shapes.T),
+        )
         torsion_inertia = np.outer(inertia, _square_integral(span, torsion_shapes))
         bending_mass = np.outer(mass, _square_integral(span, bending_shapes))
         across = _product_integral(span, torsion_shapes, bending_shapes)
@@ -128,13 +131,17 @@ class BeamParameters:
 
 
 def _square_integral(span: Floats, shapes: Floats) -> Floats:
-    return np.asarray(CubicSpline(span, (shapes**2).T).integrate(0.0, 1.0), dtype=np.float64)
+    return np.asarray(
+        scipy.interpolate.CubicSpline(span, (shapes**2).T).integrate(0.0, 1.0), dtype=np.float64
+    )
 
 
 def _product_integral(span: Floats, torsion: Floats, bending: Floats) -> Floats:
     """Integrals of f_i g_j over z/L, shape (n_t, n_b)."""
     products = torsion[:, None, :] * bending[None, :, :]
-    return np.asarray(CubicSpline(span, products, axis=-1).integrate(0.0, 1.0), dtype=np.float64)
+    return np.asarray(
+        scipy.interpolate.CubicSpline(span, products, axis=-1).integrate(0.0, 1.0), dtype=np.float64
+    )
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ k method
 p-k method
     (p^2 M + p sqrt(s) C + s K - Q(Im p)) q = 0, iterated until Q is that of the frequency found
     (Hassig, Journal of Aircraft 8, 1971). Re p is the growth rate (V/c), exact where it is zero.
-    Both motions are followed from where the air is no more than a mass on them, in steps of s that
-    are the same whatever s is asked for, so that they keep apart.
+    Both motions are followed from an s at which the air acts as a mass alone. The steps of s do not
+    depend on the s that are asked for, so that the motions are not confused.
 """
 
 from __future__ import annotations
@@ -30,8 +30,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
 from equisection.beam.section import Section
@@ -85,7 +85,7 @@ class FlutterEquations:
 
     @cached_property
     def is_damped(self) -> bool:
-        """Whether there are dampers."""
+        """Presence of dampers."""
         return bool(self.damping.any())
 
 
@@ -188,7 +188,7 @@ def _neutral_between(
     def followed(omega: float) -> complex:
         return _nearest(_scales(equations, omega), start)
 
-    omega = float(brentq(lambda value: followed(value).imag, low, high, xtol=1e-13))
+    omega = float(scipy.optimize.brentq(lambda value: followed(value).imag, low, high, xtol=1e-13))
     scale = followed(omega)
     is_root = abs(scale.imag) < 1e-6 * abs(scale) and scale.real > 0.0
     return Neutral(scale.real, omega) if is_root else None
@@ -225,8 +225,8 @@ def growth_and_frequency(section: Section, scales: Floats) -> Complexes:
     """Return p of both motions at each s by the p-k method, shape (n, 2).
 
     Re p is the growth rate (V/c), Im p = omega c/V >= 0. The first column is the motion that is
-    heave in vacuum, the second the one that is pitch. What is found at one s does not depend on
-    the others that are asked for.
+    heave in vacuum, the second the one that is pitch. The result at one s does not depend on the
+    others that are asked for.
 
     Parameters
     ----------

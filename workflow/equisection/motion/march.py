@@ -22,8 +22,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 from equisection.motion.strip_system import StripSystem
 
@@ -54,7 +54,7 @@ class Failure:
 
 @dataclass
 class Recording:
-    """What is recorded of N lanes, in the order of the rows of the output matrix.
+    """Recorded output of N lanes, in the order of the rows of the output matrix.
 
     Parameters
     ----------
@@ -103,7 +103,7 @@ def _stepper(system: StripSystem, step: float) -> _Stepper:
     exponent = np.zeros((lanes, columns + m, columns + m))
     exponent[:, :n, :columns] = step * system.rates
     exponent[:, n : n + m, columns:] = np.eye(m)  # u grows by its change over the step
-    phi = np.stack([expm(matrix) for matrix in exponent])[:, :n]
+    phi = np.stack([scipy.linalg.expm(matrix) for matrix in exponent])[:, :n]
     from_new = phi[:, :, columns:]
     from_old = phi[:, :, :columns].copy()
     from_old[:, :, n : n + m] -= from_new

@@ -1,4 +1,4 @@
-r"""Modes of a structure under loads that someone else computes, one step at a time.
+r"""Modes of a structure under loads from a flow solver, one step at a time.
 
 Undamped modes of unit shape,
 
@@ -12,10 +12,10 @@ is known in closed form (Duhamel's integral; c = cos omega h, s = sin omega h):
 
 so the structure has neither numerical damping nor an error of its period, at any step.
 
-The load at the end of a step is not known before the flow has been solved there. It is guessed by
-extrapolation, the flow is solved around the place that follows, and the structure's own state is
-then taken again with the load that came out (:class:`Staggered`). What the flow saw differs from
-it by O(h^4) where loads are smooth: both sides together are of second order in the time step.
+The load at the end of a step is not known before the flow has been solved there. So it is
+extrapolated, the flow is solved around the position that follows, and the state of the structure is
+computed again with the load from the flow (:class:`Staggered`). The two positions differ by O(h^4)
+where loads are smooth: both sides together are of second order in the time step.
 """
 
 from __future__ import annotations
@@ -94,14 +94,14 @@ class Staggered:
 
     @property
     def proposed_position(self) -> Floats | None:
-        """Where the flow was last told that the modes are."""
+        """Position of the modes that the flow was given last."""
         return None if self._proposed is None else self._proposed.position
 
     def turn(self, time: float, load: Floats) -> Floats:
-        """Take the load that the flow has come to, and return where the modes are at ``time``.
+        """Take the load that the flow has computed, and return the position of modes at ``time``.
 
         In the first turn of a step the load is that at its beginning, and the state there becomes
-        final; in a later one it is what the flow came to at the end of the step.
+        final. In a later turn it is the load at the end of the step.
         """
         if self._proposed is None:
             self.state = ModalState.at_rest(time - self._modes.step, load)
@@ -116,5 +116,5 @@ class Staggered:
         return self._proposed.position
 
     def is_new_step(self, time: float) -> bool:
-        """Tell whether a time is that of a step which has not been begun."""
+        """Tell whether a time belongs to a step that has not begun."""
         return self._proposed is None or time > self._proposed.time + 0.5 * self._modes.step

@@ -23,7 +23,7 @@ JUDGED_FROM = 20.0
 
 @dataclass(frozen=True)
 class ReleaseNumbers:
-    """What characterises one release.
+    """Numbers that characterise one release.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class ReleaseNumbers:
 
 @dataclass(frozen=True)
 class ReleaseJudgement:
-    """What a release was recorded to do and what the model's does, in the same time.
+    """A release as recorded and as modelled, over the same time.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class ReleaseJudgement:
 
     @property
     def same_side_of_onset(self) -> bool:
-        """Whether both grow or both decay; not so where one has no growth rate."""
+        """Tell whether both grow or both decay; False where one has no growth rate."""
         recorded, modelled = self.recorded.growth_rate, self.modelled.growth_rate
         known = math.isfinite(recorded) and math.isfinite(modelled)
         return known and (recorded > 0.0) == (modelled > 0.0)
@@ -101,7 +101,7 @@ def judgement_table(
     Parameters
     ----------
     judgements
-        What each release was used for, and its judgement.
+        Use of each release, and its judgement.
     """
     return [
         {

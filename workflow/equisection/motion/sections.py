@@ -82,7 +82,7 @@ def section_system(
     sections
         The sections in their flow (:meth:`equisection.beam.section.Section.in_flow`).
     loads, incidence_rad
-        What they are in.
+        Unsteady loads of the section's polar, and theta_0 (rad), one value or one per section.
     load_factors
         Factors of c_l and of c_m about mid-chord (-), shape (N, 2); None for 1.
 

@@ -218,7 +218,7 @@ class _Air:
 
     @property
     def attributes(self) -> dict[str, str | float]:
-        """Everything beside incidence and speed that decides the answer."""
+        """Return all that decides the answer but incidence and speed."""
         return {
             "density": self.density,
             "density_units": "kg m-3",

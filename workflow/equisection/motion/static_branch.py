@@ -1,4 +1,4 @@
-r"""Static equilibria of a section on the branch that comes from rest, and where it ends.
+r"""Static equilibria of a section on the branch that comes from rest, and the end of the branch.
 
 A section is in equilibrium at the incidence alpha = theta_0 + theta where its spring carries the
 moment of the polar about the elastic axis,
@@ -25,8 +25,8 @@ from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PPoly
 
 from equisection.aerodynamics.polar import Polar
 from equisection.motion.strip_system import StripSystem
@@ -58,9 +58,9 @@ class StaticBranch:
     stop
         Incidence (rad) at the end of the branch.
     end
-        What ends it there.
+        Kind of the end.
     k_star_end
-        k* at its end, the least that it has; 0 where it has none.
+        k* at the end, the lowest of the branch; 0 for a branch without an end.
     axis
         x_ea, chords from mid-chord back to the elastic axis.
     """
@@ -73,7 +73,7 @@ class StaticBranch:
     axis: float = 0.0
 
     @cached_property
-    def _moment(self) -> PPoly:
+    def _moment(self) -> scipy.interpolate.PPoly:
         return self.polar.moment_cubic_about(self.axis)
 
     @classmethod
@@ -141,11 +141,11 @@ def section_equilibrium(system: StripSystem, incidence_rad: Floats) -> tuple[Flo
     return states, system.deficits(alpha[:, None])
 
 
-def _fold_function(cubic: PPoly, start: float) -> PPoly:
+def _fold_function(cubic: scipy.interpolate.PPoly, start: float) -> scipy.interpolate.PPoly:
     """c_m - (alpha - theta_0) dc_m/dalpha, which vanishes where q has a maximum or minimum."""
     third, second, first, constant = cubic.c
     arm = cubic.x[:-1] - start
-    return PPoly(
+    return scipy.interpolate.PPoly(
         [
             -2.0 * third,
             -second - 3.0 * third * arm,
@@ -156,7 +156,7 @@ def _fold_function(cubic: PPoly, start: float) -> PPoly:
     )
 
 
-def _first(function: PPoly, start: float, way: float) -> float:
+def _first(function: scipy.interpolate.PPoly, start: float, way: float) -> float:
     """First zero beyond ``start`` in a direction, infinite where there is none."""
     zeros = np.asarray(function.roots(extrapolate=False), dtype=np.float64)
     beyond = zeros[np.isfinite(zeros) & (way * (zeros - start) > 0.0)]

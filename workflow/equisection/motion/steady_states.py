@@ -5,7 +5,7 @@ follow linearly from the deficits. Linearised about equilibrium the system is Y'
 
     J = A + B F (1 - E F)^-1 C,    F = du/dx,
 
-whose eigenvalues say whether, at which frequency and how fast a small oscillation grows.
+whose eigenvalues are growth rate and frequency of the small oscillations.
 """
 
 from __future__ import annotations

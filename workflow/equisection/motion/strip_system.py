@@ -106,7 +106,7 @@ class StripStructure:
 
     @property
     def is_offset(self) -> bool:
-        """Whether the elastic axis of a lane is off mid-chord."""
+        """Presence of a lane with its elastic axis off mid-chord."""
         return bool(self.axis.any())
 
     @property
@@ -127,7 +127,7 @@ class StripStructure:
 
 @dataclass(frozen=True)
 class StateLayout:
-    """Where each kind of state is in Y."""
+    """Places of each kind of state in Y."""
 
     torsion_modes: int
     bending_modes: int
@@ -145,28 +145,28 @@ class StateLayout:
 
     @property
     def twist(self) -> slice:
-        """Theta_i."""
+        """Place of Theta_i."""
         return slice(0, self.torsion_modes)
 
     @property
     def twist_rate(self) -> slice:
-        """Theta_i'."""
+        """Place of Theta_i'."""
         return slice(self.torsion_modes, 2 * self.torsion_modes)
 
     @property
     def deflection(self) -> slice:
-        """W_j."""
+        """Place of W_j."""
         start = 2 * self.torsion_modes
         return slice(start, start + self.bending_modes)
 
     @property
     def deflection_rate(self) -> slice:
-        """W_j'."""
+        """Place of W_j'."""
         start = 2 * self.torsion_modes + self.bending_modes
         return slice(start, start + self.bending_modes)
 
     def lag(self, number: int) -> slice:
-        """z_1, z_2 (number 0, 1), the bubble's y (2) and the circulatory lift c (3)."""
+        """Place of z_1, z_2 (number 0, 1), the bubble's y (2) or the circulatory lift c (3)."""
         start = self.structural + number * self.strips
         return slice(start, start + self.strips)
 
@@ -180,9 +180,9 @@ class StripSystem:
     Parameters
     ----------
     layout
-        Where each state is.
+        Places of the states in Y.
     structure, loads
-        What the system was assembled from.
+        Structure and loads that the system was assembled from.
     incidence
         theta_0 (rad), shape (N,).
     rates

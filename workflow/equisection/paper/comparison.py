@@ -1,8 +1,7 @@
-"""Every number that the paper states, beside that of a run: ``comparison/paper.csv``.
+"""Every number that the paper states, compared with that of a run: ``comparison/paper.csv``.
 
-A quantity that the paper gives on several meshes has one row for each, so that nobody has to
-trust the choice of one; the finest is the one to judge by. A run of another case than the
-paper's has this run's values alone: a difference from the paper would mean nothing there.
+A quantity that the paper gives on several meshes has one row for each, so that the choice of one is
+left to the reader; the finest is the one to judge by.
 """
 
 from __future__ import annotations
@@ -24,26 +23,12 @@ COLUMNS = (
     "source",
     "note",
 )
-OTHER_CASE = "the configuration is not the paper's case, so the paper has no value for it"
 
 
-def paper_table(run: Run, is_paper_case: bool) -> pd.DataFrame:
-    """Return ``comparison/paper.csv``.
-
-    Parameters
-    ----------
-    run
-        The results of this run.
-    is_paper_case
-        Whether beam and flow are the paper's.
-    """
+def paper_table(run: Run) -> pd.DataFrame:
+    """Return ``comparison/paper.csv`` of a run of the paper's case."""
     values = values_here(run)
-    rows = [
-        _row(published, here) if is_paper_case else _row_of_other_case(published, here)
-        for published in PUBLISHED
-        for here in values[published.quantity]
-        if is_paper_case or math.isfinite(here.value)
-    ]
+    rows = [_row(published, here) for published in PUBLISHED for here in values[published.quantity]]
     table = pd.DataFrame(rows, columns=list(COLUMNS))
     return table.drop_duplicates("quantity", ignore_index=True)
 
@@ -66,18 +51,6 @@ def _row(published: Published, here: Here) -> dict[str, object]:
         "relation": published.relation,
         "source": published.source,
         "note": "; ".join(note for note in notes if note),
-    }
-
-
-def _row_of_other_case(published: Published, here: Here) -> dict[str, object]:
-    return {
-        "quantity": _with_model(published.quantity, here),
-        "paper": math.nan,
-        "here": here.value,
-        "relative_difference": math.nan,
-        "relation": "",
-        "source": "",
-        "note": "; ".join(note for note in (here.note, OTHER_CASE) if note),
     }
 
 

@@ -1,7 +1,7 @@
-"""Every number that the paper states, and where it stands.
+"""Every number that the paper states, with its place in the paper.
 
-Figures of the paper are pictures: no value was read off them. A number that the text prints
-wrongly stands here as printed, with what follows from the paper's own values beside it.
+Figures of the paper are pictures: no value was read off them. A number that the text prints wrongly
+is given as printed, with the number that follows from the paper's own values.
 """
 
 from __future__ import annotations
@@ -21,17 +21,17 @@ class Published:
     Attributes
     ----------
     quantity
-        What it is, with its unit; also the key by which this run's value is found.
+        Name with unit; also the key by which this run's value is found.
     value
         The number.
     source
-        Where it stands.
+        Its place in the paper.
     relation
-        What the paper says of the quantity: that it equals the value, or is bounded by it.
+        Relation of the quantity to the value: equal to it, or bounded by it.
     mesh
         The paper's mesh, where it gives the quantity on several.
     note
-        What must be known to compare it.
+        Remark that the comparison needs.
     """
 
     quantity: str

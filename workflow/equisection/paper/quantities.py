@@ -1,4 +1,4 @@
-"""What this run has beside each number of the paper."""
+"""Values of this run for each number of the paper."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ class Run:
     Attributes
     ----------
     polar_3d, correction
-        Of the rigid beam; None where the solver does not run it, the latter only where no polar
-        of it is given either.
+        Polar and correction of the rigid beam; None where the solver does not run it, the latter
+        only where no polar of it is given either.
     reference_3d
         Result of the beam at the stiffest k* of the sweep; None if the beam is not run.
     bubble
@@ -56,13 +56,13 @@ class Here:
     Attributes
     ----------
     value
-        NaN if the run has none; the note then says why.
+        Value; NaN if the run has none, with the reason in the note.
     note
-        What must be known to compare it.
+        Remark that the comparison needs.
     model
         The model, where a quantity has one value for each.
     comparable
-        Whether a relative difference from the paper, or that its bound holds, means anything.
+        False where a relative difference from the paper, or a bound that holds, means nothing.
     """
 
     value: float
@@ -256,8 +256,8 @@ def _of_uniform_load(ratio: float) -> str:
 def uniform_load_ratio(run: Run, kind: str) -> float:
     """Return the first modal amplitude over the second under a static uniform load.
 
-    An amplitude is (mean of the shape)/(M_ii omega_i^2) times what all modes share (Eqs. 13 and
-    14 without the terms of motion); NaN with fewer than two modes.
+    An amplitude is (mean of the shape)/(M_ii omega_i^2) times a factor that all modes share
+    (Eqs. 13 and 14 without the terms of motion); NaN with fewer than two modes.
     """
     mean_name, mass_name = {
         "torsion": ("f_mean", "mass_theta"),
@@ -275,7 +275,7 @@ def uniform_load_ratio(run: Run, kind: str) -> float:
 def onsets(onset: pd.DataFrame, summary: pd.DataFrame, reduction: str) -> list[Here]:
     """Return the middle of the onset's bracket for the models that the paper speaks of.
 
-    Those are the beam and the corrected sections; the bracket stands in the note.
+    Those are the beam and the corrected sections; the bracket is in the note.
     """
     found = []
     for row in onset.to_dict("records"):

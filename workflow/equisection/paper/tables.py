@@ -1,4 +1,4 @@
-"""The paper's tables, its values beside those of a run.
+"""The paper's tables, its values next to those of a run.
 
 The C_i of Eq. 23 all refer to one k* and one I*. This run's are those of the finest mesh, whose
 torsion shape gives k* by Eq. 17; a coarser mesh of the study has the same constant times the
@@ -19,15 +19,12 @@ from equisection.analysis.grid_convergence import cell_size, grid_convergence
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1, TABLE_2, TABLE_2_KINDS
 
 
-def table_1(polar_3d: xr.Dataset, is_paper_case: bool) -> pd.DataFrame:
+def table_1(polar_3d: xr.Dataset) -> pd.DataFrame:
     """Return ``tables/table1.csv``: coefficients of the rigid plate over incidence.
 
-    The paper's meshes first, then each resolution of this run, then what made them. Of another
-    case than the paper's, the incidences are this run's and the paper's columns are empty.
+    The paper's meshes come first, then each resolution of this run, then its origin.
     """
     angles = list(next(iter(TABLE_1.values())))
-    if not is_paper_case:
-        angles = [float(angle) for angle in polar_3d["incidence_deg"].values]
     resolutions = [str(name) for name in polar_3d["resolution"].values]
     columns = ["incidence_deg"]
     columns += [f"{name} paper {mesh}" for mesh in TABLE_1 for name in COEFFICIENTS]
@@ -36,8 +33,7 @@ def table_1(polar_3d: xr.Dataset, is_paper_case: bool) -> pd.DataFrame:
     for angle in angles:
         row: dict[str, object] = {"incidence_deg": angle}
         for mesh, values in TABLE_1.items():
-            published = values.get(angle) if is_paper_case else None
-            for name, value in zip(COEFFICIENTS, published or [math.nan] * 3, strict=True):
+            for name, value in zip(COEFFICIENTS, values[angle], strict=True):
                 row[f"{name} paper {mesh}"] = value
         for resolution in resolutions:
             here = at_incidence(polar_3d, resolution, angle)
@@ -59,14 +55,12 @@ def at_incidence(polar: xr.Dataset, resolution: str, angle: float) -> xr.Dataset
     )
 
 
-def table_2(
-    modes: xr.Dataset, mesh_study: xr.Dataset, thickness_over_span: float, is_paper_case: bool
-) -> pd.DataFrame:
+def table_2(modes: xr.Dataset, mesh_study: xr.Dataset, thickness_over_span: float) -> pd.DataFrame:
     """Return ``tables/table2.csv``: C_1 to C_5 by mesh.
 
-    The paper's meshes first, then those of the mesh study, what the three finest of these
-    converge to, the mesh of this run, and the analytic beam. Modes are paired by kind, since
-    in-plane ones stand between them.
+    The paper's meshes come first, then those of the mesh study, the limit of the three finest of
+    these, the mesh of this run, and the analytic beam. Modes are paired by kind, since in-plane
+    modes come between them.
 
     Parameters
     ----------
@@ -74,8 +68,6 @@ def table_2(
         Data sets of ``structure/modes.nc`` and ``structure/mesh_study.nc``.
     thickness_over_span
         h/L.
-    is_paper_case
-        Whether the plate is the paper's; otherwise the paper's columns are empty.
     """
     of_modes = modes_of_table_2([str(kind) for kind in modes["kind"].values])
     of_study = modes_of_table_2([str(kind) for kind in mesh_study["kind"].values])
@@ -87,7 +79,7 @@ def table_2(
     for number, kind in enumerate(TABLE_2_KINDS):
         row: dict[str, object] = {"constant": f"C_{number + 1}", "kind": kind}
         for mesh, published in TABLE_2.items():
-            row[f"paper {mesh}"] = published[number] if is_paper_case else math.nan
+            row[f"paper {mesh}"] = published[number]
         constant = _at(modes["frequency_constant"], of_modes[number])
         frequency = _at(modes["frequency"], of_modes[number])
         study = {
@@ -127,7 +119,7 @@ def _convergence(values: Sequence[float], sizes: Sequence[float]) -> dict[str, o
 
 
 def modes_of_table_2(kinds: Sequence[str]) -> list[int | None]:
-    """Return where the modes of Table 2 are among modes of some kinds; None if one is not."""
+    """Return the places of Table 2's modes among modes of some kinds; None for a missing one."""
     left = {kind: [i for i, this in enumerate(kinds) if this == kind] for kind in set(kinds)}
     return [left[kind].pop(0) if left.get(kind) else None for kind in TABLE_2_KINDS]
 

@@ -28,8 +28,8 @@ def reduce(
 ) -> Section:
     """Equivalent section of a beam, per unit span.
 
-    Where the section is a poor stand-in for the beam a ``UserWarning`` says so, with the difference
-    of their flutter speeds by linear theory.
+    A ``UserWarning`` tells where the section represents the beam badly, with the difference of
+    their flutter speeds by linear theory.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ def reduce(
         ``consistent`` keeps the natural frequencies and recovers the tip from the section;
         ``paper`` is Eq. 17 as it is printed (:mod:`equisection.reduction.reduce`).
     method
-        How the modes are computed, by default as the configuration has it: ``solid``,
+        Computation of the modes, by default that of the configuration: ``solid``,
         three-dimensional elasticity, for a homogeneous plate. A beam with a ``cross_section`` or
         on springs at its root needs ``beam`` (one-dimensional elements) or ``analytic``.
     elements

@@ -1,4 +1,4 @@
-"""Correction of the section for the finite span (Eq. 20), and the incidence it is taken at.
+"""Correction of the section for the finite span (Eq. 20), and the incidence that it is made for.
 
 The aerodynamic coefficients of the beam replace those of the section when mass and stiffness of
 the section are multiplied by
@@ -30,8 +30,8 @@ moment is transferred to the axis x_ea chords behind mid-chord. Its equilibrium 
 Of several roots the one is taken that is
 met first when theta grows from zero in the direction of the moment. There k* exceeds the slope
 of C_M: it is statically stable. No root inside the polar means divergence, or a short polar.
-Without a moment at theta_0 the section stays there, or diverges where k* does not exceed the slope;
-what a solver leaves of zero is no moment.
+Without a moment at theta_0 the section stays there, or diverges where k* does not exceed the slope.
+A solver's residue of zero counts as no moment.
 """
 
 from __future__ import annotations
@@ -39,8 +39,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import PchipInterpolator, PPoly
 
 from equisection.aerodynamics.polar import Polar, is_nil
 from equisection.errors import DivergenceError, ReductionError
@@ -171,7 +171,11 @@ def corrected_equilibrium(
     )
 
 
-def _quotient(section: PchipInterpolator, beam: PchipInterpolator, alpha: ArrayLike) -> Floats:
+def _quotient(
+    section: scipy.interpolate.PchipInterpolator,
+    beam: scipy.interpolate.PchipInterpolator,
+    alpha: ArrayLike,
+) -> Floats:
     """Return c/C of two curves; NaN where it is not a positive number."""
     incidence = np.asarray(alpha, dtype=np.float64)
     if _vanishes_at_zero(section) and _vanishes_at_zero(beam):
@@ -185,8 +189,8 @@ def _quotient(section: PchipInterpolator, beam: PchipInterpolator, alpha: ArrayL
 
 def _require_factor(
     factor: Floats,
-    section: PchipInterpolator,
-    beam: PchipInterpolator,
+    section: scipy.interpolate.PchipInterpolator,
+    beam: scipy.interpolate.PchipInterpolator,
     incidence: Floats,
     name: str,
 ) -> None:
@@ -202,17 +206,17 @@ def _require_factor(
         )
 
 
-def _vanishes_at_zero(curve: PchipInterpolator) -> bool:
+def _vanishes_at_zero(curve: scipy.interpolate.PchipInterpolator) -> bool:
     """Tell whether a curve passes through zero, but for what a solver leaves of zero."""
     return _is_nil(curve, 0.0)
 
 
-def _is_nil(curve: PPoly, alpha: float) -> bool:
+def _is_nil(curve: scipy.interpolate.PPoly, alpha: float) -> bool:
     """Tell whether a curve vanishes at ``alpha`` (rad), but for what a solver leaves of zero."""
     return is_nil(float(curve(alpha)), curve(curve.x))
 
 
-def _mean_slope(curve: PchipInterpolator, incidence: Floats) -> Floats:
+def _mean_slope(curve: scipy.interpolate.PchipInterpolator, incidence: Floats) -> Floats:
     """(c(alpha) - c(0))/alpha (1/rad) of a curve through zero, with its limit at alpha = 0.
 
     c(0) is what a solver leaves of zero. It is the mean of the slope between zero and alpha. Up
@@ -244,7 +248,7 @@ def _first_twist(beam: Polar, incidence_rad: float, k_star: float, axis: float) 
     coefficients = cubic.c.copy()  # of C_M(alpha) - k* (alpha - theta_0), knot by knot
     coefficients[2] -= k_star
     coefficients[3] -= k_star * (cubic.x[:-1] - incidence_rad)
-    roots = PPoly(coefficients, cubic.x).roots(extrapolate=False)
+    roots = scipy.interpolate.PPoly(coefficients, cubic.x).roots(extrapolate=False)
     twists = (roots - incidence_rad) * np.sign(moment)
     ahead = twists[twists > 0]
     if ahead.size == 0:
@@ -253,7 +257,7 @@ def _first_twist(beam: Polar, incidence_rad: float, k_star: float, axis: float) 
 
 
 def _no_equilibrium(
-    beam: Polar, cubic: PPoly, incidence_rad: float, k_star: float
+    beam: Polar, cubic: scipy.interpolate.PPoly, incidence_rad: float, k_star: float
 ) -> ReductionError:
     end = beam.incidence_range[0 if cubic(incidence_rad) < 0 else 1]
     has_a_way = abs(end - incidence_rad) > _NO_WAY

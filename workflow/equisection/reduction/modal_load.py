@@ -1,7 +1,7 @@
 """The load on a beam as a mode feels it: its spanwise distribution weighted by the shape.
 
 Eq. 20 corrects the section by the mean load of the rigid beam, the integral of c_l(z) over z/L.
-What drives a mode of shape f is the integral of c_l(z) f(z), and a section that stands for a beam
+A mode of shape f is driven by the integral of c_l(z) f(z). A section that is equivalent to a beam
 under a uniform load (:mod:`equisection.reduction.reduce`) carries
 
     C_f = integral of c(z) f(z) dz / integral of f(z) dz .
@@ -13,8 +13,8 @@ largest, is less by C_f than by its mean.
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 Floats = NDArray[np.float64]
 
@@ -33,6 +33,8 @@ def modal_load(stations: Floats, load: Floats, span: Floats, shape: Floats) -> F
         z/L of the stations of the mode, and its shape there, shape (m,).
     """
     between = (stations[1:] + stations[:-1]) / 2
-    weights = np.diff(between, prepend=0.0, append=1.0) * CubicSpline(span, shape)(stations)
+    weights = np.diff(between, prepend=0.0, append=1.0) * scipy.interpolate.CubicSpline(
+        span, shape
+    )(stations)
     felt: Floats = load @ weights / weights.sum()
     return felt

@@ -1,14 +1,14 @@
 """The equivalent section of a beam: Eq. 17 as the paper has it, and in consistent form.
 
-``paper`` divides the torsion pair by A_theta,theta and both bending terms by A_theta,w (what
-the published ratios 9.12 and 0.183 were made with; the A_theta printed under m_2D is a misprint),
-takes K_theta from the slope of the shape (Eq. 7), which is what makes the plate of the paper
-"k* = 21", and reads the section's motion as the tip's.
+``paper`` divides the torsion pair by A_theta,theta and both bending terms by A_theta,w (this gives
+the published ratios 9.12 and 0.183; the A_theta printed under m_2D is a misprint), takes K_theta
+from the slope of the shape (Eq. 7), which gives the plate of the paper its "k* = 21", and reads the
+section's motion as the tip's.
 ``consistent`` divides each pair by its own A, takes both stiffnesses from the natural
 frequencies, and recovers the tip from the section through a and b (see docs/errata.md).
 
 Each row of the equations of motion is divided by its own D: the torsion row by D_theta =
-A_theta,theta, the bending row by D_w, A_w,w in the consistent form and A_theta,w in the paper's.
+A_theta,theta, the bending row by D_w, A_w,w in the consistent form and A_theta,w in Eq. 17.
 The static imbalance belongs to both rows and gets
 
     S_2D = S A_theta,w / sqrt(D_w D_theta),
@@ -154,7 +154,7 @@ def _require_restraint(beam: Beam, integrals: Integrals) -> None:
 
 
 def validity_warnings(integrals: Integrals) -> tuple[str, ...]:
-    """Say what makes a section a poor stand-in for its beam; empty when nothing does."""
+    """Return the reasons why a section represents its beam badly; empty if there are none."""
     warnings = []
     if integrals.cos_phi < _LEAST_LIKENESS:
         warnings.append(

@@ -10,11 +10,11 @@ from equisection.results.spent import Spent
 
 
 class CaseResult(Protocol):
-    """What the results of all kinds of case have in common."""
+    """Protocol of the results of all kinds of case."""
 
     @property
     def spent(self) -> Spent | None:
-        """Cost of the case, where the solver knows it better than its job does."""
+        """Time that the case took, where the solver knows it better than its job."""
         ...
 
     def of_case(self, case: Any) -> xr.Dataset:

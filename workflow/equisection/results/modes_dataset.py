@@ -46,7 +46,7 @@ def modes_from_dataset(dataset: xr.Dataset) -> ModeSet:
 
 
 def mesh_study_to_dataset(study: MeshStudy, analytic: ModeSet) -> xr.Dataset:
-    """Return ``structure/mesh_study.nc``, with the analytic beam's frequencies beside."""
+    """Return ``structure/mesh_study.nc``, which has the frequencies of the analytic beam too."""
     closed_form = []
     left = {
         kind: list(analytic.frequency[[k == kind for k in analytic.kind]])

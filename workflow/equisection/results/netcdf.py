@@ -1,7 +1,7 @@
-"""NetCDF files that appear whole or not at all, and say what they hold.
+"""NetCDF files that appear whole or not at all, and describe their contents.
 
-Every variable has ``units`` and ``long_name``; every file says its schema version, what made
-it and, for the result of a case, the case's hash. Attributes are strings and numbers.
+Every variable has ``units`` and ``long_name``. Every file has its schema version, its origin and,
+for the result of a case, the case's hash. Attributes are strings and numbers.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ def write_dataset(
 ) -> dict[str, Any]:
     """Write a data set as NetCDF-4, whole or not at all; return its attributes as written.
 
-    It says what made it: this process, or else ``made_by`` (:mod:`equisection.provenance`).
+    Its origin is this process, or else ``made_by`` (:mod:`equisection.provenance`).
 
     The variables go to the netCDF library one by one: for the thousands of small files of a sweep
     that takes half the time of ``Dataset.to_netcdf``.
@@ -35,8 +35,8 @@ def write_dataset(
     Raises
     ------
     ResultFileError
-        A variable lacks ``units`` or ``long_name``, or holds a value that is not finite and is
-        not marked as allowed to (attribute ``missing_allowed``); or the file cannot be written.
+        A variable lacks ``units`` or ``long_name``, or holds a value that is not finite without
+        the attribute ``missing_allowed``; or the file cannot be written.
     """
     for name, variable in dataset.variables.items():
         for wanted in ("units", "long_name"):

@@ -1,4 +1,4 @@
-"""Cells in a plane as data, which the meshes of section and plate have in common."""
+"""Cells in a plane as data, common to the meshes of section and plate."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class PlaneMesh:
-    """Quadrilateral cells about mid-chord at rest, and what was found of the whole mesh.
+    """Quadrilateral cells about mid-chord at rest, and the quality of the whole mesh.
 
     Attributes
     ----------
@@ -25,7 +25,7 @@ class PlaneMesh:
     incidence_deg
         Incidence (deg).
     quality
-        What the mesh generator's check says: names and numbers.
+        Numbers of the mesh generator's check, by name.
     """
 
     points: Floats

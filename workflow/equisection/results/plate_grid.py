@@ -12,12 +12,12 @@ from equisection.results.plane_mesh import Floats, PlaneMesh, no_cells
 
 @dataclass(frozen=True, kw_only=True)
 class PlateGrid(PlaneMesh):
-    """The cells at the root, which are the same in each layer along the span but at the plate.
+    """Cells of the layer at the root; all layers along the plate have the same.
 
     Attributes
     ----------
     levels : (l,) array
-        z/c where the layers of cells begin and end, from the root to the other wall.
+        z/c of the planes between the layers of cells, from the root to the other wall.
     span, thickness
         L/c and h/c.
     cells
@@ -48,7 +48,7 @@ class PlateGrid(PlaneMesh):
 
 
 def no_grid(incidence_deg: float, span: float, thickness: float) -> PlateGrid:
-    """Return what stands for a mesh that is not known: one without cells."""
+    """Return the placeholder of an unknown mesh, which has no cells."""
     return PlateGrid(
         **no_cells(),
         levels=np.zeros(0),

@@ -38,7 +38,7 @@ SPANWISE = {**dict.fromkeys(surface.TANGENTS, (0.0, 0.0, 1.0)), "tip": (0.0, 1.0
 
 @dataclass(frozen=True)
 class PlateSurface:
-    """What the flow does to each face of the plate's surface, arrays of shape (n,).
+    """Pressure, friction and y+ on each face of the plate's surface, arrays of shape (n,).
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class PlateSurface:
     area
         Area of the face over c^2.
     side
-        Where the face is, one of :data:`NORMALS`; by ascending z and x on each side.
+        Side of the face, one of :data:`NORMALS`; by ascending z and x on each side.
     pressure
         c_p = (p - p_outlet)/(rho V^2/2).
     friction, spanwise_friction
@@ -97,9 +97,10 @@ class PlateSurface:
         return PlateSurface(*(getattr(self, field.name)[which] for field in fields(self)))
 
     def reattachment(self, side: str) -> tuple[Floats, Floats]:
-        """Return z/c of the layers of faces from the root, and x/c where the bubble ends in each.
+        """Return z/c of the layers of faces from the root, and x/c of the bubble's end in each.
 
-        As in 2D: 0 is no bubble, 1 one over the whole chord (:func:`surface.reattachment`).
+        As in 2D, 0 is no bubble and 1 a bubble over the whole chord
+        (:func:`surface.reattachment`).
         """
         faces = self.on(side)
         ends = np.append(np.flatnonzero(np.diff(faces.z) > _SAME_LAYER) + 1, faces.z.size)

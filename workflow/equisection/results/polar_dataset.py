@@ -129,7 +129,7 @@ def _row(resolution: str, angles: Iterable[float]) -> list[tuple[str, float]]:
 
 
 def _coefficients(result: xr.Dataset) -> xr.Dataset:
-    """Return a result without what it has beside its coefficients."""
+    """Return a result with its coefficients alone."""
     return result[[name for name in (*_COEFFICIENTS, *_SECTIONAL) if name in result]]
 
 

@@ -1,4 +1,4 @@
-"""Results of unsteady cases of a section, read as what the lags are identified from."""
+"""Results of unsteady cases of a section, read as histories to identify the lags from."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ def equivalent_to_dataset(
     integrals
         Integrals over the shapes of the modes.
     warnings
-        What makes the section a poor stand-in for the beam.
+        Reasons why the section represents the beam badly.
     density, speed
         Density (kg/m3) and speed (m/s) of the flow.
     """

@@ -21,7 +21,7 @@ class SectionMesh(PlaneMesh):
     time_step
         Time step (c/V).
     flow
-        How far the flow is known, in words.
+        The steady flow in words, with its number of iterations.
     """
 
     courant: Floats
@@ -55,7 +55,7 @@ class SectionMesh(PlaneMesh):
 
 
 def no_mesh(incidence_deg: float, time_step: float) -> SectionMesh:
-    """Return what stands for a mesh that is not known: one without cells."""
+    """Return the placeholder of an unknown mesh, which has no cells."""
     return SectionMesh(
         **no_cells(),
         courant=np.empty(0),

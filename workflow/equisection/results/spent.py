@@ -1,4 +1,4 @@
-"""What a case took, over all starts of its run."""
+"""Time that a case took, over all starts of its run."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class SteadyResult:
-    """Coefficients at one incidence, with the spanwise ones of a beam beside them.
+    """Coefficients at one incidence; for a beam also those along the span.
 
     Attributes
     ----------
@@ -31,15 +31,15 @@ class SteadyResult:
     section_lift, section_moment
         c_l and c_m of each section over its own chord, shape (n,); empty in 2D.
     method
-        How the value was obtained, for instance ``steady`` or ``mean of unsteady``.
+        Origin of the value, for instance ``steady`` or ``mean of unsteady``.
     failure
-        Why there is no value, empty if there is one. Coefficients are then NaN.
+        Reason for a missing value, with coefficients that are NaN; else empty.
     surface
         Pressure and friction around the section or over the plate, where the solver has them.
     tip_flow
         Flow near the tip, where the solver has it.
     spent
-        What the case took, where the solver knows it better than its job does.
+        Time that the case took, where the solver knows it better than its job.
     """
 
     drag: float

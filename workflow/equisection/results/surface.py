@@ -37,7 +37,7 @@ TANGENTS = {
 
 @dataclass(frozen=True)
 class SectionSurface:
-    """What the flow does to each face of the section's contour, arrays of shape (n,).
+    """Pressure, friction and y+ on each face of the section's contour, arrays of shape (n,).
 
     Attributes
     ----------
@@ -46,7 +46,7 @@ class SectionSurface:
     length
         Length of the face over the chord.
     side
-        Where the face is, one of :data:`NORMALS`; by ascending x or y on each side.
+        Side of the face, one of :data:`NORMALS`; by ascending x or y on each side.
     pressure
         c_p = (p - p_outlet)/(rho V^2/2).
     friction
@@ -98,8 +98,7 @@ class SectionSurface:
     def loads(self, incidence_deg: float) -> tuple[float, float, float]:
         """Return c_d, c_l and c_m about mid-chord, nose up, summed over the contour.
 
-        The traction on a face is -c_p n + c_f t; there is no other at a wall that the flow
-        sticks to.
+        The traction on a face is -c_p n + c_f t; a no-slip wall has no other.
         """
         sides = [str(side) for side in self.side]
         normal = np.array([NORMALS[side] for side in sides])
@@ -140,7 +139,7 @@ def in_stream(
 
 
 def suction_side(incidence_deg: float) -> str:
-    """Return the side of lower pressure; of the two that are alike at 0 deg the upper one."""
+    """Return the side of lower pressure; the upper one at 0 deg, where both have the same."""
     return "lower" if incidence_deg < 0 else "upper"
 
 
@@ -166,7 +165,7 @@ def known_sides(dataset: xr.Dataset, allowed: Collection[str]) -> NDArray[np.str
     Raises
     ------
     ResultFileError
-        One of them is not among those allowed.
+        A side is not one of those allowed.
     """
     side: NDArray[np.str_] = dataset["side"].values.astype(str)
     unknown = sorted(set(side) - set(allowed))

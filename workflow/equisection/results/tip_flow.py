@@ -34,7 +34,7 @@ class TipFlow:
     span, thickness
         L/c and h/c.
     state
-        What the flow is that of, in words.
+        State of the plate that the flow is of, in words.
     """
 
     x: Floats
@@ -48,7 +48,7 @@ class TipFlow:
     state: str
 
     def with_dataset(self, dataset: xr.Dataset) -> xr.Dataset:
-        """Return a result with this beside, in single precision."""
+        """Return a data set with these variables added, in single precision."""
         over = ("flow_x", "flow_y", "flow_z")
         data = {
             **{

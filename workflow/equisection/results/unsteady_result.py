@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Regime(StrEnum):
-    """What a run turned out to be."""
+    """Regime of a run that has ended."""
 
     SETTLED = "settled"
     LIMIT_CYCLE = "limit-cycle"
@@ -80,7 +80,7 @@ class UnsteadyResult:
     tip_flow
         Flow near the tip at the end, where the solver has it.
     spent
-        What the case took, where the solver knows it better than its job does.
+        Time that the case took, where the solver knows it better than its job.
     verdict
         The values of :data:`VERDICT_ATTRIBUTES`.
     """

@@ -1,4 +1,4 @@
-"""Whether a NetCDF file is as long as it says, told without opening it."""
+"""Check of a NetCDF file's length against its own header, without opening it as NetCDF."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""The command ``equisection``: what a person asks of a run at a terminal.
+"""The command ``equisection``: questions about a run at a terminal.
 
-The workflow itself is started with ``snakemake``; this looks at what it leaves behind.
+The workflow itself is started with ``snakemake``; this command reads the files of its runs.
 """
 
 from __future__ import annotations

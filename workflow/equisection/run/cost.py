@@ -43,7 +43,7 @@ MARGIN = 1.5
 
 
 class CellCost(KeyGroup):
-    """What one cell costs a solver in one dimension."""
+    """Cost of one cell for a solver in one dimension."""
 
     iteration: NotNegative = Field(description="s of processor per iteration of the steady flow.")
     step: NotNegative = Field(description="s of processor per iteration of a time step.")
@@ -53,10 +53,10 @@ class CellCost(KeyGroup):
 class CostModel(
     RootModel[dict[str, Annotated[dict[str, CellCost], Field(min_length=1)]]], frozen=True
 ):
-    """What a cell costs, by solver and dimension."""
+    """Cost of a cell, by solver and dimension."""
 
     def of(self, solver: str, dimension: str) -> CellCost:
-        """Return what a cell of a solver costs.
+        """Return the cost of a cell of a solver.
 
         Raises
         ------
@@ -121,7 +121,7 @@ def work_of(config: Config, kind: Kind, dimension: str, resolution: str, cases: 
     Raises
     ------
     ConfigError
-        The solver does not tell the work of such cases.
+        The solver gives no work of such cases.
     """
     estimate = getattr(import_module(SOLVERS[config.solver].work), kind.work_function, None)
     if estimate is None:

@@ -1,4 +1,4 @@
-"""Fit the cost model to results: each says what it took, and by its case what it had to do."""
+"""Fit of the cost model to results, each of which has its time and, by its case, its work."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Fit:
     Attributes
     ----------
     solver, dimension, term
-        What it is the cost of.
+        Entry of the cost model.
     values
         s per cell and iteration, or step, of each result, ascending.
     """
@@ -47,7 +47,7 @@ class Fit:
 
     @property
     def value(self) -> float:
-        """The median: a run beside others on a busy machine does not count more than one."""
+        """Median, so that a run on a busy machine does not count more than others."""
         return float(f"{median(self.values):.3g}")
 
     def words(self) -> str:
@@ -60,7 +60,7 @@ class Fit:
 
 
 def fits(folders: Iterable[Path]) -> list[Fit]:
-    """Return what the results below some folders say; a result that is there twice counts once."""
+    """Return the fits to results below some folders; a result that is there twice counts once."""
     found: dict[tuple[str, str, str], dict[str, float]] = defaultdict(dict)
     for folder in folders:
         for path in sorted(folder.rglob("*.nc")):

@@ -1,7 +1,7 @@
-"""The jobs of a configuration that run a solver: how many, and what each of them asks for.
+"""The jobs of a configuration that run a solver: their number, and the resources of each.
 
-Like the graph, it comes from the configuration alone, so nothing has to be there but the file.
-Results that are kept or in the store already are not taken off.
+Like the graph, this comes from the configuration alone, so only its file has to be there.
+Results that are kept or in the store already are not subtracted.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Jobs:
     what
         Model of the sweep, or dimension and resolution of rigid cases.
     number
-        How many there are, at most where the onset is refined.
+        Number of jobs, at most where the onset is refined.
     cells
         Cells of the mesh of one job; for the embedded solver sections of all of its cases.
     ranks
@@ -42,7 +42,7 @@ class Jobs:
     megabytes, minutes
         Memory (MB) and time by the clock (minutes) that one job asks for.
     core_hours
-        Time of the processors (h) that all of them are expected to take at most.
+        Processor time (h) of all of them, at most.
     """
 
     what: str

@@ -17,7 +17,7 @@ from equisection.study.axes import Point
 
 @dataclass(frozen=True)
 class Listed:
-    """A case of a case file, or what is wrong with the file.
+    """A case of a case file, or the problem of the file.
 
     Attributes
     ----------
@@ -49,8 +49,8 @@ class Listed:
 def cases_of_run(run: Path) -> Iterator[Listed]:
     """List the cases of a run: kind by kind, then by model, and along the axes of the study.
 
-    A case that stands in several files, of a batch and of its own, is listed once; one that an
-    earlier sweep of the run has left behind is not.
+    A case in several files, of a batch and of its own, is listed once. One that an earlier sweep of
+    the run has left behind is not listed.
     """
     earlier = _earlier_sweep(run)
     for kind in KINDS.values():

@@ -1,4 +1,4 @@
-"""What every script needs around its ``main``: a log, and errors that speak to a person."""
+"""Frame of every script around its ``main``: a log, and errors in words for a person."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ _FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 def logged(log: str, inputs: Iterable[str] = (), outputs: Iterable[str] = ()) -> Iterator[None]:
     """Send the log of the block to a file; end with status 1 on an error a user can mend.
 
-    What the block has made is recorded with the hashes of its inputs and outputs, if it has any.
+    Outputs of the block, if any, are recorded with their hashes and those of its inputs.
 
-    Such an error, a full disk among them, is printed and logged as its message alone. Anything
-    else is a fault of the program and keeps its traceback, in the log and on the terminal.
+    An error that a user can mend, such as a full disk, is printed and logged as its message alone.
+    Any other is a fault of the program and keeps its traceback, in the log and on the terminal.
     """
     path = Path(log)
     path.parent.mkdir(parents=True, exist_ok=True)

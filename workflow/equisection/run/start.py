@@ -1,8 +1,8 @@
 """Look at what a run starts from, before the workflow builds its graph.
 
-Here are the folders that a run may be started from, and what is said once at the start: files of
-the future, a folder that the solver cannot work in, a clone that git does not trust. It runs at
-every start of the workflow, so it must be cheap.
+Here are the folders that a run may be started from, and the notices at the start: files of the
+future, a folder that the solver cannot work in, a clone that git does not trust. It runs at every
+start of the workflow, so it must be cheap.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def project_of(rules: Path) -> Path:
 
 
 def checked_config(raw: Mapping[str, Any], project: Path, results: Path = RESULTS) -> Config:
-    """Return the configuration of a run, whose files are there and which its solver can run.
+    """Return the configuration of a run, after the checks of its files and of its solver.
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ def checked_config(raw: Mapping[str, Any], project: Path, results: Path = RESULT
     project
         The clone, which files are taken from that are not in the working directory.
     results
-        Where the folders of runs are.
+        Folder with the folders of runs.
 
     Raises
     ------
@@ -107,10 +107,10 @@ def checked_config(raw: Mapping[str, Any], project: Path, results: Path = RESULT
 
 
 def tell_jobs(command: str, config: str) -> None:
-    """Tell jobs, by the environment, the command and the hash of the configuration of their run.
+    """Hand jobs the command and the hash of their run's configuration, by the environment.
 
-    A workflow that uses this one as a module more than once has several configurations, and its
-    jobs are told none: nothing is said rather than what is wrong.
+    A workflow that uses this one as a module more than once has several configurations. Its jobs
+    get no hash, since it could be the wrong one.
     """
     _CONFIGS.add(config)
     os.environ[COMMAND_VARIABLE] = command
@@ -118,7 +118,7 @@ def tell_jobs(command: str, config: str) -> None:
 
 
 def say(lines: Iterable[str]) -> None:
-    """Print lines to the person at the terminal, each once, however often it is said."""
+    """Print lines to the terminal, each only once in a process."""
     for line in lines:
         if line not in _SAID:
             print(line, file=sys.stderr)
@@ -126,20 +126,20 @@ def say(lines: Iterable[str]) -> None:
 
 
 def notices(config: Config, results: Path = RESULTS) -> Iterator[str]:
-    """Give what a person should know before the jobs start, in a line each.
+    """Yield the notices before the jobs start, a line each.
 
     Parameters
     ----------
     config
         The configuration.
     results
-        Where the folders of runs and the store are.
+        Folder with the folders of runs and the store.
     """
     if config.compute:
         refusal = config.solver_section.refuses_folder(results / STORE)
         if refusal:
             yield f"warning: {refusal}; until then a case that is not kept cannot be computed"
-    files = [*map(Path, named_files(config).values()), *_files(results / config.run)]
+    files = [*named_files(config).values(), *_files(results / config.run)]
     ahead = _of_the_future(files, time.time())
     if ahead:
         yield ahead
@@ -148,7 +148,7 @@ def notices(config: Config, results: Path = RESULTS) -> Iterator[str]:
         yield f"warning: {distrusted}"
 
 
-def _of_the_future(paths: Iterable[Path], now: float) -> str:
+def _of_the_future(paths: Iterable[str], now: float) -> str:
     """Return a line on the files that are newer than the clock says; empty if none is."""
     ahead = {path: modified - now for path in paths if (modified := _modified(path)) > now + _AHEAD}
     if not ahead:
@@ -162,17 +162,17 @@ def _of_the_future(paths: Iterable[Path], now: float) -> str:
     )
 
 
-def _files(folder: Path) -> Iterator[Path]:
-    """Give the files of a run that something is made from."""
+def _files(folder: Path) -> Iterator[str]:
+    """Give the files of a run that something is made from; as text, for there may be many."""
     for place, folders, names in os.walk(folder):
         folders[:] = [name for name in folders if name not in _ASIDE]
         for name in names:
-            yield Path(place, name)
+            yield f"{place}/{name}"
 
 
-def _modified(path: Path) -> float:
+def _modified(path: str) -> float:
     try:
-        return path.stat().st_mtime
+        return os.stat(path).st_mtime  # noqa: PTH116, a third of the time
     except (OSError, ValueError):
         return 0.0
 

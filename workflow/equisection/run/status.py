@@ -1,7 +1,7 @@
 """Progress of the cases of a run, read from the files that it leaves behind.
 
-Nothing is asked of the workflow: cases, results, progress files and logs say it all, so it can
-be read while a sweep runs, after a crash, and on a copy of the folder.
+It comes from cases, results, progress files and logs alone. So it can be read while a sweep runs,
+after a crash, and on a copy of the folder.
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ from equisection.store.result_store import ResultStore, runs_batches, task_of
 
 
 class StatusError(EquisectionError):
-    """There is no such folder to tell the status of."""
+    """A folder to tell the status of does not exist."""
 
 
 class State(StrEnum):
-    """How far one case is."""
+    """State of one case."""
 
     DONE = "done"
     FAILED = "failed"  # ran and has no result, or its job ended with an error
@@ -61,16 +61,16 @@ class CaseStatus:
     job
         Progress of the job that runs it, or ran it last.
     owner
-        Who runs it, where a job says so in its working directory.
+        Job that runs it, where one says so in its working directory.
     text
-        The reason of a verdict or failure, or what to do.
+        Reason of a verdict or failure, or the remedy.
     last_lines
-        The last lines of the log of what failed or stopped.
+        Last lines of the log of a case that failed or stopped.
     simulated, duration
-        How long its history is, and the longest that it may be (c/V); none of a case without one.
+        Length of its history, and the longest allowed (c/V); None for a case without a history.
     core_seconds_used, core_seconds_to_come
-        What it took of all its processors, and what the cost model expects of the rest at most;
-        none where nobody knows.
+        Time that it took of all its processors, and that of the rest at most by the cost model;
+        None where it is unknown.
     """
 
     kind: Kind
@@ -90,22 +90,22 @@ class CaseStatus:
 
 @dataclass(frozen=True)
 class RunStatus:
-    """How far a run is: its cases, and what went wrong outside of them."""
+    """Status of a run: its cases, and the errors of jobs that run no case."""
 
     name: str
     entries: tuple[CaseStatus, ...]
     troubles: tuple[str, ...] = ()
 
     def count(self, kind: Kind) -> Counter[State]:
-        """Return how many cases of a kind are in each state."""
+        """Return the number of cases of a kind in each state."""
         return Counter(entry.state for entry in self.entries if entry.kind == kind)
 
     def core_seconds_used(self) -> float:
-        """Return what the results have taken, over all processors (s)."""
+        """Return the time of all processors (s) that the results took."""
         return sum(entry.core_seconds_used or 0.0 for entry in self.entries)
 
     def core_seconds_to_come(self) -> float | None:
-        """Return what is to come at most (s); none where the cost of a case is not known."""
+        """Return the time of processors still to come (s), at most; None where it is unknown."""
         to_come = [entry.core_seconds_to_come for entry in self.entries]
         return None if None in to_come else sum(value or 0.0 for value in to_come)
 
@@ -129,7 +129,7 @@ def find_runs(folder: Path) -> list[Path]:
 
 
 def run_status(run: Path) -> RunStatus:
-    """Read how far a run is."""
+    """Read the status of a run."""
     reader = _Reader(run)
     entries = tuple(reader.entry(listed) for listed in cases_of_run(run))
     return RunStatus(run.name, entries, tuple(reader.jobs.troubles()))

@@ -34,7 +34,7 @@ class CostOfRun:
         self._seconds = cache(self._expected)
 
     def core_seconds(self, listed: Listed) -> float | None:
-        """Return what a whole case takes at most; none if configuration or model do not tell."""
+        """Return the time of a whole case at most (s); None without a configuration or model."""
         if listed.case is None:
             return None
         case = listed.case

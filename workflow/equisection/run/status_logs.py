@@ -1,4 +1,4 @@
-"""What the jobs of a run say of themselves: progress files and logs."""
+"""Progress files and logs that the jobs of a run write."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class JobsOfRun:
                     self._of_case[case] = snapshot
 
     def of(self, hash_of_case: str) -> Snapshot | None:
-        """Return the progress of the job that last said it runs a case."""
+        """Return the progress of the last job that ran a case."""
         return self._of_case.get(hash_of_case)
 
     def error(self, place: str, case: Path) -> tuple[str, Path | None]:
@@ -78,7 +78,7 @@ def last_error(log: Path) -> str:
 def last_lines(work: Path, log: Path | None) -> tuple[str, ...]:
     """Return the last lines of the newest log: of a program in the working directory, or the job's.
 
-    The log of a program is what it was told, so only its end is read.
+    The log of a program may be long, so only its end is read.
     """
     logs = [*work.glob("log.*"), *([log] if log else [])]
     try:
@@ -95,5 +95,5 @@ def last_lines(work: Path, log: Path | None) -> tuple[str, ...]:
 
 
 def printable(text: str) -> str:
-    """Return text without what would steer a terminal; lines of a reason stay lines."""
+    """Return text without characters that would steer a terminal; line breaks stay."""
     return "".join(c if c.isprintable() or c in "\n\t" else " " for c in text)

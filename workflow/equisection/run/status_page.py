@@ -19,7 +19,7 @@ _TEMPLATE = Path(__file__).with_name("status_page.html.jinja")
 
 
 def write_page(path: Path, runs: Sequence[RunStatus], places: str) -> None:
-    """Write the page of some runs; ``places`` is where they were looked for."""
+    """Write the page of some runs, which were looked for in ``places``."""
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True)
     template = environment.from_string(_TEMPLATE.read_text(encoding="utf-8"))
     now = datetime.now().astimezone().strftime("%Y-%m-%d %H:%M %Z")

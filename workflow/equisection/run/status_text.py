@@ -61,7 +61,7 @@ def plain_lines(runs: Iterable[RunStatus]) -> list[str]:
 
 
 def print_status(console: Console, run: RunStatus) -> None:
-    """Print the table of a run, what went wrong beside it, and its summary."""
+    """Print the table of a run, the errors outside of its cases, and its summary."""
     shown = [e for e in run.entries if e.kind.has_history or e.state != State.DONE]
     if len(shown) > LONGEST_TABLE:
         of_no_note = (State.DONE, State.WAITING)

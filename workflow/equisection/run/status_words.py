@@ -1,4 +1,4 @@
-"""What is said of a case or a run, on a terminal and on a page alike."""
+"""Words for the status of a case or a run, on a terminal and on a page alike."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from equisection.store.progress import clock
 
 
 def state_of(entry: CaseStatus) -> str:
-    """Return the state of a case in a word or two: the regime of one that is done."""
+    """Return the state of a case in a word or two, for one that is done its regime."""
     if entry.state == State.RUNNING and entry.job:
         return f"running {100 * entry.job.fraction:.0f} %"
     return entry.regime if entry.state == State.DONE and entry.regime else str(entry.state)
 
 
 def simulated_of(entry: CaseStatus) -> str:
-    """Return how much of its longest history a case has, in c/V."""
+    """Return the simulated and the longest time of a case (c/V)."""
     if entry.duration is None or entry.simulated is None:
         return ""
     return f"{entry.simulated:.4g} of {entry.duration:.4g}"
 
 
 def where_of(entry: CaseStatus) -> str:
-    """Return where a case runs, and by whom; nothing of one that does not."""
+    """Return job, process and machine of a case that runs; empty for another."""
     if entry.state != State.RUNNING:
         return ""
     process = entry.owner.process if entry.owner else entry.job.process if entry.job else None
@@ -34,7 +34,7 @@ def where_of(entry: CaseStatus) -> str:
 
 
 def remarks_of(entry: CaseStatus) -> str:
-    """Return since when a case runs and until when, or what is to be said of it."""
+    """Return start and estimated end of a case that runs; the remark on any other."""
     if entry.state == State.RUNNING and entry.job:
         job, end = entry.job, entry.job.estimated_end
         together = f" ({len(job.cases)} cases)" if len(job.cases) > 1 else ""
@@ -57,7 +57,7 @@ def core_time(seconds: float | None) -> str:
 
 
 def costs_of(run: RunStatus) -> str:
-    """Return what a run has taken and what is to come of it."""
+    """Return the processor time that a run has used, and that to come."""
     to_come = run.core_seconds_to_come()
     if to_come == 0.0:
         return f"{core_time(run.core_seconds_used())} used"
@@ -66,7 +66,7 @@ def costs_of(run: RunStatus) -> str:
 
 
 def summary(run: RunStatus) -> str:
-    """Return how far a run is in one line."""
+    """Return the status of a run in one line."""
     if not run.entries:
         return f"{run.name}: no case has been written yet"
     parts = []
@@ -87,13 +87,13 @@ def summary(run: RunStatus) -> str:
 
 
 def end_of_what_runs(run: RunStatus) -> float | None:
-    """Return when the last of the running jobs ends (seconds since the epoch), if it is known."""
+    """Return the end of the last running job (seconds since the epoch), if it is known."""
     jobs = [entry.job for entry in run.entries if entry.state == State.RUNNING and entry.job]
     return max((end for job in jobs if (end := job.estimated_end) is not None), default=None)
 
 
 def estimated_end(run: RunStatus) -> float | None:
-    """Return when the run ends if as many cases as now go on at a time, at the rate of now.
+    """Return the end of the run if the rest goes on at the present rate (seconds since the epoch).
 
     None where nothing waits, nothing runs, or no rate is known. The cases of one job share its
     rate, and a case ends earlier when its verdict is in.

@@ -1,8 +1,8 @@
-"""Whether a run is what it says: hashes of everything that its figures and tables are made of.
+"""Verification of a run: hashes of all files that its figures and tables are made of.
 
 A case is hashed again from its case file, a result by its content and by the case that it holds,
 and each file that a job has made, or made something from, by its content
-(:mod:`equisection.store.made_from`). What is made of something unsound is unsound itself.
+(:mod:`equisection.store.made_from`). A file that is made from an unsound one is unsound itself.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ from equisection.store.made_from import FOLDER, ProvenanceRecord, read_record
 
 
 class Fault(StrEnum):
-    """What is wrong with a file."""
+    """Fault of a file."""
 
     STALE = "stale"  # what it was made from has changed since
     FOREIGN = "foreign"  # not what its job made, or not the result of its case
@@ -36,22 +36,22 @@ class Fault(StrEnum):
 
 @dataclass
 class Verified:
-    """What was found of a run, or of a folder of kept results.
+    """Findings on a run, or on a folder of kept results.
 
     Attributes
     ----------
     name
         The folder.
     checked
-        How many files were looked at.
+        Number of files that were checked.
     faults
-        By file as seen from the folder: what is wrong with it, and why.
+        Fault and its reason, by file as seen from the folder.
     unrecorded
-        Files without a record of what they are made from, from before records were kept.
+        Files without a record of their inputs, made before records were kept.
     makers
-        How many files each version, with its commit, has made.
+        Number of files that each version, with its commit, has made.
     waiting
-        Cases without a result that nothing is made of yet.
+        Number of cases without a result from which nothing has been made yet.
     """
 
     name: str
@@ -62,7 +62,7 @@ class Verified:
     waiting: int = 0
 
     def find(self, file: str, fault: Fault, why: str) -> None:
-        """Note what is wrong with a file; what was found first counts."""
+        """Note the fault of a file; the first one counts."""
         self.faults.setdefault(file, (fault, why))
 
 
@@ -93,7 +93,7 @@ def verify_folder(folder: Path) -> list[Verified]:
 
 
 def words(found: Verified) -> list[str]:
-    """Return what was found, a line for each fault, then what there is to know, then the sum."""
+    """Return the findings: a line for each fault, then the remarks, then the sum."""
     lines = [
         f"{fault:8}{found.name}/{name}: {why}"
         for name, (fault, why) in sorted(found.faults.items())
@@ -113,7 +113,7 @@ def words(found: Verified) -> list[str]:
 
 
 def verify_run(run: Path) -> Verified:
-    """Check everything that a run's figures and tables are made of."""
+    """Check all files that a run's figures and tables are made of."""
     found = Verified(run.name)
     listed = {case.result: case for case in cases_of_run(run)}
     records = [record for record in _records(run, found) if not _left_behind(run, record, listed)]

@@ -1,4 +1,4 @@
-"""What a solver must offer to run a case of this workflow."""
+"""The protocol that a solver fulfils to run a case of this workflow."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ if TYPE_CHECKING:  # the graph is built from what solvers provide, without numer
 
 
 class Capability(StrEnum):
-    """What a solver can provide beside coefficients and histories."""
+    """Capability of a solver in addition to coefficients and histories."""
 
     BATCH = "batch"  # many cases in one job cost less than one by one
     SURFACE = "surface"  # pressure and friction along the section and over the beam
@@ -31,7 +31,7 @@ MPIRUN = "mpirun"
 
 @dataclass(frozen=True)
 class Allocation:
-    """What a job has been given of the machine; nothing of it decides a result.
+    """Resources of the machine that a job has been given; they decide no result.
 
     Attributes
     ----------
@@ -66,12 +66,12 @@ class Solver(Protocol):
     def settings(self, dimension: str) -> dict[str, Any]:
         """Return all of the solver's set-up that decides a dimension's results, in builtin types.
 
-        What does not decide them is left out: cases that give the same have the same hash.
+        Anything else is left out, so that cases with the same result have the same hash.
         """
         ...
 
     def describe(self, dimension: str) -> str:
-        """Return solver and resolution of its cases in words, as they stand in every figure."""
+        """Return solver and resolution of its cases in words, for every figure."""
         ...
 
     def run_steady(
@@ -91,8 +91,8 @@ class Solver(Protocol):
     ) -> list[UnsteadyResult]:
         """Run free cases until their verdict is in; a failed one has the regime ``failed``.
 
-        ``work`` is the job's own directory; it survives a kill, and a solver may resume from
-        what it finds there.
+        ``work`` is the job's own directory. It survives a kill, and a solver may resume from the
+        files in it.
 
         Raises
         ------
@@ -107,7 +107,7 @@ class MeshingSolver(Solver, Protocol):
 
     @property
     def similar_cells(self) -> int | None:
-        """Number of cells; none of a mesh that is not similar to those of other resolutions."""
+        """Number of cells; None for a mesh that is not similar to those of other resolutions."""
         ...
 
     def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:

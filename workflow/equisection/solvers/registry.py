@@ -1,7 +1,7 @@
 """The solvers that a configuration can name, loaded only when they are used.
 
-The workflow reads what a solver provides while it builds its graph, where importing numerics
-for each job would cost more than the job; so that much stands here.
+The workflow reads the capabilities of a solver while it builds its graph, where importing numerics
+for each job would cost more than the job. So they are listed here.
 """
 
 from __future__ import annotations
@@ -9,21 +9,23 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from equisection.cases import SolverBlock
-from equisection.config import Config
 from equisection.errors import CaseFileError, ConfigError
 from equisection.keys.checks import Problem
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Solver
 
+if TYPE_CHECKING:  # jobs need not build the models of the configuration
+    from equisection.config import Config
+
 
 @dataclass(frozen=True)
 class SolverEntry:
-    """Where an adapter is, and what it provides; ``dimensions`` are those of its cases.
+    """Module of an adapter, its capabilities, and the ``dimensions`` of its cases.
 
-    ``work`` is the module that tells how much its jobs have to do (:class:`.work.Estimate`), and
-    ``check`` one whose ``problems`` tells what of a configuration it has no cases for.
+    ``work`` is the module with the work of its jobs (:class:`.work.Estimate`). ``check`` is one
+    whose function ``problems`` yields the parts of a configuration that it has no cases for.
     """
 
     module: str
@@ -49,7 +51,7 @@ SOLVERS: dict[str, SolverEntry] = {
 
 
 def check_provided(config: Config) -> None:
-    """Refuse models, and whatever else, that the configured solver has no cases for.
+    """Refuse models and other values that the configured solver has no cases for.
 
     Raises
     ------
@@ -87,7 +89,7 @@ def solver_from_config(config: Config, resolution: str) -> Solver:
 
 
 def solver_from_case(block: SolverBlock, allocation: Allocation = ONE_THREAD) -> Solver:
-    """Return the solver that a case asks for, to run on what its job has been given.
+    """Return the solver of a case, to run on the resources that its job has been given.
 
     Raises
     ------

@@ -85,8 +85,8 @@ class Judge:
         tip
             Its whole history.
         failure
-            Why the run ended early, if it did. Its regime is then ``failed``, unless it had grown
-            beyond the bound before.
+            Reason for an early end of the run, if there was one. The regime is then ``failed``,
+            unless the motion had grown beyond the bound before.
         """
         try:
             verdict = assess(
@@ -115,12 +115,12 @@ class Judge:
         }
 
     def is_decided(self, tip: TipMotion) -> bool:
-        """Tell whether the verdict on a run so far is in."""
+        """Tell whether there is a verdict on a run so far."""
         return assess(tip.time, tip.twist, tip.deflection, self.criteria).decided
 
     @property
     def earliest(self) -> float:
-        """Time (c/V) at which a verdict rests on as many periods as it has to."""
+        """Time (c/V) at which a run has as many natural periods as a verdict needs."""
         return self.criteria.periods / self.natural_frequency
 
     def may_be_beyond_bound(self, late: TipMotion) -> bool:
@@ -173,12 +173,12 @@ def refused(case: Case) -> UnsteadyResult:
 def monitor_of(
     judges: Sequence[Judge], lane_of: Callable[[Any, int, slice], TipMotion]
 ) -> Callable[[Any, Indices], Indices]:
-    """Return a monitor that ends each lane of a batch when its verdict is in.
+    """Return a monitor that ends each lane of a batch when there is a verdict on it.
 
     Looking for a verdict costs more than the motion in between, the more the longer the run is.
-    So it is looked for after as many natural periods as it rests on, and then at times that only
-    the length of the run decides, alike in a batch and alone; a motion that may be beyond the
-    bound is looked at every time, before it leaves the polar.
+    So the first look comes after as many natural periods as a verdict needs. The times of later
+    looks depend on the length of the run alone, so that they are the same in a batch and alone. A
+    motion that may be beyond the bound is looked at every time, before it leaves the polar.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def monitor_of(
 
 
 def is_decided(case: UnsteadyCase, tip: TipMotion) -> bool:
-    """Tell whether the verdict on a run of a case so far is in."""
+    """Tell whether there is a verdict on a run of a case so far."""
     return Judge.of(case).is_decided(tip)
 
 
@@ -220,10 +220,10 @@ def last_look(time: float) -> float:
 
 
 def decided_at(case: UnsteadyCase, tip: TipMotion) -> float:
-    """Return the first look (c/V) at which the verdict on a history is in; infinite if none is.
+    """Return the first look (c/V) that finds a verdict on a history; infinite if none does.
 
-    A run ends a little later, as its solver is followed from outside; its result ends here, so that
-    it does not depend on when the end was noticed.
+    A run ends a little later, since its solver is followed from outside. Its result ends here, so
+    that it does not depend on the time at which the end was noticed.
     """
     last = float(tip.time[-1]) if tip.time.size else 0.0
     for look in np.arange(LOOKS_EVERY, min(last * (1 + 1e-9), case.duration), LOOKS_EVERY):

@@ -1,6 +1,6 @@
-"""Upper bound on the work of a job, by which memory and time are asked for.
+"""Upper bound on the work of a job, from which its memory and time follow.
 
-A solver says it from the configuration alone, so that the graph is built on a fresh clone.
+A solver gives it from the configuration alone, so that the graph is built on a fresh clone.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from equisection.config import Config
 
 @dataclass(frozen=True)
 class Work:
-    """What the longest run of a job comes to.
+    """Work of the longest run of a job.
 
     Attributes
     ----------
     cells
-        Cells of the mesh, or what the solver has in their place, of all cases of the job.
+        Cells of the mesh, or their counterpart in the solver, of all cases of the job.
     iterations
         Iterations of a steady solver.
     steps
@@ -31,7 +31,7 @@ class Work:
 
 
 class Estimate(Protocol):
-    """Functions of a solver's module of its work, one for each kind of case that it runs."""
+    """Protocol of a solver's module of work: a function for each kind of case that it runs."""
 
     def steady_work(self, config: Config, dimension: str, resolution: str, cases: int) -> Work:
         """Return the work of a job of rigid cases at a resolution."""

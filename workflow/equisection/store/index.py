@@ -1,8 +1,8 @@
-"""The index of a job's results: which case is in which file, with its hash and its verdict.
+"""The index of a job's results: file, hash and verdict of each case.
 
-The index is what the workflow waits for; it is written after all the result files that it
-names. A sweep of thousands of cases is then one file to Snakemake, and its summary needs no result
-file to be opened.
+The workflow waits for the index, which is written after all the result files that it names. So a
+sweep of thousands of cases is one file to Snakemake, and its summary is made without opening a
+result file.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ def write_index(
     attributes: Mapping[str, Mapping[str, Any]],
     missing: Mapping[str, str] | None = None,
 ) -> None:
-    """Write the index beside the result files.
+    """Write the index into the folder of the result files.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def write_index(
     attributes
         Attributes of the result of each case, by the case's name.
     missing
-        Why there is no result of a case, by its name; these have no file.
+        Reason for a missing result, by the name of the case; these have no file.
     """
     results = {
         name: {key: _plain(value) for key, value in sorted(found.items())}
@@ -46,7 +46,7 @@ def write_index(
 
 
 def read_index(path: Path) -> dict[str, dict[str, Any]]:
-    """Return the attributes of each result by the case's name; what is unknown is NaN.
+    """Return the attributes of each result by the case's name; unknown numbers are NaN.
 
     Raises
     ------
@@ -61,7 +61,7 @@ def read_index(path: Path) -> dict[str, dict[str, Any]]:
 
 
 def read_missing(path: Path) -> dict[str, str]:
-    """Return why there is no result of a case, by the name of each such case of an index.
+    """Return the reason for each missing result of an index, by the name of its case.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Run the cases of one job: take what is known of them, compute the rest, publish all."""
+"""Run the cases of one job: take the results that are known, compute the rest, publish all."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import xarray as xr
 
 from equisection.cases import Case, kind_of, point_of
 from equisection.errors import SolverError
+from equisection.files import second_name
 from equisection.results.case_result import CaseResult
 from equisection.results.spent import Spent, cpu_seconds_so_far
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Solver
@@ -21,7 +22,7 @@ from equisection.solvers.verdicts import refused
 from equisection.store.kept import kept_results
 from equisection.store.lock import claimed
 from equisection.store.progress import JobProgress
-from equisection.store.result_store import ResultStore, Task, publish, runs_batches, task_of
+from equisection.store.result_store import ResultStore, Task, runs_batches, task_of
 
 logger = logging.getLogger(__name__)
 
@@ -44,15 +45,15 @@ def run_cases(
     cases
         Cases by name.
     folder
-        Where the results go, as ``<name>.nc``.
+        Folder for the results ``<name>.nc``.
     store
         Folder of the results by hash.
     progress_file
-        Where the job says how far it is.
+        File with the progress of the job.
     reuse
         Folder with results of earlier runs, which are taken into the store.
     allocation
-        What the job has been given of the machine; it decides nothing.
+        Resources that the job has been given; they decide no result.
 
     Returns
     -------
@@ -80,7 +81,7 @@ def run_cases(
     for group in _alike(missing):
         known |= _compute(group, results, progress_file, allocation)
     for name, task in tasks.items():
-        publish(results.result(task), folder / f"{name}.nc")
+        second_name(results.result(task), folder / f"{name}.nc")
     return {name: point_of(task.case) | (known[task.hash] or {}) for name, task in tasks.items()}
 
 

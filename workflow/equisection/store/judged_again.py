@@ -1,4 +1,4 @@
-"""A history that is known, judged by other criteria: what the run would have been, without it."""
+"""A known history judged by other criteria, in the place of another run."""
 
 from __future__ import annotations
 

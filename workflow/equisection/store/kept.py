@@ -1,7 +1,7 @@
-"""Results that are kept with the project, so that whoever has it need not compute them again.
+"""Results that are kept with the project, so that they need not be computed again.
 
 They are the results of cases as a run leaves them, one file each, found by the hash of the case or,
-where the file has the case itself, by that.
+where the file has the case itself, by the case.
 """
 
 from __future__ import annotations
@@ -44,11 +44,11 @@ class Kept:
         return found
 
     def is_of(self, case: Case) -> bool:
-        """Tell whether the case that it is of differs from this one by what is not known alone."""
+        """Tell whether its case is this one within the scatter between machines."""
         return are_alike(self.case, json.loads(canonical(case)))
 
     def has_history_of(self, case: Case) -> bool:
-        """Tell whether it differs from a case by that and by what ends it alone."""
+        """Tell whether its case is this one in the same way but for the end of its history."""
         return are_alike(_without_end(self.case), _without_end(json.loads(canonical(case))))
 
 
@@ -107,7 +107,7 @@ def kept_mesh(folder: Path, name: Path, case: Case, **attributes: Any) -> Path |
     case
         The case, which the file holds as its attribute ``mesh_of``.
     **attributes
-        What else the file has to say.
+        Further attributes that the file has to have, with their values.
     """
     wanted = json.loads(canonical(case))
     for path in sorted(folder.rglob(str(name))):

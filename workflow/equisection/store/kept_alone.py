@@ -1,4 +1,4 @@
-"""Answer cases from kept results alone, and say of the others why there is none."""
+"""Answer cases from kept results alone, with the reason where there is none."""
 
 from __future__ import annotations
 
@@ -10,8 +10,9 @@ from typing import Any
 
 from equisection.cases import Case, are_alike, canonical, kind_of, point_of
 from equisection.cases.kinds import ends_of
+from equisection.files import second_name
 from equisection.store.kept import Kept, kept_results
-from equisection.store.result_store import ResultStore, publish, task_of
+from equisection.store.result_store import ResultStore, task_of
 
 #: Parts of a case that a reason does not take apart: they follow from others.
 _WHOLE = ("beam", "section", "criteria")
@@ -19,14 +20,14 @@ _WHOLE = ("beam", "section", "criteria")
 
 @dataclass(frozen=True)
 class Answers:
-    """What kept results say of the cases of a job.
+    """Kept results of the cases of a job.
 
     Attributes
     ----------
     found
         Attributes of each result by the name of its case.
     missing
-        Why there is no result of a case, by its name.
+        Reason for a missing result, by the name of its case.
     """
 
     found: dict[str, dict[str, Any]] = field(default_factory=dict)
@@ -43,9 +44,9 @@ def answer_from_kept(cases: Mapping[str, Case], folder: Path, store: Path, reuse
     cases
         Cases by name.
     folder
-        Where the results go, as ``<name>.nc``; one of a case that has none is removed.
+        Folder for the results ``<name>.nc``; the file of a case without a result is removed.
     store
-        Folder for the results by hash; what it holds from before is not trusted.
+        Folder for the results by hash; results that it holds from before are not trusted.
     reuse
         Folder with the kept results.
     """
@@ -58,7 +59,7 @@ def answer_from_kept(cases: Mapping[str, Case], folder: Path, store: Path, reuse
             found = found or results.judge_again(task, kept, kept_alone=True)
             if found is not None:
                 answers.found[name] = point_of(case) | found
-                publish(results.result(task), output)
+                second_name(results.result(task), output)
                 break
         else:
             output.unlink(missing_ok=True)

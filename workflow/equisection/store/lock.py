@@ -1,19 +1,19 @@
-"""Who runs in a working directory: one job at a time, on this machine or on another.
+"""Lock on a working directory: one job at a time, on this machine or on another.
 
 Two workflows in one store, or a job that a killed workflow left running and the one that is
 submitted in its place, must not run a solver in the same directory. So each job that is to run
-there takes the next number of a row of small files, ``owners/1.json``, ``owners/2.json``, …; who
-has the highest owns the directory until it says that it has ended or is seen to be gone, and
-whoever comes meanwhile waits. The files are few, and stay: they tell who ran a case, when, where.
+there takes the next number of a row of small files, ``owners/1.json``, ``owners/2.json``, …. The
+job with the highest number owns the directory until it has ended or is found to be gone. Others
+wait. The files are few, and stay: they record by which job a case was run, when and where.
 
-Why not ``flock`` or ``fcntl``: on the shared file systems of clusters these locks are often
-switched off, or known to one node alone. What every one of them does, NFS from version 3 on too, is
-to let a single process create a name (``O_EXCL``). Numbers are never used twice, so an owner that
-is gone is succeeded by the same means: of several that wait, one creates the next number. No file
-is removed in order to take a lock, which is where two could believe that they have it.
+``flock`` and ``fcntl`` are not used: on the shared file systems of clusters these locks are often
+switched off, or known to one node alone. All such file systems, also NFS from version 3 on, let a
+single process create a name (``O_EXCL``). Numbers are never used twice, so an owner that is gone is
+succeeded by the same means: of several jobs that wait, one creates the next number. No file is
+removed to take a lock, since two jobs could then believe that they have it.
 
-An owner shows that it lives by touching its file. Who waits looks whether the time of the file
-changes, and measures by its own clock for how long it has not: clocks of machines need not agree.
+An owner shows that it lives by touching its file. A job that waits watches the time of the file,
+and measures by its own clock for how long it has not changed: clocks of machines need not agree.
 """
 
 from __future__ import annotations
@@ -56,9 +56,9 @@ class Owner:
     process
         Its process.
     since, ended
-        Seconds since the epoch; it has not said that it ended where ``ended`` is 0.
+        Seconds since the epoch; ``ended`` is 0 until it has ended.
     job
-        Its number with SLURM, empty without.
+        Its number with SLURM; empty without SLURM.
     """
 
     process: Process
@@ -72,7 +72,7 @@ class Owner:
         return cls(Process.this(), time.time(), os.environ.get("SLURM_JOB_ID", ""))
 
     def words(self) -> str:
-        """Return who it is, as a person is told."""
+        """Return its process, machine and SLURM job in words."""
         job = f"SLURM job {self.job}, " if self.job else ""
         return f"{job}process {self.process.pid} on {self.process.host}, since {clock(self.since)}"
 
@@ -87,7 +87,7 @@ class Owner:
         this
             The job that asks.
         silent
-            For how long (s) it has given no sign of life.
+            Time (s) for which it has given no sign of life.
         """
         moved = self.job and self.job == this.job and self.process.host != this.process.host
         if self.ended or moved:
@@ -107,16 +107,16 @@ class HeldLock:
 
     @property
     def file(self) -> Path:
-        """File that says so."""
+        """File of the lock."""
         return _file(self.folder, self.number)
 
     def require(self) -> None:
-        """Make sure that nobody has succeeded this job, taking it for gone.
+        """Make sure that no other job has taken this one for gone, and succeeded it.
 
         Raises
         ------
         SolverError
-            Somebody has: this process was stopped for longer than :data:`SILENCE`.
+            One has: this process was stopped for longer than :data:`SILENCE`.
         """
         successor = _file(self.folder, self.number + 1)
         if successor.exists():
@@ -136,7 +136,7 @@ class HeldLock:
                 return
 
     def end(self) -> None:
-        """Say that the job has ended, if the disk has room for it."""
+        """Write that the job has ended, if the disk has room for it."""
         self._over.set()
         with contextlib.suppress(OSError):
             ended = replace(self.owner, ended=time.time())
@@ -169,7 +169,7 @@ def claimed(work: Path) -> Iterator[HeldLock]:
 
 
 def living_owner(work: Path) -> Owner | None:
-    """Return the job that runs in a working directory; None if none does, as far as is known."""
+    """Return the job that runs in a working directory; None if no job is known to run there."""
     folder = work / FOLDER
     last = _last(folder)
     owner = _read(_file(folder, last)) if last else None

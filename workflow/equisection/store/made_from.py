@@ -1,8 +1,8 @@
-"""What each job made from what: SHA-256 of its inputs and outputs, in ``provenance/`` of the run.
+"""Records of each job's inputs and outputs: their SHA-256, in ``provenance/`` of the run.
 
-Snakemake knows it too, for itself and on the machine where it ran. These records go with the
-folder of the run, and ``equisection verify`` judges by them. They are no outputs of rules: nothing
-runs because of them.
+Snakemake has such records for itself, on the machine where it ran. These go with the folder of the
+run, and ``equisection verify`` judges by them. They are no outputs of rules: nothing runs because
+of them.
 """
 
 from __future__ import annotations
@@ -23,17 +23,17 @@ FOLDER = "provenance"
 
 @dataclass(frozen=True)
 class ProvenanceRecord:
-    """What one job made.
+    """Record of one job.
 
     Attributes
     ----------
     made_by
         Version, commit, configuration and command.
     inputs, outputs
-        SHA-256 by file: those of the run as seen from its folder, others from where the workflow
-        was started. With an index go the results that it names.
+        SHA-256 by file: those of the run as seen from its folder, others from the folder in which
+        the workflow was started. An index comes with the results that it names.
     cpu_seconds
-        What the job took of all its processors (s).
+        Time that the job took of all its processors (s).
     """
 
     made_by: dict[str, str]
@@ -43,7 +43,7 @@ class ProvenanceRecord:
 
 
 def write_record(log: Path, inputs: Iterable[Path], outputs: Iterable[Path]) -> None:
-    """Write what a job has made, and from what, in the run whose ``logs`` hold its log."""
+    """Write the record of a job into the run whose ``logs`` hold its log."""
     run, given, made = log.parent.parent, set(inputs), set(outputs)
     for index in [path for path in made if is_index(path.relative_to(run))]:
         made.update(set(result_files([index])) - given)
@@ -54,7 +54,7 @@ def write_record(log: Path, inputs: Iterable[Path], outputs: Iterable[Path]) -> 
 
 
 def read_record(path: Path) -> ProvenanceRecord:
-    """Read what a job has made.
+    """Read the record of a job.
 
     Raises
     ------

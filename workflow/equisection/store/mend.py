@@ -15,18 +15,18 @@ from equisection.store.index import indices_of_run, read_index, result_file
 
 
 def mend(run: Path) -> list[str]:
-    """Put aside what is broken in a run's folder, so that the workflow makes it anew.
+    """Put aside broken files of a run's folder, so that the workflow makes them anew.
 
     A NetCDF file that is not as long as it says, or that was exchanged after the index that
     names it and is not the result of that case, is renamed to ``<name>.broken``. An index that
-    names a file that is not there is deleted: the job that writes it runs again and takes what is
-    sound from the store. Files that a job is writing at this moment (``.tmp-...``) are left
+    names a file that is not there is deleted: the job that writes it runs again and takes sound
+    results from the store. Files that a job is writing at this moment (``.tmp-...``) are left
     alone, so that a dry run does not disturb a run.
 
     Returns
     -------
     list of str
-        What was done, a line each, for the person at the terminal.
+        One line for each file put aside or deleted, for the terminal.
     """
     done = []
     for path in run.glob("**/*.nc"):

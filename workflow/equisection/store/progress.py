@@ -1,9 +1,8 @@
-"""How far a job is: in its log and in a progress file always, and on a terminal as a bar.
+"""Progress of a job: in its log and in a progress file always, and on a terminal as a bar.
 
-The progress file is a small JSON file beside the log that ``equisection status`` reads: which
-cases the job runs, how much is done, since when, the estimated end, and which process it is.
-That process may be killed and leave its file behind, so a file counts only while its process
-lives.
+The progress file is a small JSON file next to the log, which ``equisection status`` reads. It has
+the cases of the job, the part that is done, start and estimated end, and the process. A process may
+be killed and leave its file behind, so a file counts only while its process lives.
 """
 
 from __future__ import annotations
@@ -36,7 +35,7 @@ SILENCE = 1800.0
 
 @dataclass(frozen=True)
 class Process:
-    """A process, so that another one that has its number later is not taken for it."""
+    """A process, distinguished from a later one with the same number by its time of birth."""
 
     host: str
     pid: int
@@ -64,19 +63,19 @@ class Process:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """What a progress file says.
+    """Contents of a progress file.
 
     Attributes
     ----------
     cases
         Hashes of the cases that the job computes.
     done, total
-        Of ``unit``, summed over the cases.
+        Amounts in ``unit``, summed over the cases.
     started, updated
         Seconds since the epoch.
     first_done, first_time
-        The first state that the solver told: a job that goes on from an earlier one does not
-        begin at 0, and the estimate of its end must not count what it found.
+        First state that the solver reported. A job that goes on from an earlier one does not begin
+        at 0, and the estimate of its end must not count the part that it found.
     """
 
     cases: tuple[str, ...]
@@ -92,14 +91,14 @@ class Snapshot:
 
     @property
     def fraction(self) -> float:
-        """Share that is done, from 0 to 1."""
+        """Part that is done, from 0 to 1."""
         return min(max(self.done / self.total, 0.0), 1.0) if self.total > 0 else 0.0
 
     @property
     def estimated_end(self) -> float | None:
-        """Seconds since the epoch at which the job ends if it goes on as it did.
+        """Estimated end of the job at its present rate (seconds since the epoch).
 
-        None before there is a rate. A run may end earlier, when its verdict is in.
+        None before there is a rate. A run may end earlier, with its verdict.
         """
         gained, took = self.done - self.first_done, self.updated - self.first_time
         if gained <= 0 or took <= 0:
@@ -107,21 +106,21 @@ class Snapshot:
         return self.updated + (self.total - self.done) * took / gained
 
     def lives(self, now: float | None = None) -> bool:
-        """Tell whether the job still runs, as far as can be told from here."""
+        """Tell whether the job still runs, as far as this machine can tell."""
         lives = self.process.lives()
         if lives is None:
             return (time.time() if now is None else now) - self.updated < SILENCE
         return lives
 
     def words(self) -> str:
-        """Return how far the job is, in the words of a log."""
+        """Return the progress in the words of a log."""
         return (
             f"{self.done:.0f} of {self.total:.0f} {self.unit} ({100 * self.fraction:.0f} %), "
             f"since {clock(self.started)}, {self._end()}"
         )
 
     def few_words(self) -> str:
-        """Return the same in what fits beside a bar on 80 columns."""
+        """Return the progress in few words, which fit next to a bar on 80 columns."""
         return f"{100 * self.fraction:.0f} % of {self.total:.0f} {self.unit}, {self._end()}"
 
     def _end(self) -> str:
@@ -139,9 +138,9 @@ class JobProgress:
     cases
         Hashes of the cases.
     title
-        What runs them, in words.
+        Solver that runs them, in words.
     unit
-        What is counted.
+        Unit of the progress.
     """
 
     def __init__(self, path: Path, cases: Sequence[str], title: str, unit: str = "c/V") -> None:
@@ -162,7 +161,7 @@ class JobProgress:
         return self
 
     def update(self, done: float, total: float) -> None:
-        """Say that ``done`` of ``total`` (of the unit, summed over the cases) is done."""
+        """Report that ``done`` of ``total`` (of the unit, summed over the cases) is done."""
         now = time.time()
         if self._now.total == 0.0:
             self._now = replace(self._now, first_done=done, first_time=now)
@@ -204,7 +203,7 @@ class JobProgress:
 
 
 def read_snapshot(path: Path) -> Snapshot | None:
-    """Read a progress file; None if there is none or it is not one."""
+    """Read a progress file; None if it is missing or not a progress file."""
     try:
         raw = json.loads(path.read_text(encoding="utf-8"))
         process = Process(**raw.pop("process"))
@@ -219,7 +218,7 @@ def label_of(path: Path) -> str:
 
 
 def clock(seconds: float) -> str:
-    """Return a point in time as a person says it: with its day if that is not today."""
+    """Return a time in words, with its day if that is not today."""
     then = datetime.fromtimestamp(seconds).astimezone()
     today = then.date() == datetime.now().astimezone().date()
     return then.strftime("%H:%M:%S" if today else "%Y-%m-%d %H:%M")

@@ -1,9 +1,9 @@
 """The bar of a job on a terminal.
 
 Jobs that run side by side share one terminal and know nothing of each other's cursor: moving
-bars overwrite one another and leave scraps behind. So a job that is alone has a moving bar,
-and one that is not writes a line now and then, which nothing can garble. A job that ends within
-seconds shows nothing: it would be in the way of what the workflow says about starting jobs.
+bars overwrite one another and leave scraps behind. So a job that is alone has a moving bar.
+Any other writes a line now and then, which stays whole. A job that ends within seconds shows
+nothing, so that it does not disturb the workflow's messages about starting jobs.
 """
 
 from __future__ import annotations

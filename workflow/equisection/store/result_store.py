@@ -12,7 +12,6 @@ Other criteria, or another duration, are answered from there if it is long enoug
 from __future__ import annotations
 
 import logging
-import os
 import shutil
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -23,7 +22,7 @@ import xarray as xr
 
 from equisection.cases import Case, canonical, case_hash, history_hash, kind_of
 from equisection.errors import ResultFileError
-from equisection.files import written_whole
+from equisection.files import second_name, written_whole
 from equisection.provenance import made_by
 from equisection.results.failures import failure_of
 from equisection.results.netcdf import read_attributes, read_dataset, write_dataset
@@ -74,7 +73,7 @@ class ResultStore:
     folder: Path
 
     def result(self, task: Task) -> Path:
-        """Return where the result of a case is."""
+        """Return the file of the result of a case."""
         return self.folder / task.hash / "result.nc"
 
     def work(self, task: Task) -> Path:
@@ -103,9 +102,9 @@ class ResultStore:
     def put(
         self, task: Task, dataset: xr.Dataset, made_by: Mapping[str, str] | None = None
     ) -> dict[str, Any]:
-        """Write a result; return its attributes. The longest of a history is the history.
+        """Write a result and return its attributes; of a history the longest result is kept.
 
-        ``made_by`` is what made a result that was not computed now.
+        ``made_by`` is the origin of a result that was not computed now.
         """
         path = self.result(task)
         own = {"case_hash": task.hash}
@@ -120,10 +119,10 @@ class ResultStore:
         if task.history and not failure_of(attributes):
             longest = self._history(task)
             if float(attributes["end_time"]) > _length(longest):
-                publish(self.result(task), longest)
+                second_name(self.result(task), longest)
 
     def take(self, task: Task, kept: Sequence[Kept]) -> dict[str, Any] | None:
-        """Take a kept result of a case, or of one that is alike; its attributes."""
+        """Take a kept result of a case, or of one that is alike; return its attributes."""
         for one in kept:
             if one.attributes["case_hash"] == task.hash:
                 logger.info("taken from %s, where it is kept", one.path)
@@ -143,7 +142,7 @@ class ResultStore:
     def judge_again(
         self, task: Task, kept: Sequence[Kept], *, kept_alone: bool = False
     ) -> dict[str, Any] | None:
-        """Answer a case from its history, if there is one and it is long enough; attributes.
+        """Answer a case from its history, if that is long enough; return the attributes.
 
         ``kept_alone`` leaves out the history that the store has from before.
         """
@@ -175,14 +174,3 @@ def _length(history: Path) -> float:
     except ResultFileError as error:
         logger.warning("%s; it is computed again", error)
         return 0.0
-
-
-def publish(stored: Path, output: Path) -> None:
-    """Put a result where it is wanted too: a second name of the file, or a copy."""
-    output.parent.mkdir(parents=True, exist_ok=True)
-    with written_whole(output) as aside:
-        aside.unlink()
-        try:
-            os.link(stored, aside)
-        except OSError:
-            shutil.copyfile(stored, aside)

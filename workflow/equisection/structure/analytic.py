@@ -18,8 +18,8 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 from equisection.beam.beam import Beam
 
@@ -66,7 +66,7 @@ def bending_roots(ends: tuple[str, str], spring: float, count: int) -> Floats:
     grid = np.concatenate([fine, np.arange(0.5, (count + 2) * np.pi, 0.05)])
     value = equation(grid)
     change = np.flatnonzero(np.sign(value[:-1]) * np.sign(value[1:]) < 0)
-    roots = [brentq(equation, grid[i], grid[i + 1], xtol=1e-13) for i in change]
+    roots = [scipy.optimize.brentq(equation, grid[i], grid[i + 1], xtol=1e-13) for i in change]
     rigid = (3.0 * spring) ** 0.25  # a soft spring, or a hinge: the beam swings as a rigid body
     if ends[0] == "spring" and rigid <= start:
         roots.insert(0, rigid)
@@ -131,5 +131,8 @@ def _sprung_torsion_roots(spring: float, count: int) -> Floats:
         return float(gamma * np.sin(gamma) - spring * np.cos(gamma))
 
     return np.array(
-        [brentq(equation, n * np.pi, (n + 0.5) * np.pi, xtol=1e-13) for n in range(count)]
+        [
+            scipy.optimize.brentq(equation, n * np.pi, (n + 0.5) * np.pi, xtol=1e-13)
+            for n in range(count)
+        ]
     )

@@ -13,8 +13,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 from skfem import Basis, BilinearForm, ElementLineHermite, ElementLineP2, MeshLine
 from skfem.helpers import dd, ddot, dot, grad
 
@@ -94,7 +94,7 @@ def _lowest(stiffness: Floats, mass: Floats, held: list[int], count: int) -> tup
     block = np.ix_(free, free)
     largest = [len(free) - count, len(free) - 1]
     shifted = stiffness[block] + _SHIFT * mass[block]
-    inverse, reduced = eigh(mass[block], shifted, subset_by_index=largest)
+    inverse, reduced = scipy.linalg.eigh(mass[block], shifted, subset_by_index=largest)
     eigenvalue = 1.0 / inverse[::-1] - _SHIFT
     vector = np.zeros((len(stiffness), count))
     vector[free] = reduced[:, ::-1]

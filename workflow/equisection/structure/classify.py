@@ -6,8 +6,8 @@ a rigid section and the rest:
     u_y(x) = w - x theta + rest,    u_x(x) = u + rest,    u_z(x) = s - x u' + rest,
 
 and the kind is that of the largest share of the integral of |displacement|^2, which for a
-homogeneous plate is its share of the kinetic energy. "chordwise" is what no beam has: a section
-that changes its form.
+homogeneous plate is its share of the kinetic energy. In "chordwise" modes, which no beam has, the
+section changes its form.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.integrate import simpson
 
 Floats = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ class Classified:
     share : (n, 5) array
         Share of motion of each kind (-), in the order of `KINDS`; rows sum to 1.
     shape : (n, m) array
-        The section's motion that the kind names along the span, not normalised: w (m), theta
+        Motion of the section along the span that belongs to the kind, not normalised: w (m), theta
         (rad), u (m), s (m), and the root mean square of the rest (m) for "chordwise".
     """
 
@@ -48,7 +48,9 @@ def classify(chord_position: Floats, span: Floats, displacement: Floats) -> Clas
 
     def over_chord(values: Floats) -> Floats:
         width = chord_position[-1] - chord_position[0]
-        return np.asarray(simpson(values, x=chord_position, axis=-1) / width, dtype=np.float64)
+        return np.asarray(
+            scipy.integrate.simpson(values, x=chord_position, axis=-1) / width, dtype=np.float64
+        )
 
     x = chord_position
     radius_squared = over_chord(x**2)
@@ -59,7 +61,7 @@ def classify(chord_position: Floats, span: Floats, displacement: Floats) -> Clas
     whole = over_chord(u_x**2 + u_y**2 + u_z**2)
     parts = [w**2, theta**2 * radius_squared, u**2 + lean**2 * radius_squared, s**2]
     energy = np.stack([*parts, whole - sum(parts)])
-    total = simpson(energy, x=span, axis=-1)
+    total = scipy.integrate.simpson(energy, x=span, axis=-1)
     share = (total / total.sum(axis=0)).T
     rest = np.sqrt(np.maximum(energy[-1], 0.0))
     index = np.argmax(share, axis=1)

@@ -1,4 +1,4 @@
-"""Modes of a beam as data: what the rest of the package reads, by whatever method."""
+"""Modes of a beam as data, the same for every method."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class ModeSet:
         Raises
         ------
         ModesError
-            There are fewer.
+            The set has fewer.
         """
         found = [i for i, this in enumerate(self.kind) if this == kind]
         if len(found) < count:
@@ -126,9 +126,9 @@ def torsion_strain(modes: ModeSet, beam: Beam, count: int) -> Floats:
 def frequency_constants(modes: ModeSet, beam: Beam) -> Floats:
     """C_i of Eq. 23 for each mode (-): f_i c/V = C_i (L/h) sqrt(k*/I*).
 
-    k* is that of Eq. 17 with the slope of the computed torsion shape, which is what reproduces
-    Table 2. The constants hold for this L/h only: L/h has no place in Eq. 23, since
-    sqrt(k*/I*) is already omega_theta c/V.
+    k* is that of Eq. 17 with the slope of the computed torsion shape, which reproduces Table 2. The
+    constants hold for this L/h only: L/h has no place in Eq. 23, since sqrt(k*/I*) is already
+    omega_theta c/V.
     """
     first = modes.torsion(1).shape
     strain = (torsion_strain(modes, beam, 1) / gram(modes.span, first, first)).item()

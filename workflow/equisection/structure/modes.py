@@ -1,8 +1,8 @@
 """The modes of a beam by any of three methods, in one form.
 
-``solid`` (quadratic hexahedra) is what the paper does; ``beam`` (one-dimensional elements)
-and ``analytic`` cover every boundary and differ from it by what a beam leaves out: restrained
-warping and Poisson contraction at a clamp.
+``solid`` has quadratic hexahedra. ``beam`` (one-dimensional elements) and ``analytic`` cover every
+boundary. They differ from it since a beam leaves out restrained warping and Poisson contraction at
+a clamp.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ def compute_modes(
         Elements along chord, span and thickness. ``beam`` uses those along the span only, and
         ``analytic`` takes its stations from them (ends and middles of the elements).
     count : int
-        Number of modes. For the paper's plate, 12 hold four of bending, four of torsion.
+        Number of modes. Of a cantilever of L/c = 3.7, 12 hold four of bending, four of torsion.
     """
     if count < 1:
         raise ModesError(f"count is {count}; ask for at least one mode")
@@ -106,19 +106,28 @@ def modes_of_kinds(
 
 
 def mesh_study(
-    beam: Beam, levels: Sequence[tuple[int, int, int]], method: str = "solid", count: int = 8
+    beam: Beam,
+    levels: Sequence[tuple[int, int, int]],
+    method: str = "solid",
+    count: int = 8,
+    solved: ModeSet | None = None,
 ) -> MeshStudy:
     """Solve on each mesh level (coarse to fine) and compare the first ``count`` frequencies.
 
     Modes are paired by kind, the n-th of bending with the n-th of bending, since a coarse mesh may
-    have them in another order. One that a level lacks is NaN there, with a warning.
+    have them in another order. One that a level lacks is NaN there, with a warning. ``solved`` are
+    modes that are known already: where they are of the finest level it is not solved again.
 
     Raises
     ------
     ModesError
         The finest level has no modes.
     """
-    finest = compute_modes(beam, method, levels[-1], count)
+    label = " x ".join(map(str, levels[-1]))
+    if solved and (solved.method, solved.elements) == (method, label) and len(solved.kind) >= count:
+        finest = solved.lowest(count)
+    else:
+        finest = compute_modes(beam, method, levels[-1], count)
     coarser = [_paired(beam, method, level, finest.kind) for level in levels[:-1]]
     return MeshStudy(tuple(levels), finest.kind, np.array([*coarser, finest.frequency]))
 

@@ -7,15 +7,17 @@ a three-dimensional mode is safe (its error falls with the mesh); a second one i
 from __future__ import annotations
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 Floats = NDArray[np.float64]
 
 
 def integrate(span: Floats, values: Floats) -> Floats:
     """Integral over z/L from 0 to 1 of values given along the last axis (-, station)."""
-    return np.asarray(CubicSpline(span, values, axis=-1).integrate(span[0], span[-1]))
+    return np.asarray(
+        scipy.interpolate.CubicSpline(span, values, axis=-1).integrate(span[0], span[-1])
+    )
 
 
 def gram(span: Floats, first: Floats, second: Floats) -> Floats:
@@ -25,7 +27,7 @@ def gram(span: Floats, first: Floats, second: Floats) -> Floats:
 
 def derivative(span: Floats, values: Floats) -> Floats:
     """Differentiate with respect to z/L at the stations, along the last axis."""
-    return np.asarray(CubicSpline(span, values, axis=-1)(span, 1))
+    return np.asarray(scipy.interpolate.CubicSpline(span, values, axis=-1)(span, 1))
 
 
 def normalise(shape: Floats) -> Floats:

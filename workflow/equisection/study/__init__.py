@@ -1,1 +1,1 @@
-"""The study of a configuration: which cases there are, and what goes into one."""
+"""The study of a configuration: its cases, and the contents of each."""

@@ -1,6 +1,6 @@
 """Cases from the configuration, the modes, the equivalent section and the correction.
 
-Here the arrows of Fig. 1 meet: everything that decides a run is put into its case file.
+Here the arrows of Fig. 1 meet: all that decides a run is put into its case file.
 """
 
 from __future__ import annotations
@@ -85,8 +85,8 @@ def unsteady_case(
 
     Notes
     -----
-    A corrected section without a static equilibrium inside the polars is refused: its case says
-    why, and the other k* go on. Its result is ``growing`` if it diverges, else ``failed``.
+    A corrected section without a static equilibrium inside the polars is not run: its case has the
+    reason, and the other k* go on. Its result is ``growing`` if it diverges, else ``failed``.
 
     Raises
     ------
@@ -168,7 +168,7 @@ def k_star_as_given(config: Config, equivalent: xr.Dataset) -> float:
     """Return k* of the beam as configured at the configuration's speed (-).
 
     It is that of Eq. 17 in the paper's form, the axis of every comparison: both reductions and the
-    beam stand at the same k* when they have the same Young's modulus.
+    beam have the same k* when they have the same Young's modulus.
     """
     flow = config.flow
     return section_from_dataset(equivalent, "paper").k_star(flow.density, flow.speed)

@@ -17,9 +17,10 @@ import itertools
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from equisection.config import Config
+if TYPE_CHECKING:  # jobs need not build the models of the configuration
+    from equisection.config import Config
 
 #: Digits of a value in a name; values that differ beyond them are one case.
 DIGITS = 6
@@ -41,7 +42,7 @@ class Axis:
     letter
         Letter before its value in the name of a case.
     symbol, tex
-        Symbol in plain text, and on paper.
+        Symbol in plain text, and typeset.
     unit
         Unit; ``1`` of a number.
     stable
@@ -66,13 +67,13 @@ class Axis:
 
     @property
     def label(self) -> str:
-        """Symbol with unit on paper, the label of an axis."""
+        """Typeset symbol with unit, the label of an axis."""
         return self._with_unit(self.tex)
 
     def _with_unit(self, symbol: str) -> str:
         return symbol if self.unit == "1" else f"{symbol} ({self.unit})"
 
-    def on_paper(self, value: float) -> str:
+    def typeset(self, value: float) -> str:
         """Return a value as a figure states it, for instance ``$V$ = 30 m/s``."""
         return f"{self.tex} = {value:g}" + ("" if self.unit == "1" else f" {self.unit}")
 
@@ -90,7 +91,7 @@ class Axis:
         return -value if self.stable == "below" else value
 
     def same(self, values: Any, value: float) -> Any:
-        """Tell of a value, or of each of an array, whether it is the same as another."""
+        """Tell whether a value, or each of an array, is the same as another."""
         return abs(values - value) <= SAME * abs(value)
 
 
@@ -138,7 +139,7 @@ class Point:
 
     @classmethod
     def named(cls, name: str) -> Point:
-        """Return the point that the name of a case stands for.
+        """Return the point of a case by its name.
 
         Raises
         ------

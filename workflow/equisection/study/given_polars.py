@@ -1,7 +1,8 @@
-"""What is in the polars that a configuration names, looked at before any job starts."""
+"""Check of the polars that a configuration names, before any job starts."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -9,9 +10,14 @@ from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE
 from equisection.errors import ConfigError, PolarFileError
 from equisection.io.formats import read_rows
-from equisection.io.polar_rows import PolarRows, slopes
+from equisection.io.polar_rows import PolarRows, read_validity, slopes
 from equisection.keys.checks import Problem
+from equisection.keys.shown import shown
 
+#: Relative difference up to which a polar of the rigid beam is that of another one too.
+_SAME_BEAM = 0.01
+#: How many times the h/c of a polar's section another may have that it serves for.
+_LIKE_THICKNESS = 1.25
 #: Slope of the lift (1/rad) above which a section is a lifting one; 2 pi of a thin airfoil.
 LIFTING = 2.0
 #: Slope of the moment over that of the lift below which it may be about the quarter chord; about
@@ -20,9 +26,9 @@ LEVEL = 0.05
 
 
 def check_polars(config: Config, directory: Path | None = None) -> None:
-    """Refuse polars that cannot be read, and a section's that does not hold the run's incidence.
+    """Refuse polars that are unreadable, of another beam or flow, or without the run's incidence.
 
-    Any other incidence beyond them is a case that fails, and says so; the others go on. Paths are
+    Any other incidence beyond them is a case that fails with a reason; the others go on. Paths are
     seen from ``directory`` (by default the working one).
 
     Raises
@@ -35,10 +41,7 @@ def check_polars(config: Config, directory: Path | None = None) -> None:
     if config.solver == "embedded":
         problems += _of_section(config, directory)
     if config.steady.beam_polar:
-        try:
-            read_rows(directory / config.steady.beam_polar, symmetric=False)
-        except PolarFileError as error:
-            problems.append(_unreadable("steady.beam_polar", config.steady.beam_polar, error))
+        problems += _of_beam(config, directory)
     if problems:
         raise ConfigError("\n".join(problem.line for problem in problems))
 
@@ -50,9 +53,12 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
         try:
             points = read_rows(directory / path, config.embedded.symmetric)
             points.format.axis_of(directory / path, config.embedded.moment_axis)
+            valid = read_validity(directory / path)
         except PolarFileError as error:
             yield _unreadable(f"embedded.polars.{name}", path, error)
             continue
+        if name == config.steady.resolution:
+            yield from _of_another_section(config, name, path, valid)
         rows = points.rows
         yield from _moment_left_open(config, name, path, points)
         last = max(row.incidence_deg for row in rows)
@@ -79,6 +85,58 @@ def _moment_left_open(config: Config, name: str, path: str, points: PolarRows) -
             f"{lift:.2g} per rad and its moment by {moment:.2g} only, as about the quarter chord; "
             "say embedded.moment_axis: 0.25, or 0.5 if it is about mid-chord",
         )
+
+
+def _of_another_section(
+    config: Config, name: str, path: str, valid: dict[str, float | bool]
+) -> Iterator[Problem]:
+    """Refuse the polar of a section that is much thinner."""
+    ratio, of_polar = config.beam.thickness / config.beam.chord, valid.get("h/c", math.inf)
+    if ratio > _LIKE_THICKNESS * of_polar:
+        yield Problem(
+            f"embedded.polars.{name}",
+            path,
+            f"allowed is the polar of this section, of h/c {_short(ratio)}, or flat-plate, of a "
+            f"thin one; this file is of a section of h/c {_short(of_polar)}",
+        )
+
+
+def _of_beam(config: Config, directory: Path) -> Iterator[Problem]:
+    """Refuse a polar of another rigid beam. What bends the beam is free: material and ends."""
+    polar = config.steady.beam_polar
+    try:
+        read_rows(directory / polar, symmetric=False)
+        valid = read_validity(directory / polar)
+    except PolarFileError as error:
+        yield _unreadable("steady.beam_polar", polar, error)
+        return
+    here = _decides_rigid_polar(config)
+    for name, value in valid.items():
+        if not math.isclose(here.get(name, value), value, rel_tol=_SAME_BEAM):
+            yield Problem(
+                "steady.beam_polar",
+                polar,
+                'allowed is the polar of this beam, or "", with which the solver runs it; this '
+                f"one is of a beam of {name} {_short(value)} and not {_short(here[name])}",
+            )
+            return
+
+
+def _decides_rigid_polar(config: Config) -> dict[str, float | bool]:
+    """Return what the polar of the rigid beam depends on, by name (-); free air is infinite."""
+    beam, flow, channel = config.beam, config.flow, config.flow.channel
+    return {
+        "L/c": beam.length / beam.chord,
+        "h/c": beam.thickness / beam.chord,
+        "Reynolds number": flow.density * flow.speed * beam.chord / flow.dynamic_viscosity,
+        "flow.root_on_wall": flow.root_on_wall,
+        "flow.channel.height_chords": channel.height_chords if channel else math.inf,
+        "flow.channel.tip_gap_chords": channel.tip_gap_chords if channel else math.inf,
+    }
+
+
+def _short(value: float) -> str:
+    return shown(value if isinstance(value, bool) else float(f"{value:.4g}"))
 
 
 def _unreadable(key: str, path: str, error: PolarFileError) -> Problem:

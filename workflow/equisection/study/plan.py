@@ -1,8 +1,7 @@
-"""The plan of a run: which cases there are, what they are called and where their files go.
+"""The plan of a run: its cases, their names and their files.
 
-Everything comes from the validated configuration, nothing from a result, so that the graph
-can be built on a fresh clone. Names of cases come from the axes of the study
-(:mod:`equisection.study.axes`).
+It comes from the validated configuration alone, and from no result, so that the graph can be built
+on a fresh clone. Names of cases come from the axes of the study (:mod:`equisection.study.axes`).
 """
 
 from __future__ import annotations
@@ -13,13 +12,16 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from equisection.cases import FREE, STEADY, Kind
-from equisection.config import Config
 from equisection.files import require_plain_names, write_text
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
 from equisection.study.axes import INCIDENCE, Point, onset_axis, sweep_points, varied
+
+if TYPE_CHECKING:  # jobs need not build the models of the configuration
+    from equisection.config import Config
 
 #: Patterns of the wildcards of the rules.
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
@@ -94,7 +96,7 @@ def resolutions(config: Config) -> tuple[str, ...]:
 
 
 def refinement_rounds(config: Config) -> int:
-    """Return how many rounds narrow the widest bracket of the sweep to the tolerance.
+    """Return the number of rounds that narrow the widest bracket of the sweep to the tolerance.
 
     Each round of n points leaves at most one of n + 1 equal parts.
     """
@@ -172,59 +174,13 @@ def read_refinement(path: Path) -> list[str]:
     return names
 
 
-#: Figures of every run, by the paper's number; the last is not one of the paper's.
-FIGURES = (
-    "fig01-workflow",
-    "fig03-modes",
-    "fig06-section-polar",
-    "fig16-response",
-    "growth-rate",
-)
-#: Figures of the rigid beam, drawn only where the solver runs it.
-FIGURES_OF_BEAM = ("fig10-spanwise-loads",)
-#: Figures of the correction, drawn only where there is a polar of the rigid beam.
-FIGURES_OF_CORRECTION = ("fig13-lift-correction", "fig14-moment-correction")
-#: Figures of the mesh of the section, drawn only where the solver has one.
-FIGURES_OF_MESH = ("fig05-section-mesh", "fig08-courant-number")
-#: Figures of pressure and friction along the section, drawn only where the solver has them.
-FIGURES_OF_SURFACE = ("fig07-surface",)
-#: Figures of mesh, surface and flow of the rigid beam, drawn only where the solver has them and it.
-FIGURES_OF_BEAM_BY_CAPABILITY = {
-    "fig09-plate-mesh": Capability.MESH,
-    "fig11-plate-surface": Capability.SURFACE,
-    "fig12-tip-flow": Capability.FIELDS,
-}
-#: Figures of one dimension, drawn only where a model of it is run.
-FIGURES_OF_DIMENSION = {"fig15-modal-contributions": "3d", "fig17-hysteresis": "2d"}
-#: Figures of section and beam beside each other, drawn only where models of both are run.
-FIGURES_OF_BOTH = ("section-and-beam",)
-
-
-def figures(config: Config) -> list[str]:
-    """Return the names of the run's figures."""
-    of_beam = FIGURES_OF_CORRECTION if has_beam_polar(config) else ()
-    if "3d" in steady_dimensions(config):
-        provided = SOLVERS[config.solver].provides
-        shown = (
-            name for name, wanted in FIGURES_OF_BEAM_BY_CAPABILITY.items() if wanted in provided
-        )
-        of_beam = (*FIGURES_OF_BEAM, *shown, *of_beam)
-    of_mesh = FIGURES_OF_MESH if has_mesh(config) else ()
-    of_surface = FIGURES_OF_SURFACE if has_surface(config) else ()
-    run = dimensions(config)
-    of_models = [name for name, needed in FIGURES_OF_DIMENSION.items() if needed in run]
-    if has_both(config):
-        of_models += FIGURES_OF_BOTH
-    return sorted([*FIGURES, *of_beam, *of_mesh, *of_surface, *of_models])
-
-
 def dimensions(config: Config) -> set[str]:
     """Return the dimensions of the models that are compared."""
     return {model(name, config.reduction).dimension for name in config.sweep.shown}
 
 
 def has_both(config: Config) -> bool:
-    """Tell whether a section stands beside the beam."""
+    """Tell whether both a section and the beam are compared."""
     return dimensions(config) == {"2d", "3d"}
 
 
@@ -256,7 +212,7 @@ def has_grid_study(config: Config) -> bool:
 
 
 def stiffest_case(names: Iterable[str]) -> str | None:
-    """Return the case whose beam is stiffest beside the flow: of the largest k*, or least speed."""
+    """Return the case of the stiffest beam relative to the flow: largest k*, or lowest speed."""
 
     def stiffness(name: str) -> float:
         point = Point.named(name)

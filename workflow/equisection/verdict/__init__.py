@@ -1,4 +1,4 @@
-"""Histories of motion turned into verdicts: what a run shows, and whether it may end."""
+"""Verdicts on histories of motion: the regime of a run, and the decision that it may end."""
 
 from equisection.verdict.judgement import assess, heave_grows, swings_grow
 from equisection.verdict.verdict import Criteria, Regime, Verdict

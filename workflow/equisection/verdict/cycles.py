@@ -15,6 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -39,7 +40,7 @@ _CLEAN = 5e-4
 
 @dataclass(frozen=True)
 class Cycles:
-    """Extrema of a history and what the cycles around them are like.
+    """Extrema of a history, and the amplitudes of the cycles around them.
 
     Attributes
     ----------
@@ -64,8 +65,8 @@ class Cycles:
     def period(self, half_cycles: int) -> float:
         """Mean period (c/V) over the last ``half_cycles`` (at least two) half cycles.
 
-        Counted from top to top and bottom to bottom, so that a wave with unequal halves does
-        not matter.
+        Counted from top to top and bottom to bottom, so that unequal halves of a wave do not
+        matter.
         """
         spans = self.time[2:] - self.time[:-2]
         return float(np.mean(spans[-max(half_cycles - 1, 1) :])) if spans.size else float("nan")
@@ -92,14 +93,11 @@ def find_cycles(time: Array, signal: Array) -> Cycles:
     signal : ndarray, shape (n,)
         Any history.
     """
-    # it brings scipy.stats along, half a second that jobs without a history need not wait
-    from scipy.signal import find_peaks  # noqa: PLC0415
-
     noise = noise_level(signal)
     rounding = 1e-12 * (1e-3 + float(np.max(np.abs(signal), initial=0.0)))
     prominence = max(_PROMINENCE_IN_NOISE * noise, rounding)
-    tops, _ = find_peaks(signal, prominence=prominence)
-    bottoms, _ = find_peaks(-signal, prominence=prominence)
+    tops, _ = scipy.signal.find_peaks(signal, prominence=prominence)
+    bottoms, _ = scipy.signal.find_peaks(-signal, prominence=prominence)
     index = _in_turn(signal, np.concatenate((tops, bottoms)), tops.size)
     index = _without_secondary(signal, index)
     at, value = _refined(time, signal, index, noise)
@@ -152,7 +150,7 @@ def _without_secondary(signal: Array, index: NDArray[np.int64]) -> NDArray[np.in
 
 
 def _ends_secondary(value: Array) -> bool:
-    """Whether the last of four extrema ends a harmonic's swing, small beside the two before."""
+    """Tell whether the last of four extrema ends a small swing of a harmonic."""
     swing = np.abs(np.diff(value))
     return bool(swing[-1] < _SECONDARY_SWING * swing[:-1].max())
 

@@ -20,7 +20,8 @@ _FEWEST_EXTREMA = 3
 def decide_by_trend(seen: Observation) -> tuple[Regime, str]:
     """Decide at the end of a run that showed nothing beyond doubt.
 
-    A clear growth rate makes it growing or settled, none a limit cycle, whatever its spread.
+    A clear growth rate makes the run growing or settled. Without one it is a limit cycle, whatever
+    its spread.
     """
     if not seen.ringing or seen.amplitude.size < 3:
         return _by_swings(seen)

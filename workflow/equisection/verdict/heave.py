@@ -1,16 +1,16 @@
-"""Whether a heave grows beneath the twist, which the cycles of the twist don't show.
+"""Growth of a heave beneath the twist, which the cycles of the twist do not show.
 
 A section whose lift falls with the incidence gallops: its heave grows at its own frequency, mostly
 3 to 8 times slower than the pitch, while the twist looks at rest. The slow heave is the deflection
-averaged over a period of the twist, which leaves nothing of what follows the twist. A heave as fast
-as the twist, or faster, is the deflection itself, which counts where one swing after the other is
-larger than the one before.
+averaged over a period of the twist, which removes the part that follows the twist. A heave as fast
+as the twist, or faster, is seen in the deflection itself: it counts where one swing after the other
+is larger than the one before.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
+import scipy
 
 from equisection.verdict.cycles import Array, find_cycles
 from equisection.verdict.observation import GROWN, Observation
@@ -43,7 +43,7 @@ def growing_heave(seen: Observation) -> str:
 
 
 def unseen_decay(seen: Observation) -> str:
-    """Reason why the heave may yet turn out to grow, or ''."""
+    """Reason why the heave may still turn out to grow, or ''."""
     swings = heave_swings(seen)
     slow, fast = _rising(swings), _rising(_fast_swings(seen))
     is_unseen = slow.size > 1 or slow.size == swings.size == 1
@@ -109,7 +109,7 @@ def _slow(seen: Observation) -> tuple[Array, Array]:
 
 def _averaged(time: Array, signal: Array, width: float) -> tuple[Array, Array]:
     """Return times and averages of a history over ``width`` (c/V) around them."""
-    integral = cumulative_trapezoid(signal, time, initial=0.0)
+    integral = scipy.integrate.cumulative_trapezoid(signal, time, initial=0.0)
     inside = (time >= time[0] + width / 2) & (time <= time[-1] - width / 2)
     middle = time[inside]
     until, since = (np.interp(middle + half, time, integral) for half in (width / 2, -width / 2))

@@ -14,13 +14,13 @@ settled
 limit cycle
     The amplitude has been steady over the last periods and does not creep on steadily.
 at the end of the run
-    The trend of the last periods decides, and the reason says so.
+    The trend of the last periods decides, as the reason then states.
 
 No run is settled or in a limit cycle before its slow heave has been seen to decay
 (equisection.verdict.heave). It also goes on until the means are known: the heave of a released
 section is 3 to 8 times slower than its pitch, and its last swings lie beneath the twist's.
 
-Whoever changes a verdict here, or when it comes, raises ``rules`` of equisection.cases.Criteria.
+A change of a verdict here, or of its time, needs a new ``rules`` of equisection.cases.EndCriteria.
 """
 
 from __future__ import annotations

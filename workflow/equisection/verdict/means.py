@@ -1,4 +1,4 @@
-"""Means of twist and deflection, and whether they are known yet.
+"""Means of twist and deflection, and the test that they are known.
 
 Averages over single periods that agree with each other are averaged. If they still wander,
 because the slow heave has not come to rest, constant and damped waves are fitted to the tail
@@ -32,7 +32,7 @@ class Means:
     deflection : float
         Mean deflection (chords).
     known : bool
-        Whether both are within tolerance.
+        True if both are within tolerance.
     """
 
     twist: float

@@ -1,4 +1,4 @@
-"""What the end of a history looks like, in numbers; nothing is decided here."""
+"""Numbers that describe the end of a history; nothing is decided here."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ class Observation:
 
     @property
     def enough(self) -> bool:
-        """Whether the window has as many periods as are asked for."""
+        """Tell whether the window has as many periods as are asked for."""
         return self.used == 2 * self.criteria.periods
 
     @cached_property
@@ -81,7 +81,7 @@ class Observation:
 
     @cached_property
     def amplitude_time(self) -> Array:
-        """Their times (c/V)."""
+        """Times (c/V) of these amplitudes."""
         return self.cycles.amplitude_time[-(self.used - 1) :] if self.used else np.empty(0)
 
     @property
@@ -91,7 +91,7 @@ class Observation:
 
     @cached_property
     def ringing(self) -> bool:
-        """Whether the twist still oscillates at the end of the record."""
+        """Tell whether the twist still oscillates at the end of the record."""
         if self.cycles.time.size < 3:
             return False
         quiet = float(self.time[-1] - self.cycles.time[-1])
@@ -106,9 +106,9 @@ class Observation:
 
     @property
     def faster_by(self) -> float:
-        """How many times as far the twist went in the second half of the time as in the first.
+        """Ratio of the twist's change in the second half of the time to that in the first (-).
 
-        0 if it turned on its way.
+        0 if the twist turned on its way.
         """
         if self.cycles.time.size:
             return 0.0
@@ -121,7 +121,7 @@ class Observation:
     def period(self) -> float:
         """Period of the twist (c/V): observed, else the hint's, else a guess from the record.
 
-        What a twist did before it came to rest is no period of it.
+        The motion of a twist before it came to rest gives no period.
         """
         observed = self.cycles.period(max(self.used, 2))
         if self.natural_frequency > 0.0 and not (self.ringing and math.isfinite(observed)):
@@ -177,15 +177,15 @@ class Observation:
 
     @property
     def negligible_change(self) -> float:
-        """Relative change of the amplitude over a window that is none."""
+        """Relative change of the amplitude over a window that counts as no change (-)."""
         return _NEGLIGIBLE_CREEP * self.criteria.steadiness
 
     @cached_property
     def creeps(self) -> bool:
-        """Whether the amplitude changed at an undiminished rate over two windows.
+        """Tell whether the amplitude changed at an undiminished rate over two windows.
 
-        A limit cycle is approached ever more slowly; what goes on at the same exponential
-        rate, however small, approaches none.
+        A limit cycle is approached ever more slowly. A motion that goes on at the same
+        exponential rate, however small, approaches none.
         """
         if not (
             self.trend_before.clear(self.negligible_change)

@@ -16,8 +16,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.linalg import eigh
 
 from equisection.verdict.cycles import Array
 
@@ -41,7 +41,7 @@ class Superposition:
     constant : ndarray, shape (channels,)
         X of each channel (unit of the channel).
     residual : ndarray, shape (channels,)
-        Root mean square of what the fit leaves (unit of the channel).
+        Root mean square of the residual of the fit (unit of the channel).
     rates : ndarray of complex, shape (waves,)
         lambda_j (per c/V).
     """
@@ -95,7 +95,7 @@ def superposition(time: Array, channels: Array, start: float, period: float) -> 
     channels : ndarray, shape (channels, n)
         Histories with waves in common.
     start : float
-        Where the fit begins (c/V).
+        Begin of the fit (c/V).
     period : float
         Shortest period to be resolved (c/V).
     """
@@ -138,7 +138,7 @@ def _rates(sample: Array, step: float) -> NDArray[np.complex128]:
     # Only the largest ones: the solver for all of them spreads over threads, which costs a
     # hundred times its work when the machine is busy.
     largest = [max(pencil + 1 - _MAXIMAL_WAVES, 0), pencil]
-    values, vectors = eigh(correlation, subset_by_index=largest, check_finite=False)
+    values, vectors = scipy.linalg.eigh(correlation, subset_by_index=largest, check_finite=False)
     significant = int(np.sum(values > _RELATIVE_RANK**2 * values[-1]))
     basis = vectors[:, -max(significant, 1) :]
     shift = np.linalg.lstsq(basis[:-1], basis[1:], rcond=None)[0]

@@ -21,14 +21,14 @@ _SHARED_EXTREMA = 2.0
 
 @dataclass(frozen=True)
 class Trend:
-    """Exponential trend of an amplitude.
+    """Exponential trend of an amplitude, with its standard error.
 
     Attributes
     ----------
     growth_rate : float
         sigma = d ln A/ds (per c/V).
     standard_error : float
-        Of the growth rate (per c/V).
+        Standard error of the growth rate (per c/V).
     span : float
         Length of the record that it is drawn from (c/V).
     """
@@ -38,7 +38,7 @@ class Trend:
     span: float
 
     def clear(self, threshold: float, errors: float = 3.0) -> bool:
-        """Whether it is beyond doubt.
+        """Tell whether the trend is beyond doubt.
 
         Parameters
         ----------

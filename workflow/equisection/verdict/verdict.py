@@ -1,4 +1,4 @@
-"""What a history of motion is judged by, and what the judgement says.
+"""Criteria for the judgement of a history of motion, and the verdict.
 
 Time is the convective time s = t V/c throughout, twist is in rad, deflection in chords
 (conventions.py).
@@ -15,7 +15,7 @@ Regime = Literal["settled", "limit-cycle", "growing", "undecided"]
 
 @dataclass(frozen=True)
 class Criteria:
-    """When a run has shown what it will do.
+    """Criteria for the regime of a run.
 
     Attributes
     ----------
@@ -32,8 +32,8 @@ class Criteria:
         An oscillation still above ``settled_amplitude_deg`` may be called settled while the
         run goes on once its amplitude has fallen from its largest by this factor.
     mean_tolerance_deg, mean_tolerance_chords : float
-        How well the means of twist (deg) and deflection (chords) must be known before a run
-        may end.
+        Tolerances within which the means of twist (deg) and deflection (chords) must be known
+        before a run may end.
     discard_time : float
         Time from the release (c/V) whose cycles are not judged.
     minimal_time : float
@@ -75,7 +75,7 @@ class Criteria:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a history shows, from a window at its end.
+    """Regime, means, amplitudes and growth of a history, from a window at its end.
 
     Attributes
     ----------
@@ -121,5 +121,5 @@ class Verdict:
 
     @property
     def decided(self) -> bool:
-        """Whether the run may end."""
+        """Tell whether the run may end."""
         return self.regime != "undecided"

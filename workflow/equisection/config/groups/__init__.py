@@ -1,6 +1,6 @@
-"""Sections of the configuration: one model each, every default the paper's case.
+"""Sections of the configuration: one model each; the defaults are one plate in one channel.
 
-Units stand in the description of each key; a name without a unit suffix is SI.
+The description of each key has its unit; a name without a unit suffix is SI.
 """
 
 from equisection.beam.beam import FREE_TIP, MID_CHORD, Beam, Boundary, CrossSection, Damping

@@ -53,7 +53,8 @@ class Embedded(KeyGroup):
     polars: Annotated[dict[Name, Annotated[str, Field(min_length=1)]], Field(min_length=1)] = Field(
         {"coarse": "config/polars/plate_2d_11136.csv"},
         description="Section polar of each resolution: a CSV file (`incidence_deg,cl,cm,cd`) or "
-        "a polar of XFOIL (path from the working directory), or `flat-plate` for the thin "
+        "a polar of XFOIL (path from the working directory, or one of the project's), or "
+        "`flat-plate` for the thin "
         "analytic plate.",
     )
     symmetric: Truth = Field(

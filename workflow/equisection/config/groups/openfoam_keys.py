@@ -17,11 +17,11 @@ MeshName = Literal[
     "coarse",
     "medium",
     "fine",
-    "paper",
+    "finest",
     "plate-coarse",
     "plate-medium",
     "plate-fine",
-    "plate-paper",
+    "plate-finest",
 ]
 #: Before the name of a mesh: the section has the cells that its plate has in the plane.
 ON_CELLS_OF_PLATE = "plate-"
@@ -46,9 +46,9 @@ class OpenFoam(KeyGroup):
     meshes: Annotated[dict[Name, MeshName], Field(min_length=1)] = Field(
         {"coarse": "coarse", "medium": "medium", "fine": "fine"},
         description="Mesh of each resolution: `coarse` (about 1e4 cells; 8e4 of the plate), "
-        "`medium` (2e4; 3e5), `fine` (6e4; 1e6), which are similar, or `paper` (8e4; 5e6), which "
-        "has the paper's cell sizes in the section's plane and its number of cells in 3D. With "
-        "`plate-` before the name the section has the cells of that plate in its plane.",
+        "`medium` (2e4; 3e5), `fine` (6e4; 1e6), which are similar, or `finest` (8e4; 5e6), which "
+        "has cells of 0.004 c along the section's wall, 0.02 c near it and 0.04 c in the wake. "
+        "With `plate-` before the name the section has the cells of that plate in its plane.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
         8,

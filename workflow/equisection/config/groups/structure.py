@@ -1,4 +1,4 @@
-"""Section ``structure``: how the modes are computed."""
+"""Section ``structure``: computation of the modes."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ class Elements(KeyGroup):
 
 
 class Structure(KeyGroup):
-    """How the modes are computed."""
+    """Computation of the modes."""
 
     method: Literal["solid", "beam", "analytic"] = Field(
         "solid",

@@ -24,7 +24,7 @@ ModelName = Literal[
 
 
 class Range(KeyGroup):
-    """Evenly spaced values, both ends included."""
+    """Evenly spaced values, including both ends."""
 
     start: Positive = Field(description="First value (-).")
     stop: Positive = Field(description="Last value (-), above the first.")

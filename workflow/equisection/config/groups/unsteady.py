@@ -13,7 +13,7 @@ from equisection.keys.values import NUMBER, WHOLE, Positive
 
 
 class VerdictKeys(KeyGroup):
-    """When an unsteady run ends, and what it is called; amplitudes are those of the tip."""
+    """Criteria for the end and the regime of an unsteady run; amplitudes are those of the tip."""
 
     settled_amplitude_deg: Positive = Field(
         0.05, description="Twist amplitude (deg) below which a run has settled."

@@ -1,1 +1,1 @@
-"""The paper's claims, each beside what was found here: the page that ``make paper`` writes."""
+"""The paper's claims, each with this project's finding: the page that ``make paper`` writes."""

@@ -1,9 +1,9 @@
-"""Write the page that sets the paper's claims beside what was found here.
+"""Write the page that compares the paper's claims with the findings of this project.
 
     python -m equisection.paper.claims_page            # writes docs/side-by-side.md
     python -m equisection.paper.claims_page --check    # tells whether it is up to date
 
-The evidence is what ``make paper`` leaves in ``results/``, and the runs kept in
+The evidence is in the runs that ``make paper`` leaves in ``results/``, and in those kept in
 ``results/reference/``.
 """
 

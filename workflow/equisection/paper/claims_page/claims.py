@@ -1,4 +1,4 @@
-"""The paper's claims, in its words, each with what judges it."""
+"""The paper's claims, in its words, each with the function that judges it."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ class Claim:
     Attributes
     ----------
     title
-        What it is about.
+        Subject of the claim.
     words
         The paper's words or numbers.
     source
-        Where they stand.
+        Their place in the paper.
     judge
-        What is found here.
+        Function that gives the finding.
     """
 
     title: str

@@ -1,4 +1,4 @@
-"""What the paper's claims are judged on: tables of the runs of ``make paper``, and kept runs."""
+"""Evidence for and against the paper's claims: tables of ``make paper``, and kept runs."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from equisection.store.index import indices_of_run
 
 @dataclass(frozen=True)
 class Evidence:
-    """Everything that a claim is judged on.
+    """Evidence by which claims are judged.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""What was found of a claim, and the words in which numbers are put."""
+"""Findings on a claim, and the words for its numbers."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import pandas as pd
 
 
 class ClaimVerdict(StrEnum):
-    """Whether a claim is borne out here."""
+    """Verdict on a claim of the paper."""
 
     AGREES = "agrees"
     PARTLY = "partly"
@@ -21,18 +21,18 @@ class ClaimVerdict(StrEnum):
 
 @dataclass(frozen=True)
 class Finding:
-    """What was found of a claim.
+    """Finding on a claim.
 
     Attributes
     ----------
     verdict
-        Whether it is borne out.
+        Verdict on the claim.
     here
-        What was found, in words with numbers.
+        Finding of this project, in words with numbers.
     how
-        At which resolution and cost.
+        Resolution and cost.
     why
-        Why it agrees or not, as far as it is known.
+        Reason why it agrees or not, as far as it is known.
     """
 
     verdict: ClaimVerdict
@@ -42,7 +42,7 @@ class Finding:
 
 
 def open_finding(what: str, here: str = "") -> Finding:
-    """Return that a claim cannot be judged yet, and what would judge it."""
+    """Return the finding on a claim that cannot be judged yet, with the runs that it needs."""
     return Finding(ClaimVerdict.OPEN, f"{here} Needs {what}.".strip())
 
 
@@ -60,7 +60,7 @@ def percent(difference: float) -> str:
 
 
 def resolution_of(summary: pd.DataFrame, *models: str) -> str:
-    """Say on what mesh some models of a ``summary.csv`` were run, and what that cost."""
+    """Return mesh and cost of some models of a ``summary.csv`` in words."""
     runs = summary[summary["model"].isin(models)]
     if runs.empty:
         return ""

@@ -1,4 +1,4 @@
-"""What was found of the paper's claims on structure, mesh and rigid loads."""
+"""Findings on the paper's claims on structure, mesh and rigid loads."""
 
 from __future__ import annotations
 
@@ -169,7 +169,7 @@ def bubble_of_the_section(evidence: Evidence) -> Finding:
 
 
 def bubble_of_the_plate(evidence: Evidence) -> Finding:
-    """Judge the bubble at the root at 2 and 4 deg, with that of the section beside it."""
+    """Judge the bubble at the root at 2 and 4 deg, and compare it with that of the section."""
     rows, section = evidence.plate_bubble, evidence.bubble.dropna(subset=["bubble"])
     of_section = ", ".join(
         f"{row.bubble:.2g} c at {row.incidence_deg:g} deg ({row.resolution})"

@@ -1,4 +1,4 @@
-"""What was found of the paper's claims on the response over k*, its onset and its cost."""
+"""Findings on the paper's claims on the response over k*, its onset and its cost."""
 
 from __future__ import annotations
 
@@ -302,7 +302,7 @@ def _in_words(run: pd.Series) -> str:
 
 
 def not_classical_flutter(evidence: Evidence) -> Finding:
-    """Judge what linear theory sees at the k* of the instability."""
+    """Judge the motions by linear theory at the k* of the instability."""
     row = evidence.onset[evidence.onset["model"] == _SECTION]
     unstable, _ = evidence.bracket(_SECTION)
     if row.empty or not math.isfinite(unstable):

@@ -1,4 +1,4 @@
-"""Unsteady runs that are kept, whatever configuration made them, and what they cost."""
+"""Unsteady runs that are kept, whatever configuration made them, and their cost."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ def kept_runs(folder: Path) -> pd.DataFrame:
     """Return a line for each unsteady result below a folder that has its case and has not failed.
 
     ``model`` is the name of the folder that a result is in, ``folder`` that of its run, and
-    ``settings`` the words of the solver's settings. ``regime`` and the numbers beside it are judged
-    by the rules of today, whatever those were that a run ended by. ``growth_by_60`` and
+    ``settings`` the words of the solver's settings. ``regime`` and the numbers with it are judged
+    by the present rules, whatever those were that a run ended by. ``growth_by_60`` and
     ``growth_by_100`` are the growth rates (V/c) over the last periods of the first 60 and 100 c/V,
     or of the whole of a run that ended before: growth changes with time, so runs of different
     length are compared by these.
@@ -84,7 +84,7 @@ def cells_of(description: str) -> float:
 
 
 def base_of(ladder: pd.DataFrame) -> pd.Series | None:
-    """Return the line of a cost ladder that the others are set against.
+    """Return the line of a cost ladder that the others are compared with.
 
     It is that of the resolved section with the most k*, and of these that on the fewest cells.
     """

@@ -1,7 +1,7 @@
 """The embedded solver: steady and unsteady loads from section polars, with nothing but Python.
 
-Section polar, lifting line and lagged separation stand in the place of CFD. What it gives is
-labelled as what it is wherever it is shown.
+Section polar, lifting line and lagged separation take the place of CFD. Figures and files name the
+solver wherever they show its results.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What a job of the embedded solver has to do; in the place of cells it has sections."""
+"""Work of a job of the embedded solver, which has sections in the place of cells."""
 
 from __future__ import annotations
 

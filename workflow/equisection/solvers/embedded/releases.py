@@ -51,9 +51,9 @@ def release_judged(
     judges
         Judge of each.
     loads, settings
-        What they share.
+        Loads and settings of all.
     progress
-        Called with the time that has been reached and the last one.
+        Called with the time that has been reached and the last one (c/V).
     load_factors
         Factors of c_l and c_m of each (:func:`equisection.motion.sections.section_system`).
     """

@@ -63,9 +63,9 @@ def release(
     Returns
     -------
     xarray.Dataset
-        Over ``time`` (s), with ``convective_time`` (c/V) beside it: ``twist`` (rad) and
-        ``deflection`` (m) of the section, ``tip_twist`` and ``tip_deflection`` of the beam that it
-        stands for, ``cl``, ``cm``, ``incidence`` (rad). The verdict is in the attributes:
+        Over ``time`` (s) and ``convective_time`` (c/V): ``twist`` (rad) and ``deflection`` (m) of
+        the section, ``tip_twist`` (rad) and ``tip_deflection`` (m) of its beam, ``cl``, ``cm``,
+        ``incidence`` (rad). The verdict is in the attributes:
         ``regime`` (`settled`, `limit-cycle`, `growing`, `failed`), ``reason`` and its numbers.
 
     Raises

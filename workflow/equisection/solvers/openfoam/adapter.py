@@ -1,7 +1,7 @@
 """OpenFOAM behind the solver protocol: one case at a time, the plate on several ranks.
 
-What runs a case is imported where it is called: writing a case file takes this module too, and
-none of that.
+The modules that run a case are imported where they are called, since writing a case file needs this
+module without them.
 """
 
 from __future__ import annotations
@@ -65,7 +65,7 @@ class Adapter:
         return cls(Settings(**settings), allocation)
 
     def settings(self, dimension: str) -> dict[str, Any]:
-        """Return what decides a dimension's results, as it stands in a case."""
+        """Return the settings of a case that decide the results of a dimension."""
         return self._settings.of_dimension(dimension).of_case()
 
     def describe(self, dimension: str) -> str:
@@ -82,7 +82,7 @@ class Adapter:
 
     @property
     def similar_cells(self) -> int | None:
-        """Number of cells; none of a mesh that is not similar to the others."""
+        """Number of cells; None for a mesh that is not similar to the others."""
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]

@@ -21,14 +21,14 @@ def is_ready(folder: Path) -> bool:
 
 
 def emptied(folder: Path) -> Path:
-    """Remove what a folder holds, and return it."""
+    """Remove all that a folder holds, and return the folder."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     return folder
 
 
 def mark_ready(folder: Path) -> None:
-    """Say that the set-up is whole."""
+    """Mark the set-up of a folder as whole."""
     write_text(folder / _READY, "")
 
 

@@ -28,7 +28,7 @@ def dictionary(name: str, entries: Entries, kind: str = "dictionary") -> str:
         Name of the file, without its folder.
     entries
         Mappings become sub-dictionaries, sequences lists, ``True`` and ``False`` become ``yes``
-        and ``no``; text stands as it is.
+        and ``no``; text stays as it is.
     kind
         The file's class in OpenFOAM.
     """

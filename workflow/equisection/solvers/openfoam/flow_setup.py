@@ -123,15 +123,15 @@ def schemes(*, steady: bool) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class Coupling:
-    """How flow, loads and motion come together in a time step of PIMPLE.
+    """Coupling of flow, loads and motion in a time step of PIMPLE.
 
     Attributes
     ----------
     outer_correctors
         Iterations of flow, loads and motion, at most: they end once :data:`COUPLED` is reached.
     velocity_relaxation
-        Under-relaxation of the velocity in each of them, the last too: it converges what comes
-        before, where the last alone would undo it.
+        Under-relaxation of the velocity in each of them, including the last. The iterations then
+        converge, where a last one without relaxation would undo it.
     """
 
     outer_correctors: int = 8

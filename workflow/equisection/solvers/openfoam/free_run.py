@@ -1,4 +1,4 @@
-"""What a free run is of, whether of the section or of the plate, and where its folders are."""
+"""A free run of section or plate: its case, mesh, coupling and folders."""
 
 from __future__ import annotations
 
@@ -31,9 +31,9 @@ class FreeRun(Generic[MeshT]):
     mesh
         Its mesh.
     coupling
-        Of flow, loads and motion in a time step.
+        Coupling of flow, loads and motion in a time step.
     work
-        Where its folders are.
+        Folder that holds its folders.
     """
 
     installation: Installation
@@ -44,11 +44,11 @@ class FreeRun(Generic[MeshT]):
 
     @property
     def folder(self) -> Path:
-        """Folder of the free run, beside that of the steady flow which it starts from."""
+        """Folder of the free run, next to that of the steady flow that it starts from."""
         return self.work / "free"
 
     def before_release(self, tell: Tell) -> Tell:
-        """Return what the steady flow is to tell of itself: of the free run nothing is done yet."""
+        """Return the progress callback of the steady flow, during which the free run is at 0."""
 
         def nothing_yet(done: float, total: float) -> None:
             del done, total

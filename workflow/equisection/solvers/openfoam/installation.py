@@ -1,9 +1,9 @@
-"""Where OpenFOAM is on this machine, and how its programs are started.
+"""The installation of OpenFOAM on this machine, and the start of its programs.
 
-In this order: a command before each program (a launcher or a container call, from the variable
-``EQUISECTION_OPENFOAM``, which the workflow sets from its configuration), an environment that was
-sourced, programs on the path (as Debian installs them), a launcher such as
-``openfoam2312``. No version decides a result: it is written beside it.
+It is looked for in this order: a command before each program (a launcher or a container call, from
+the variable ``EQUISECTION_OPENFOAM``, which the workflow sets from its configuration), an
+environment that was sourced, programs on the path (as Debian installs them), a launcher such as
+``openfoam2312``. The version is no part of a case, but it is written with each result.
 """
 
 from __future__ import annotations
@@ -46,16 +46,16 @@ _LAUNCHER = re.compile(r"openfoam-?v?\d{2,4}$")
 
 @dataclass(frozen=True)
 class Installation:
-    """How to start a program of OpenFOAM.
+    """Installation of OpenFOAM, by which its programs are started.
 
     Attributes
     ----------
     prefix
         Words before the program.
     environment
-        Variables beside those of the process.
+        Variables in addition to those of the process.
     found
-        How it was found, in words.
+        Place where it was found, in words.
     launcher
         Command that starts ranks of MPI, on one machine or on all that the job has.
     """
@@ -100,16 +100,16 @@ def find(
     Parameters
     ----------
     search
-        Where programs are looked for (by default ``PATH``).
+        Folders in which programs are looked for (by default ``PATH``).
     debian
-        Where Debian's package has ``etc/controlDict``.
+        Folder in which Debian's package has ``etc/controlDict``.
     launcher
         Command that starts ranks of MPI.
 
     Raises
     ------
     SolverError
-        There is none, or a part of it is missing; the message says what and how to mend it.
+        There is none, or a part of it is missing; the message names it and the remedy.
     """
     search = os.environ.get("PATH", "") if search is None else search
     return replace(_found(search, debian), launcher=launcher)
@@ -178,7 +178,7 @@ def _version(prefix: tuple[str, ...], environment: tuple[tuple[str, str], ...]) 
 
 
 def version_in(text: str) -> str:
-    """Return the version in what a program says of itself; 'unknown' if there is none."""
+    """Return the version in the output of a program; 'unknown' if there is none."""
     for pattern in (r"Using: OpenFOAM-\s*\(?(\w[\w.]*)", r"Build:.*?OPENFOAM=(\w+)", r"v(\d{4})"):
         match = re.search(pattern, text)
         if match:

@@ -1,4 +1,4 @@
-"""What a job of OpenFOAM has to do at most: one case, to its last iteration and time step."""
+"""Upper bound on the work of an OpenFOAM job: one case, to its last iteration and time step."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ENOUGH = 4
 
 
 def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
-    """Return the work of a rigid case: a steady flow, and the unsteady one where there is none."""
+    """Return the work of a rigid case: a steady flow, and an unsteady one if it has none."""
     longest = section_rigid.RECORD if dimension == "2d" else plate_rigid.RECORD
     steps = longest.end / STEP * iterations_of(config.openfoam.outer_correctors)
     return Work(cells_of(config.openfoam.meshes[resolution], dimension) * cases, MOST, steps)
@@ -34,7 +34,7 @@ def unsteady_work(config: Config, dimension: str, resolution: str, cases: int) -
 
 
 def iterations_of(outer_correctors: int) -> int:
-    """Return how many iterations a time step is expected to take of those allowed."""
+    """Return the number of iterations that a time step is expected to take of those allowed."""
     return min(outer_correctors, ENOUGH)
 
 

@@ -1,4 +1,4 @@
-"""One program of OpenFOAM at a time: its log followed, its faults told, never left behind."""
+"""Runs of OpenFOAM's programs, one at a time: log followed, faults reported, none left behind."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class Every:
 
 
 class BlowUpError(SolverError):
-    """The flow or the mesh left what can be computed: a result of the case, not of the machine."""
+    """The flow or the mesh broke down: a result of the case, not a fault of the machine."""
 
 
 def run_program(
@@ -74,7 +74,7 @@ def run_program(
     """Run a program in a case to its end, or until ``watch`` says so.
 
     On more than one rank the case is one that ``decomposePar`` has divided. The program's output
-    goes to ``log.<program>`` in the case, behind what stands there.
+    is appended to ``log.<program>`` in the case.
 
     Raises
     ------
@@ -93,13 +93,13 @@ def run_program(
 def run_beside(
     installation: Installation, program: str, folder: Path, serve: Serve, *, ranks: int = 1
 ) -> None:
-    """Run a program in a case, and what it exchanges data with beside it.
+    """Run a program in a case together with a function that exchanges data with it.
 
     Parameters
     ----------
     serve
-        Called with what tells whether the program still runs, and how to end it at the end of a
-        step; it returns when the program has ended.
+        Called with a function that tells whether the program still runs, and one that ends it at
+        the end of a step; it returns when the program has ended.
 
     Raises
     ------

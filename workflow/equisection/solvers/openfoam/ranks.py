@@ -1,7 +1,7 @@
 """A case on several ranks of MPI: divided along the span, never put together again.
 
-Loads are summed by the programs themselves, and a run starts from the parts of the one before, so
-what is written on each rank stays there.
+Loads are summed by the programs themselves, and a run starts from the parts of the one before. So
+the files of each rank stay there.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _LAYERS = 4
 
 
 def divide(installation: Installation, folder: Path, ranks: int, layers: int) -> None:
-    """Divide mesh and fields at time 0 among the ranks; one rank has them as they are.
+    """Divide mesh and fields at time 0 among the ranks; with one rank nothing is done.
 
     Parameters
     ----------

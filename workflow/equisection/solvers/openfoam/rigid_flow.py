@@ -4,9 +4,9 @@ The steady solver has converged when all loads stay within :data:`CONVERGED` of 
 the last :data:`WINDOW` iterations. Where it does not, the flow goes on unsteadily from there until
 the means of both halves of the record agree within :data:`KNOWN`.
 
-A solver is followed from outside, by its log, and ends a little after it was told to. What is taken
-of its loads ends at a look, which is a given number of iterations or a given time, so that a result
-does not depend on when the end was noticed.
+A solver is followed from outside, by its log, and ends a little after it was told to. The loads
+that are used end at a look, at a given number of iterations or a given time, so that a result does
+not depend on the time at which the end was noticed.
 """
 
 from __future__ import annotations
@@ -72,9 +72,9 @@ def follow_iterations(
     is_converged
         Tells whether loads up to an iteration are those of a converged run.
     tell
-        Told what is done; the steady run is the first half of what may be.
+        Called with the progress; the steady run is the first half of the work that may come.
     run
-        Runs the solver with what is to end it.
+        Runs the solver with a function that tells it when to end.
 
     Returns
     -------
@@ -110,7 +110,7 @@ def follow_unsteady(
     Returns
     -------
     Loads
-        What is to be averaged, without the time left out.
+        Loads to be averaged, without the time left out.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def follow_unsteady(
 
 
 def method_of_mean(record: Loads) -> str:
-    """Return how the means of a record were obtained, in words."""
+    """Return the origin of a record's means in words."""
     return (
         f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
         f"{100 * record.drift():.2g} % apart"
@@ -147,7 +147,7 @@ def method_of_mean(record: Loads) -> str:
 
 
 def write_at_rest(folder: Path) -> None:
-    """Write that the mesh stands still."""
+    """Write the dictionary of a mesh at rest."""
     write_text(
         folder / "constant" / "dynamicMeshDict",
         dictionary("dynamicMeshDict", {"dynamicFvMesh": "staticFvMesh"}),

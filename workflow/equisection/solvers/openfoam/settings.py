@@ -1,4 +1,4 @@
-"""What decides a result of OpenFOAM beside the case's own physics."""
+"""Settings of OpenFOAM that decide a result, in addition to the physics of the case."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from equisection.solvers.openfoam.flow_setup import Coupling
 
 @dataclass(frozen=True)
 class Settings:
-    """Mesh and coupling; no path, version or number of ranks, which decide nothing.
+    """Mesh and coupling, without paths, version and number of ranks, which decide nothing.
 
     Attributes
     ----------
@@ -22,7 +22,7 @@ class Settings:
     velocity_relaxation
         Under-relaxation of the velocity in these iterations; 1 is none.
     mesh_motion
-        How the mesh follows the free section.
+        Way in which the mesh follows the free section.
     """
 
     mesh: str
@@ -32,22 +32,22 @@ class Settings:
 
     @property
     def coupling(self) -> Coupling:
-        """How flow, loads and motion come together in a time step."""
+        """Coupling of flow, loads and motion in a time step."""
         return Coupling(self.outer_correctors, self.velocity_relaxation)
 
     def of_dimension(self, dimension: str) -> Settings:
-        """Return the settings without the choices that are none in a dimension.
+        """Return the settings without the choices that do not exist in a dimension.
 
-        Which cells the section has, and how its mesh follows it, says nothing of the plate.
+        The cells of the section, and the motion of its mesh, do not concern the plate.
         """
         if dimension == "2d":
             return self
         return replace(self, mesh=self.mesh.removeprefix(ON_CELLS_OF_PLATE), mesh_motion=MORPH)
 
     def of_case(self) -> dict[str, Any]:
-        """Return what stands in a case: without what is as in cases from before there was a choice.
+        """Return the settings as a case holds them, without those at their defaults.
 
-        So a new choice leaves the hash of every case that does not take it.
+        So a new setting leaves the hash of every case that does not use it.
         """
         return {
             field.name: getattr(self, field.name)

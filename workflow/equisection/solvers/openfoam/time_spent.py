@@ -1,4 +1,4 @@
-"""What the programs of a case took, by their logs: over all starts, those that were killed too."""
+"""Time that the programs of a case took, by their logs, over all starts including killed ones."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _TIMES = re.compile(rb"^ExecutionTime = ([\d.e+]+) s +ClockTime = ([\d.e+]+) s",
 
 
 def spent(folder: Path) -> Spent:
-    """Return what the programs took whose logs (``log.*``) are below a folder."""
+    """Return the time that programs took whose logs (``log.*``) are below a folder."""
     processors = clock = 0.0
     for log in sorted(folder.rglob("log.*")):
         for start in _START.split(log.read_bytes())[1:]:

@@ -1,4 +1,4 @@
-"""What a result of OpenFOAM did in all, from its case and its own words."""
+"""Work behind a result of OpenFOAM, from its case and its attributes."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ SHORTEST = 20.0
 def work_done(case: dict[str, Any], attributes: dict[str, Any]) -> Work | None:
     """Return the work behind a result; None where that is not known well enough.
 
-    What another version of the adapter took says nothing of this one's iterations.
-    A mean does not say its iterations. The steady flow that a free case starts from is part of what
-    it took and is not counted: a few hundred iterations beside thousands of steps, but too many
-    beside those of a run below :data:`SHORTEST`.
+    It is unknown for another version of the adapter, whose iterations may differ, and for a mean,
+    which does not say its iterations. The steady flow that a free case starts from took time too
+    and is not counted: a few hundred iterations against thousands of steps, but too many against
+    those of a run below :data:`SHORTEST`.
 
     Parameters
     ----------
     case
-        The case, as it stands in the result.
+        The case, as the result holds it.
     attributes
         Attributes of the result.
     """

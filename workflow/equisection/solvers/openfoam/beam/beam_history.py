@@ -1,4 +1,4 @@
-"""What the structure of a coupled run has been through: a row a time step, in a text file.
+"""History of the structure of a coupled run, a row for each time step in a text file.
 
 A row holds the whole state of the modes, so that the run can be taken up after any step, and the
 loads on the plate. It is in the file before OpenFOAM goes on to the next step.
@@ -82,7 +82,7 @@ def keep_until(path: Path, time: float, modes: int) -> PlateHistory:
 
 
 def require_state(state: ModalState | None, start: float, step: float, folder: Path) -> None:
-    """Refuse to go on from a state of the flow without the structure's a step before.
+    """Refuse to go on from a state of the flow without the state of the structure a step before.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def require_state(state: ModalState | None, start: float, step: float, folder: P
     Raises
     ------
     SolverError
-        There is none, or steps are missing in between.
+        There is no such state, or steps are missing in between.
     """
     if state is None or abs(state.time + step - start) > 0.5 * step:
         known = "nothing" if state is None else f"{state.time:g} c/V"

@@ -1,10 +1,10 @@
-"""The plate as lumped points: where OpenFOAM hands over loads, and where it is told to move to.
+"""The plate as lumped points, at which OpenFOAM gives the loads and takes the positions.
 
-A point stands in the middle of each layer of cells along the plate, and one at either end. The
+A point is in the middle of each layer of cells along the plate, and one at either end. The
 loads of a layer's faces go to its point; the mesh's points on the plate are moved as the lumped
 points to either side, linearly between them, so the shapes of the modes are followed to second
 order in the size of a layer. The last layer of a free tip moves without a slope: beyond the tip the
-mesh has none, and what is between would be squeezed. A load does its work on the surface as it
+mesh has none, and cells in between would be squeezed. A load does its work on the surface as it
 moves, so a mode's load takes the mean of the shape over each layer. Loads are those of the
 pressure: ``lumpedPointMovement`` leaves out friction, which has next to no lift and no moment
 about mid-chord.
@@ -20,8 +20,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from equisection.cases import BeamModes
 from equisection.files import write_text
@@ -59,7 +59,7 @@ class LumpedPoints:
     frequency
         omega c/V, shape (n_t + n_b,).
     torsion_at_tip, bending_at_tip
-        Shapes where the first of each kind is largest, shape (n_t,) and (n_b,).
+        Shapes at the place where the first of each kind is largest, shape (n_t,) and (n_b,).
     """
 
     span: float
@@ -84,8 +84,12 @@ class LumpedPoints:
             0.5 * modes.inertia * span * integrate(stations, torsion**2),
             0.5 * modes.mass * span * integrate(stations, bending**2),
         ]
-        twisting = _followed(CubicSpline(stations, torsion, axis=1)(locations / span), edges)
-        heaving = _followed(CubicSpline(stations, bending, axis=1)(locations / span), edges)
+        twisting = _followed(
+            scipy.interpolate.CubicSpline(stations, torsion, axis=1)(locations / span), edges
+        )
+        heaving = _followed(
+            scipy.interpolate.CubicSpline(stations, bending, axis=1)(locations / span), edges
+        )
         return cls(
             span=span,
             locations=locations,
@@ -110,7 +114,7 @@ class LumpedPoints:
         Parameters
         ----------
         forces, moments
-            On each point (rho V^2 c^2, c^3) about its place, shape (P, 3).
+            Force (rho V^2 c^2) and moment (rho V^2 c^3) on each point, about it, shape (P, 3).
         """
         loads = np.concatenate(
             [-self.torsion_at_loads @ moments[:, 2], self.bending_at_loads @ forces[:, 1]]
@@ -174,7 +178,7 @@ def _mean_of_layers(shapes: Floats, edges: Floats) -> Floats:
 
 @dataclass(frozen=True)
 class Handed:
-    """What OpenFOAM hands over: forces and moments of the points at a time, shape (P, 3)."""
+    """Forces and moments of the points that OpenFOAM gives at a time, shape (P, 3)."""
 
     time: float
     forces: Floats
@@ -187,7 +191,7 @@ class Handed:
         Raises
         ------
         ValueError
-            It is not of this form.
+            The message is not of this form.
         """
         lines = message.splitlines()
         time = next(
@@ -202,17 +206,17 @@ class Handed:
         return cls(time, values[:, 3:6], values[:, 6:9])
 
     def is_again(self, last: Handed | None) -> bool:
-        """Tell whether this is what was handed over last, by the same forces at the same time.
+        """Tell whether these are the last loads again: the same forces at the same time.
 
         The correction of the mesh's points at the plate asks twice for each motion of the mesh,
-        and must be told the same; what the flow comes to in a further iteration is never the same.
+        and must get the same answer. In a further iteration the loads are never quite the same.
         """
         return last is not None and (
             self.time == last.time and np.array_equal(self.forces, last.forces)
         )
 
     def about(self, deflection: Floats) -> Handed:
-        """Return the same with moments about points that stand higher by ``deflection`` (chords).
+        """Return the loads with moments about points that are higher by ``deflection`` (chords).
 
         A run that starts anew takes its first moments about the points at rest.
         """
@@ -222,7 +226,7 @@ class Handed:
 
 
 def write_lumped_motion(folder: Path, points: LumpedPoints, comms: Mapping[str, str]) -> None:
-    """Write what moves the mesh of a case, divided or not, with the plate at rest.
+    """Write the files that move the mesh of a case, divided or not, with the plate at rest.
 
     Parameters
     ----------
@@ -281,10 +285,10 @@ def _point_displacement() -> str:
 def motion_solvers() -> dict[str, Any]:
     """Return the entries of ``fvSolution`` for the displacement of the mesh.
 
-    At the plate the diffusivity is as good as infinite, and so is what residuals are measured by:
-    by them the equation is solved after one iteration, while all but the first cells still lag
-    behind. So the number of iterations is given; and corrections from coarser levels are not
-    scaled, which for the same reason would take them for nothing.
+    At the plate the diffusivity is practically infinite, and so is the scale of the residuals. By
+    them the equation is solved after one iteration, while all but the first cells still lag behind.
+    So the number of iterations is given. For the same reason corrections from coarser levels are
+    not scaled, since the scaling would make them vanish.
     """
     solver = {
         "solver": "GAMG",
@@ -301,7 +305,7 @@ def motion_solvers() -> dict[str, Any]:
 def motion_schemes() -> dict[str, str]:
     """Return the entry of ``laplacianSchemes`` for the displacement of the mesh.
 
-    Without the correction of faces that are not orthogonal: on the thin cells beside the plate it
-    feeds on the distortion that it makes, until the mesh fails within 8 c/V.
+    It leaves out the correction of faces that are not orthogonal. On the thin cells at the plate
+    that correction feeds on the distortion that it makes, until the mesh fails within 8 c/V.
     """
     return {"laplacian(diffusivity,cellDisplacement)": "Gauss linear uncorrected"}

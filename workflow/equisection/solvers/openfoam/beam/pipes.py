@@ -5,7 +5,7 @@ reads the places of the points from another file. Stock, it looks for the lock o
 
 - both files are named pipes: opening one waits for the other side, which is all the synchronisation
   that is needed;
-- two locks stand there, ``OpenFOAM.lock`` and ``OpenFOAM.lock.gz``. OpenFOAM removes the first that
+- there are two locks, ``OpenFOAM.lock`` and ``OpenFOAM.lock.gz``. OpenFOAM removes the first that
   it finds and goes on if it finds one, so it never waits. The one removed is put back while
   OpenFOAM reads the places of the points: after it has looked, and before it can look again.
 
@@ -51,7 +51,7 @@ class Pipes:
     Parameters
     ----------
     case
-        Folder of the case. What an earlier run left of the exchange there is removed.
+        Folder of the case. Files that an earlier run left of the exchange are removed.
     silence
         Seconds after which a program that neither hands over loads nor ends counts as hung.
     """
@@ -80,12 +80,12 @@ class Pipes:
         os.close(self._loads)
 
     def receive(self, alive: Alive) -> str | None:
-        """Return what OpenFOAM hands over next; None if it ended instead.
+        """Return the next loads from OpenFOAM; None if it ended instead.
 
         Parameters
         ----------
         alive
-            Whether the program still runs.
+            Tells whether the program still runs.
 
         Raises
         ------
@@ -118,7 +118,7 @@ class Pipes:
         return b"".join(parts).decode()
 
     def send(self, message: str, alive: Alive) -> bool:
-        """Hand over the places of the points; return whether OpenFOAM was there to take them.
+        """Hand over the places of the points; return True if OpenFOAM took them.
 
         Raises
         ------

@@ -67,7 +67,7 @@ def plate_mesh_of(
     Raises
     ------
     SolverError
-        The case has no channel, or the root does not stand on its wall.
+        The case has no channel, or the root is not on its wall.
     """
     section, geometry = mesh_of(case, refinement, spacing), case.geometry
     if not geometry.root_on_wall:
@@ -88,11 +88,11 @@ class PlateFlow:
     case, mesh
         The case and its mesh.
     coupling
-        Of the flow in a time step, where it goes on unsteadily.
+        Coupling in a time step, where the flow goes on unsteadily.
     ranks
         Ranks of MPI that a program runs on.
     work
-        Where its folders are.
+        Folder that holds its folders.
     """
 
     installation: Installation

@@ -1,7 +1,7 @@
 """The plate and its channel: the section's mesh extruded over the span, and closed beyond the tip.
 
-Along z, the root stands on one side wall and the tip faces the other across the gap, where a
-block takes the plate's place::
+Along z, the root is on one side wall and the tip faces the other across the gap, where a block
+takes the plate's place::
 
     z = 0                              L/c      L/c + gap
     root wall  |  cells finer to the tip  |  gap  |  far wall
@@ -38,7 +38,7 @@ _ALONG, _GAP, _AT_TIP = 44, 8, 1 / 16  # chords
 
 @dataclass(frozen=True)
 class PlateMesh:
-    """What ``blockMesh`` makes the mesh of a plate of.
+    """Input of ``blockMesh`` for the mesh of a plate.
 
     Attributes
     ----------
@@ -69,7 +69,7 @@ class PlateMesh:
         return 1 / expansion(self.span, along, _AT_TIP / self.section.refinement)
 
     def edges(self) -> NDArray[np.float64]:
-        """Return where the cells along the plate begin and end, z/c, shape (n + 1,)."""
+        """Return z/c of the planes between the cells along the plate, shape (n + 1,)."""
         along, _ = _layers(self.section.refinement)
         sizes = self._ratio() ** (np.arange(along) / (along - 1))
         ends = np.concatenate([[0.0], np.cumsum(sizes)])
@@ -116,9 +116,9 @@ _FIVE = range(5)
 
 
 def plate_cells(spacing: Spacing, refinement: float, *, gap: bool = True) -> int:
-    """Return the number of cells, which the size of plate and channel has no part in.
+    """Return the number of cells, which does not depend on the size of plate and channel.
 
-    The gap, if there is one, has cells where the plate is not.
+    The layers of the gap, if there is one, also have cells in the place of the plate.
     """
     along, beyond = _layers(refinement)
     columns, rows = spacing.refined(refinement)

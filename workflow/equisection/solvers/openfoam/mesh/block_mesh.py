@@ -24,6 +24,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from equisection.errors import SolverError
@@ -47,7 +48,7 @@ Grading = Callable[[NDArray[np.float64], int, int], str]
 
 @dataclass(frozen=True)
 class Spacing:
-    """How many cells each block has at refinement 1, and how their sizes go.
+    """Number of cells of each block at refinement 1, and the grading of their sizes.
 
     Attributes
     ----------
@@ -69,7 +70,7 @@ class Spacing:
         return _refined(self.columns, refinement), _refined(self.rows, refinement)
 
     def cells(self, refinement: float = 1.0) -> int:
-        """Return the number of cells of a mesh, which has none inside the plate."""
+        """Return the number of cells of a mesh, without any inside the plate."""
         columns, rows = self.refined(refinement)
         return sum(columns) * sum(rows) - columns[2] * rows[2]
 
@@ -86,7 +87,7 @@ class ChannelBox:
 
 @dataclass(frozen=True)
 class Layer:
-    """Blocks between two planes of vertices: number, cells along z, and how their sizes go."""
+    """Blocks between two planes of vertices: number, cells along z, and grading of their sizes."""
 
     number: int = 0
     cells: int = 1
@@ -95,7 +96,7 @@ class Layer:
 
 @dataclass(frozen=True)
 class Mesh:
-    """What ``blockMesh`` makes the mesh of.
+    """Input of ``blockMesh`` for the mesh of a section.
 
     Attributes
     ----------
@@ -106,7 +107,7 @@ class Mesh:
     refinement
         Refinement of each direction.
     spacing
-        What is refined; by default that of the meshes of a grid study.
+        Spacing that is refined; by default that of the meshes of a grid study.
     """
 
     channel: ChannelBox
@@ -120,7 +121,7 @@ class Mesh:
         return self.spacing.cells(self.refinement)
 
     def points(self) -> NDArray[np.float64]:
-        """Return where the lines cross (chords), shape (6, 6, 2), by x and then y.
+        """Return the crossings of the lines (chords), shape (6, 6, 2), by x and then y.
 
         Raises
         ------
@@ -194,15 +195,13 @@ def _refined(numbers: tuple[int, ...], refinement: float) -> list[int]:
 
 def expansion(length: float, cells: int, first: float) -> float:
     """Return the size of the last cell over that of the first, for a geometric growth."""
-    from scipy.optimize import brentq  # noqa: PLC0415 (writing a case file needs none of it)
-
     if first * cells >= length:
         return 1.0
 
     def excess(log_growth: float) -> float:
         return first * math.expm1(cells * log_growth) / math.expm1(log_growth) - length
 
-    return math.exp((cells - 1) * float(brentq(excess, 1e-9, 3.0)))
+    return math.exp((cells - 1) * float(scipy.optimize.brentq(excess, 1e-9, 3.0)))
 
 
 def _along(points: NDArray[np.float64], i: int, line: int) -> str:
@@ -249,7 +248,7 @@ OF_PLATE: Spacing = Spacing(_COLUMNS, _ROWS, _along, partial(_across, at_wall=_A
 
 
 def blocks_around_plate() -> Iterator[tuple[int, int]]:
-    """Yield column and row of each block; the plate stands where one is left out."""
+    """Yield column and row of each block; the plate takes the place of the one left out."""
     return ((i, j) for i in range(5) for j in range(5) if (i, j) != (2, 2))
 
 

@@ -1,7 +1,7 @@
-"""Whether the mesh that morphs is sound where the section is.
+"""Quality of the mesh that morphs, at a place of the section.
 
-It is moved there from rest without a flow, by OpenFOAM's own motion solver with the entries of a
-run, and judged by ``checkMesh``.
+The mesh is moved there from rest without a flow, by OpenFOAM's own motion solver with the entries
+of a run, and judged by ``checkMesh``.
 """
 
 from __future__ import annotations
@@ -35,16 +35,16 @@ _COASTING = Section(
 
 @dataclass(frozen=True)
 class Quality:
-    """What ``checkMesh`` says of a mesh that has moved.
+    """Quality of a mesh that has moved, by ``checkMesh``.
 
     Attributes
     ----------
     deflection
-        Where the section is (chords).
+        Deflection of the section (chords).
     non_orthogonality_deg
-        Largest angle between a face's normal and the line between the centres of its cells.
+        Largest angle (deg) between a face's normal and the line between its cells' centres.
     faults
-        What it finds fault with; empty for a sound mesh.
+        Faults that it finds; empty for a sound mesh.
     """
 
     deflection: float
@@ -66,7 +66,7 @@ class MorphingMesh:
         Raises
         ------
         SolverError
-            A program failed, or did not write what it should.
+            A program failed, or did not write its output.
         """
         place = emptied(work)
         mesh = Path("constant") / "polyMesh"

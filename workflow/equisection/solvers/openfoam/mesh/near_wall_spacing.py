@@ -1,11 +1,10 @@
-"""The paper's cell sizes on the block mesh.
+"""Cells of given sizes on the block mesh: along the wall, near it, in the wake and elsewhere.
 
-The paper states 0.004 c along the wall, 0.020 c in the near field, 0.040 c in the wake, 0.200 c in
-the domain, and y+ below 1. From the plate the sizes grow geometrically to that of a region, and
-stay there. The counts are those that the sizes ask for in the paper's channel; in another one, or
-around another thickness, the uniform part of each block takes up the difference.
-
-What the paper does not say: growth, size of the first cell, and how far the wake region reaches.
+The sizes are those of Section 4.1 of the paper (docs/openfoam.md). From the wall they grow
+geometrically to that of a region, and stay there. The counts are those that the sizes ask for in a
+channel 4 c high. In another channel, or around another thickness, the uniform part of each block
+takes up the difference. Growth, size of the first cell (y+ below 1) and length of the wake region
+are this project's.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from numpy.typing import NDArray
 
 from equisection.solvers.openfoam.mesh.block_mesh import Spacing, both_ends, expansion
 
-#: The paper's sizes (chords).
+#: Sizes (chords).
 WALL, NEAR_FIELD, WAKE, DOMAIN = 0.004, 0.020, 0.040, 0.200
 #: First cells (chords): off the upper and lower side, off the edges, along the plate at its edges,
 #: and across its thickness.
@@ -95,4 +94,4 @@ def _parts(parts: Sequence[Part], direction: int) -> str:
     return " ".join(f"({part:.8g} {cells} {ratio**direction:.8g})" for part, cells, ratio in parts)
 
 
-PAPER = Spacing(_COLUMNS, _ROWS, _along, _across)
+BY_CELL_SIZE = Spacing(_COLUMNS, _ROWS, _along, _across)

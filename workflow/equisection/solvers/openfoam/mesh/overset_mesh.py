@@ -6,7 +6,7 @@ come, growing towards inlet, outlet, floor and ceiling. The component has the li
 and ends in a patch ``overset``, at which it takes its values from the background. The background
 takes its values under the component from there, and is left out where the plate is.
 
-Both stand in one ``blockMeshDict``, the background first: its cells have the zone 0, those of the
+Both are in one ``blockMeshDict``, the background first: its cells have the zone 0, those of the
 component 1.
 """
 
@@ -44,7 +44,7 @@ Row = tuple[int, str]
 
 @dataclass(frozen=True)
 class OversetMesh:
-    """What ``blockMesh`` makes both meshes of.
+    """Input of ``blockMesh`` for both meshes.
 
     Attributes
     ----------
@@ -149,9 +149,9 @@ class OversetMesh:
         )
 
     def reach(self, twist: float, deflection: float) -> float:
-        """Return how far from the middle of the channel (chords) the component reaches.
+        """Return the reach of the component from the middle of the channel (chords).
 
-        At a twist (rad) and a deflection (chords).
+        The section is at a twist (rad) and a deflection (chords).
         """
         turned = OversetMesh(self.channel, self.incidence + twist, self.refinement)
         return max(abs(y + deflection) for _, y in turned._component_points())

@@ -1,4 +1,4 @@
-"""The mesh as it stands in OpenFOAM's files: points, faces, cells on either side, patches."""
+"""The mesh of OpenFOAM's files: points, faces, cells on either side, patches."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ class PolyMesh:
     faces : (m, 4) array
         Points of each face, in order around it.
     owner : (m,) array
-        The cell that each face belongs to; that on the other side has a higher number, or is none.
+        Cell that each face belongs to; one on its other side has a higher number.
     patches
         First and last face of each part of the boundary.
     """

@@ -9,12 +9,12 @@ from dataclasses import dataclass
 from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
 from equisection.solvers.openfoam.mesh.beam_mesh import plate_cells
 from equisection.solvers.openfoam.mesh.block_mesh import OF_PLATE, SIMILAR, Spacing
-from equisection.solvers.openfoam.mesh.near_wall_spacing import PAPER
+from equisection.solvers.openfoam.mesh.near_wall_spacing import BY_CELL_SIZE
 
 
 @dataclass(frozen=True)
 class Preset:
-    """A mesh by name: what is refined, and how much in each direction."""
+    """A mesh with a name: its spacing, and the refinement of each direction."""
 
     refinement: float
     spacing: Spacing = SIMILAR
@@ -32,16 +32,16 @@ class Preset:
 
     @property
     def is_similar(self) -> bool:
-        """Whether it differs from the others alike by its refinement alone."""
+        """Tell whether it is similar to others: they differ by their refinement alone."""
         return self.spacing is SIMILAR
 
 
-#: About 1e4, 2e4 and 6e4 cells, and the paper's cell sizes; of the plate 8e4, 3e5, 1e6 and 5e6.
+#: About 1e4, 2e4 and 6e4 cells, and cells of given sizes; of the plate 8e4, 3e5, 1e6 and 5e6.
 _OWN: Mapping[str, Preset] = {
     "coarse": Preset(1.0, plate=0.52),
     "medium": Preset(math.sqrt(2.0), plate=0.81),
     "fine": Preset(math.sqrt(5.0), plate=1.19),
-    "paper": Preset(1.0, PAPER, plate=2.05),
+    "finest": Preset(1.0, BY_CELL_SIZE, plate=2.05),
 }
 _OF_PLATE = {
     ON_CELLS_OF_PLATE + name: Preset(own.plate, OF_PLATE, own.plate) for name, own in _OWN.items()

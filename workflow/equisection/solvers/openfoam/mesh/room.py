@@ -1,4 +1,4 @@
-"""Whether the meshes of a configuration fit into its channel, looked at before any job starts."""
+"""Room for the meshes of a configuration in its channel, checked before any job starts."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh
 
 
 def problems(config: Config) -> Iterator[Problem]:
-    """Yield the first mesh that does not fit, by the incidences from the largest down.
+    """Yield the problem of the first mesh that does not fit, from the largest incidence down.
 
     An overset mesh needs less room than that of the rigid section, which every run has.
     """

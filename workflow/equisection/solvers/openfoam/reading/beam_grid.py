@@ -1,4 +1,4 @@
-"""The mesh of the plate that OpenFOAM made, as it stands in its files."""
+"""The mesh of the plate that OpenFOAM made, read from its files."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ def plate_surface(folder: Path, incidence: float, *, mean: bool = False) -> Plat
     incidence
         Incidence (rad), by which the mesh is turned.
     mean
-        Whether the means over time are to be read.
+        True reads the means over time.
     """
     suffix = "Mean" if mean else ""
     meshes = {part: read_poly_mesh(part) for part in parts(folder)}

@@ -1,7 +1,7 @@
-"""Histories that OpenFOAM writes beside its fields, read by the names in their headers.
+"""Histories that OpenFOAM writes in addition to its fields, read by the names in their headers.
 
-A run that was resumed leaves a file for each start, named by the time of the start; what a
-later one repeats replaces what stands in an earlier one.
+A run that was resumed leaves a file for each start, named by the time of the start. Times that a
+later file repeats replace those of an earlier one.
 """
 
 from __future__ import annotations

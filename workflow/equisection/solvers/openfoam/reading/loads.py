@@ -1,4 +1,4 @@
-"""Loads on the section over time or iterations, and when they are known."""
+"""Loads on the section over time or iterations, and the tests that they are known."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ class Loads:
 
 
 def has_loads(folder: Path) -> bool:
-    """Tell whether a case has written loads; their file is opened behind the first step."""
+    """Tell whether a case has written loads; their file is opened after the first step."""
     return any((folder / "postProcessing" / LOADS).glob("*/coefficient*.dat"))
 
 
@@ -95,17 +95,17 @@ def first_known(
 ) -> Loads | None:
     """Return the first part that is known, of those that end at a multiple of an interval.
 
-    A run is followed from outside and ends a little later; what is taken of it ends here, so that
-    it does not depend on when the end was noticed. None if no part is known.
+    A run is followed from outside and ends a little later. The part that is used ends here, so that
+    it does not depend on the time at which the end was noticed. None if no part is known.
     """
     ends = np.arange(shortest, loads.time[-1] * (1 + 1e-9), interval) if loads.time.size else ()
     return next(filter(is_known, (loads.until(float(end)) for end in ends)), None)
 
 
 def reasonable(loads: Loads) -> int:
-    """Return how many samples there are before the loads are not finite or beyond reason.
+    """Return the number of samples before the loads are not finite or beyond reason.
 
-    The first steps after an impulsive start have a peak of pressure and are let pass.
+    The first steps after an impulsive start have a peak of pressure and are not judged.
     """
     values = np.stack([loads.drag, loads.lift, loads.moment])
     bound = np.where(np.arange(loads.time.size) < _IMPULSIVE, np.inf, BEYOND_REASON)

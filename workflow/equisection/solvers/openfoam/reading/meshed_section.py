@@ -1,4 +1,4 @@
-"""The mesh that OpenFOAM made, as it stands in its files, and the Courant number in its cells."""
+"""The mesh that OpenFOAM made, read from its files, and the Courant number in its cells."""
 
 from __future__ import annotations
 
@@ -93,7 +93,7 @@ def read_cells(folder: Path) -> tuple[Floats, NDArray[np.int64]]:
 
 
 def cells_of_first_layer(mesh: PolyMesh) -> tuple[Floats, NDArray[np.int64]]:
-    """Return what :func:`read_cells` does, of a mesh that was read."""
+    """Return points and cells of :func:`read_cells`, from a mesh that was read."""
     z = mesh.points[:, 2]
     low = z < z.min() + SAME_PLANE
     shown = np.flatnonzero(low[mesh.faces].all(axis=1))

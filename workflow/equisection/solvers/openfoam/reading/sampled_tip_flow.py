@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from equisection.errors import SolverError
 from equisection.files import write_text
@@ -38,7 +38,7 @@ _NAME, _SET = "tipFlow", "near"
 
 @dataclass(frozen=True)
 class Pose:
-    """How the plate stands: twist (rad) and deflection (chords) at places z/c, shape (n,)."""
+    """Pose of the plate: twist (rad) and deflection (chords) at places z/c, shape (n,)."""
 
     z: Floats
     twist: Floats
@@ -59,8 +59,8 @@ def sample_tip_flow(
 ) -> TipFlow | None:
     """Return the flow near the tip in the last state of a run.
 
-    There is none of a plate without a tip, and none where the program failed or sampled nothing: a
-    picture that is missing is no reason to lose a result.
+    None for a plate without a tip, and where the program failed or sampled nothing: a missing
+    picture is no reason to lose a result.
 
     Parameters
     ----------
@@ -71,11 +71,11 @@ def sample_tip_flow(
     mesh
         Its mesh.
     state
-        What the last state is, in words.
+        The last state in words.
     pose
-        How the plate stands in it.
+        Pose of the plate in it.
     mean
-        Whether the means over time are to be sampled.
+        True samples the means over time.
     """
     if not mesh.gap:
         return None
@@ -156,7 +156,7 @@ def _on_grid(path: Path, points: Floats) -> Floats:
     """
     rows = np.loadtxt(path, ndmin=2)
     flat = points.reshape(-1, 3)
-    distance, nearest = cKDTree(flat).query(rows[:, :3])
+    distance, nearest = scipy.spatial.cKDTree(flat).query(rows[:, :3])
     values = np.full((len(flat), rows.shape[1] - 3), math.nan)
     here = distance < 0.1 * STEP
     values[nearest[here]] = rows[here, 3:]

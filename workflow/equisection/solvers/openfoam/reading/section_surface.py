@@ -37,7 +37,7 @@ def surface_of_steady(installation: Installation, folder: Path, mesh: Mesh) -> S
 
 
 def write_wall_fields(installation: Installation, folder: Path, ranks: int = 1) -> None:
-    """Have shear stress and y+ at the wall written into the last state of a steady run.
+    """Run the program that writes shear stress and y+ at the wall into a steady run's last state.
 
     Raises
     ------
@@ -49,7 +49,7 @@ def write_wall_fields(installation: Installation, folder: Path, ranks: int = 1) 
 
 
 def averaging(start: float, every: int, fields: Sequence[str] = ("p",)) -> dict[str, Any]:
-    """Return the function objects that average the flow at the wall, and fields beside.
+    """Return the function objects that average the flow at the wall, and further fields.
 
     Parameters
     ----------

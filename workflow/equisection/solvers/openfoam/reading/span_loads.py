@@ -43,7 +43,7 @@ class SpanLoads:
 
 
 def surface_output(control: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the function objects that write the force on each face; ``control`` says when."""
+    """Return the function objects that write the force on each face, at times by ``control``."""
     return {
         _FORCES: {
             "type": "forces",
@@ -74,9 +74,9 @@ def read_span_loads(folder: Path, time: str, edges: Floats, *, mean: bool = Fals
     time
         Name of the time.
     edges
-        z/c where the layers of cells begin and end, root to tip, shape (n + 1,).
+        z/c of the planes between the layers of cells, root to tip, shape (n + 1,).
     mean
-        Whether the means over time are to be read.
+        True reads the means over time.
 
     Raises
     ------

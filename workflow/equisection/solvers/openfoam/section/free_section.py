@@ -72,12 +72,12 @@ class SectionRun(FreeRun[Mesh]):
         return run_steady(self.installation, self.case, self.mesh, self.work, tell)
 
     def write_motion(self, folder: Path) -> None:
-        """Write what moves section and mesh."""
+        """Write the dictionaries that move section and mesh."""
         assert self.case.section is not None
         write_motion(folder, self.case.section, self.mesh.channel.height)
 
     def write_system(self, folder: Path) -> None:
-        """Write what controls the run; its end may differ from that of an earlier start."""
+        """Write the control of the run, whose end may differ from that of an earlier start."""
         entries = control("pimpleFoam", self.case.duration, self.case.time_step, STATE_INTERVAL)
         entries["functions"] |= motion_output()
         write_system(folder, entries, flow.schemes(steady=False), self.solution())
@@ -96,9 +96,9 @@ class SectionRun(FreeRun[Mesh]):
         Raises
         ------
         SolverError
-            A program failed through no fault of the case. A case that went where it cannot be
-            computed has a result: ``failed``, or ``growing`` if the motion had grown beyond the
-            bound before.
+            A program failed through no fault of the case. A case whose flow or mesh breaks down
+            has a result: ``failed``, or ``growing`` if the motion had grown beyond the bound
+            before.
         """
         case, failure = self.case, ""
         try:
@@ -149,7 +149,7 @@ class SectionRun(FreeRun[Mesh]):
         return f"{where}, where {fault}" if fault else where
 
     def mesh_fault(self, twist: float, deflection: float) -> str:
-        """Return what is wrong with the mesh at a twist (rad) and a deflection (chords), if so."""
+        """Return the fault of the mesh at a twist (rad) and a deflection (chords), else ''."""
         mesh = MorphingMesh(self.installation, self.folder, self.mesh.channel.height)
         quality = mesh.along(twist, deflection, 1, self.work / "moved")[-1]
         faults = quality.faults

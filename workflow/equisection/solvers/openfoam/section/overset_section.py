@@ -9,7 +9,7 @@ the latter (v1912) moves the mesh once in a time step, before its iterations, wh
 one step dt in a spring makes an oscillation grow at the rate omega^2 dt/2, for k* = 10 at 0.02 c/V
 at more than twice the rate at which the air damps it. What ``overPimpleDyMFoam`` does beyond
 ``pimpleFoam`` is to blank the fields in the hole, where the plate is; those values reach no cell
-outside of it but through the gradients of the cells beside it.
+outside of it but through the gradients of the cells next to it.
 
 The function object of the motion does not know this kind of mesh; the motion is read from the log.
 """
@@ -89,7 +89,7 @@ class OversetRun(SectionRun):
         return iterate(self.installation, "overSimpleFoam", folder, tell)
 
     def write_motion(self, folder: Path) -> None:
-        """Write what moves the section and its mesh."""
+        """Write the dictionary that moves the section and its mesh."""
         assert self.case.section is not None
         body = rigid_body(self.case.section, _EVERYWHERE, 2 * _EVERYWHERE)
         body["report"] = True
@@ -104,7 +104,7 @@ class OversetRun(SectionRun):
         write_displacement(folder, {OVERSET: {"patchType": OVERSET, "type": "zeroGradient"}})
 
     def write_system(self, folder: Path) -> None:
-        """Write what controls the run; its end may differ from that of an earlier start."""
+        """Write the control of the run, whose end may differ from that of an earlier start."""
         entries = control("pimpleFoam", self.case.duration, self.case.time_step, STATE_INTERVAL)
         # the fields name a kind of patch that no program knows by itself
         entries["libs"] = ['"liboverset.so"']
@@ -118,7 +118,7 @@ class OversetRun(SectionRun):
         )
 
     def mesh_fault(self, twist: float, deflection: float) -> str:
-        """Return whether the plate's mesh has left the channel."""
+        """Return the fault of the plate's mesh where it has left the channel, else ''."""
         reach, half = self.meshes.reach(twist, deflection), self.mesh.channel.height / 2
         if reach < half:
             return ""
@@ -132,7 +132,7 @@ class OversetRun(SectionRun):
 def read_motion(folder: Path) -> BodyMotion:
     """Return the motion at the end of each time step that has one, from the log of a run.
 
-    What was written before a kill and is repeated after the resumption counts once.
+    A step that was written before a kill and repeated after the resumption counts once.
 
     Raises
     ------

@@ -1,6 +1,6 @@
 """The rigid section: steady loads, or the mean of an unsteady run where there are none.
 
-What converged and known mean stands in ``rigid_flow``.
+``rigid_flow`` defines when a flow has converged and when a mean is known.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ SAMPLED = 5
 
 @dataclass(frozen=True)
 class RigidLoads:
-    """Loads of the rigid section, how they were obtained, and what they are the sum of."""
+    """Loads of the rigid section, their origin, and the surface data that they are the sum of."""
 
     drag: float
     lift: float
@@ -145,7 +145,7 @@ def require_sound_mesh(log: Path) -> None:
     BlowUpError
         It found faults: this section at this incidence has no mesh.
     SolverError
-        It said nothing of the kind.
+        Its log has no verdict.
     """
     said = log.read_text(encoding="utf-8", errors="replace")
     if "Mesh OK." in said:
@@ -176,11 +176,11 @@ def rigid_loads(
     mesh
         Its mesh.
     work
-        Where its folders are.
+        Folder that holds its folders.
     tell
-        Told what is done.
+        Called with the progress.
     coupling
-        Of the flow in a time step, where it goes on unsteadily.
+        Coupling in a time step, where the flow goes on unsteadily.
 
     Raises
     ------
@@ -219,7 +219,7 @@ def unsteady_mean(
 ) -> RigidLoads:
     """Return the mean loads of the flow that goes on unsteadily from a steady run.
 
-    With too few outer correctors pressure and velocity are not one, and vortices are shed that
+    With too few outer correctors pressure and velocity do not agree, and vortices are shed that
     the flow does not have.
 
     Raises

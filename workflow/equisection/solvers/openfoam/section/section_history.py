@@ -1,4 +1,4 @@
-"""Motion and loads of the free section over time, from what its run has written so far."""
+"""Motion and loads of the free section over time, from the files of its run so far."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def read_section(
     loads
         Its loads, if they are read already.
     motion_of
-        Reads its motion from where it stands.
+        Reads its motion from its folder.
 
     Raises
     ------

@@ -4,7 +4,7 @@ Without dimensions (chord, speed and density 1) the section of Eq. 18 has, per u
 inertia I*/2, the mass m*/2 and the stiffnesses k*/2 and k_w*/2.
 
 Newmark's rule (gamma 1/2, beta 1/4) is applied anew in each outer iteration of a time step, with
-the loads and the springs at what is known of the new position.
+loads and springs at the latest estimate of the new position.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def morphing(section: Section, channel_height: float) -> dict[str, Any]:
 def rigid_body(section: Section, rigid_within: float, still: float) -> dict[str, Any]:
     """Return the section, released from rest with slack springs.
 
-    Up to the first distance (chords) the mesh moves with it, beyond the second it stands.
+    Up to the first distance (chords) the mesh moves with it, beyond the second it is at rest.
 
     Raises
     ------

@@ -1,0 +1,324 @@
+"""Catalogue of the figures: contents, files and keys of each, and the runs that have it.
+
+A figure is an entry here, a module of the same name in this package, whose ``from_files`` draws it,
+and a caption in ``workflow/report/figures``. The rules are made from the entries, so this module
+loads no figure before it is drawn.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import reduce
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from equisection.figures.models_shown import beam_model, section_model
+from equisection.solvers.protocol import Capability
+from equisection.solvers.registry import SOLVERS
+from equisection.study import plan
+from equisection.study.result_files import index_of_beam, indices_of_model, indices_of_sweep
+
+if TYPE_CHECKING:  # jobs need not build the models, nor the graph load what draws
+    from matplotlib.figure import Figure
+
+    from equisection.config import Config
+
+#: Formats that every figure is written in.
+FORMATS = ("png", "svg", "pdf")
+
+
+class FurtherName(NamedTuple):
+    """Another name that a figure goes by, with its number and caption (a path seen from a rule)."""
+
+    name: str
+    number: str
+    caption: str
+
+
+@dataclass(frozen=True)
+class RunFiles:
+    """Configuration and folder of a run, with tables of values to draw next to its own."""
+
+    config: Config
+    folder: str
+    references: Sequence[str] = ()
+
+
+#: A file of the run, as seen from its folder, or a function that returns any number of files.
+Source = str | Callable[[RunFiles], list[str]]
+
+
+def _always(config: Config) -> bool:
+    del config
+    return True
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One figure.
+
+    Attributes
+    ----------
+    name
+        Name of its files, ``figures/<name>.png``; with underscores that of its module.
+    shows
+        Its contents in a few words.
+    inputs
+        Files that it is drawn from. Entries of one job give a file the same name.
+    keys
+        Keys of the configuration that it needs, by the names that ``from_files`` has for them.
+    exists
+        Condition under which a run has it.
+    drawn_with
+        Name of the job that draws it, if that draws others too.
+    """
+
+    name: str
+    shows: str
+    inputs: Mapping[str, Source]
+    keys: Mapping[str, str] = field(default_factory=dict)
+    exists: Callable[[Config], bool] = _always
+    drawn_with: str = ""
+
+    @property
+    def caption(self) -> str:
+        """Path of its caption, as a rule sees it."""
+        return f"../report/figures/{self.name}.rst"
+
+    @property
+    def module(self) -> str:
+        """Name of its module in this package."""
+        return self.name.replace("-", "_")
+
+    @property
+    def job(self) -> str:
+        """Name of the rule that draws it."""
+        return self.drawn_with or self.module
+
+    def files(self, run: RunFiles) -> dict[str, str | list[str]]:
+        """Return its input files, by name."""
+        return {
+            name: f"{run.folder}/{source}" if isinstance(source, str) else source(run)
+            for name, source in self.inputs.items()
+        }
+
+    def values(self, resolved: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values of its keys in a resolved configuration, in builtin types."""
+        return {
+            name: reduce(lambda group, part: group[part], key.split("."), resolved)
+            for name, key in self.keys.items()
+        }
+
+
+def references(run: RunFiles) -> list[str]:
+    """Return the tables of values to draw next to those of the run (:mod:`.references`)."""
+    return list(run.references)
+
+
+def indices_of_beam(run: RunFiles) -> list[str]:
+    """Return the index of the beam's results, if there is one."""
+    return index_of_beam(run.config, run.folder)
+
+
+def indices_of_histories(run: RunFiles) -> list[str]:
+    """Return the indices of the runs of which histories are shown: of one section and the beam."""
+    config = run.config
+    if not config.compute:  # a model of which nothing is kept is not the one that is shown
+        return indices_of_sweep(config, run.folder)
+    models = (section_model(config.sweep.shown), beam_model(config.sweep.shown))
+    return [
+        index
+        for model in models
+        if model is not None
+        for index in indices_of_model(config, run.folder, model)
+    ]
+
+
+def grid_study(run: RunFiles) -> list[str]:
+    """Return the grid study of the section's polar, if there is one."""
+    return [f"{run.folder}/tables/grid_study.csv"] if plan.has_grid_study(run.config) else []
+
+
+def _has_section_model(config: Config) -> bool:
+    return "2d" in plan.dimensions(config)
+
+
+def _has_beam_model(config: Config) -> bool:
+    return "3d" in plan.dimensions(config)
+
+
+def _runs_rigid_beam(config: Config) -> bool:
+    return "3d" in plan.steady_dimensions(config)
+
+
+def _rigid_beam_has(capability: Capability) -> Callable[[Config], bool]:
+    """Return when the solver runs the rigid beam and has something of it."""
+
+    def exists(config: Config) -> bool:
+        return _runs_rigid_beam(config) and capability in SOLVERS[config.solver].provides
+
+    return exists
+
+
+_SUMMARY = {"summary": "comparison/summary.csv"}
+_HISTORIES: Mapping[str, Source] = {
+    **_SUMMARY,
+    "onset": "comparison/onset.csv",
+    "indices": indices_of_histories,
+    "equivalent": "structure/equivalent.nc",
+}
+_MODES = {"modes": "structure/modes.nc"}
+_POLAR_2D = {"polar_2d": "steady/polar_2d.nc"}
+_POLAR_3D = {"polar_3d": "steady/polar_3d.nc"}
+_CORRECTION = {**_POLAR_2D, **_POLAR_3D, "correction": "steady/correction.nc"}
+_RESOLUTION = {"resolution": "steady.resolution"}
+_INCIDENCE = {"incidence_deg": "flow.incidence_deg"}
+
+#: Every figure, in the order of Fig. 1: structure, steady loads, response.
+CATALOGUE = (
+    Entry("mode-shapes", "modes", _MODES, {"beam": "beam"}),
+    Entry(
+        "mesh-of-section",
+        "mesh of the section",
+        {"section_mesh": "steady/section_mesh.nc"},
+        exists=plan.has_mesh,
+    ),
+    Entry("section-polar", "section polars", {**_POLAR_2D, "grid_study": grid_study}),
+    Entry(
+        "surface-loads",
+        "wall distance and pressure",
+        {
+            "index": "steady/2d/polar.json",
+            "bubble": "tables/bubble.csv",
+            "references": references,
+        },
+        {**_RESOLUTION, **_INCIDENCE},
+        exists=plan.has_surface,
+    ),
+    Entry(
+        "courant-number",
+        "Courant number",
+        {"section_mesh": "steady/section_mesh.nc", "references": references},
+        exists=plan.has_mesh,
+    ),
+    Entry(
+        "mesh-of-beam",
+        "meshes of the beam",
+        {"plate_mesh": "steady/plate_mesh.nc"},
+        {"method": "structure.method", "elements": "structure.elements"},
+        exists=_rigid_beam_has(Capability.MESH),
+    ),
+    Entry("spanwise-loads", "spanwise loads", _POLAR_3D, _RESOLUTION, exists=_runs_rigid_beam),
+    Entry(
+        "surface-of-beam",
+        "pressure and shear stress over the beam",
+        {"index_of_rigid": "steady/3d/polar.json"},
+        _RESOLUTION,
+        exists=_rigid_beam_has(Capability.SURFACE),
+    ),
+    Entry(
+        "flow-at-tip",
+        "flow near the tip",
+        {
+            "index_of_rigid": "steady/3d/polar.json",
+            "index_of_beam": indices_of_beam,
+            "references": references,
+        },
+        {**_RESOLUTION, **_INCIDENCE},
+        exists=_rigid_beam_has(Capability.FIELDS),
+    ),
+    Entry(
+        "lift-correction",
+        "correction of the lift",
+        _CORRECTION,
+        _RESOLUTION,
+        exists=plan.has_beam_polar,
+        drawn_with="load_corrections",
+    ),
+    Entry(
+        "moment-correction",
+        "correction of the moment",
+        _CORRECTION,
+        _RESOLUTION,
+        exists=plan.has_beam_polar,
+        drawn_with="load_corrections",
+    ),
+    Entry(
+        "modal-contributions",
+        "modal contributions",
+        {**_MODES, "index_of_beam": indices_of_beam},
+        exists=_has_beam_model,
+    ),
+    Entry(
+        "response",
+        "response",
+        _HISTORIES,
+        {"reduction": "reduction", "boundary": "beam.boundary"},
+    ),
+    Entry(
+        "hysteresis",
+        "hysteresis",
+        _HISTORIES,
+        {"reduction": "reduction"},
+        exists=_has_section_model,
+        drawn_with="response",
+    ),
+    Entry(
+        "growth-rate",
+        "growth rate, linear theory",
+        {
+            **_SUMMARY,
+            "linear_theory": "comparison/linear_theory.csv",
+            "references": references,
+        },
+    ),
+    Entry(
+        "section-and-beam",
+        "section against beam",
+        {**_SUMMARY, "deviations": "comparison/section_and_beam.csv"},
+        exists=plan.has_both,
+        drawn_with="growth_rate",
+    ),
+)
+
+
+def figures(config: Config) -> list[Entry]:
+    """Return the figures of a run."""
+    return [entry for entry in CATALOGUE if entry.exists(config)]
+
+
+def figures_by_job(config: Config) -> dict[str, list[Entry]]:
+    """Return the figures of a run by the job that draws them."""
+    jobs: dict[str, list[Entry]] = {}
+    for entry in figures(config):
+        jobs.setdefault(entry.job, []).append(entry)
+    return jobs
+
+
+def entry_of(name: str) -> Entry:
+    """Return the figure of a name."""
+    return next(entry for entry in CATALOGUE if entry.name == name)
+
+
+def draw(
+    entry: Entry, files: Mapping[str, Path | Sequence[Path]], values: Mapping[str, Any]
+) -> Figure:
+    """Draw a figure.
+
+    Parameters
+    ----------
+    entry
+        The figure.
+    files
+        Files by name, those of ``entry.inputs`` among them.
+    values
+        Values by name, those of ``entry.keys`` among them.
+    """
+    module = importlib.import_module(f"equisection.figures.{entry.module}")
+    wanted = {name: files[name] for name in entry.inputs} | {
+        name: values[name] for name in entry.keys
+    }
+    drawn: Figure = module.from_files(**wanted)
+    return drawn

@@ -1,0 +1,94 @@
+"""Difference of each section from the beam over k*: twist, deflection, frequency and growth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from equisection.analysis.deviations import root_mean_square
+from equisection.figures.models import LOOKS
+from equisection.figures.origin import add_provenance, solvers_of
+from equisection.figures.panels import legend_above, letter, say
+from equisection.figures.style import GREY, PAGE_WIDTH
+from equisection.study.axes import Axis, onset_axis_among
+
+#: Titles and axes of the panels, with the factor to what the axis shows.
+_QUANTITIES = {
+    "twist": ("mean twist", "section over beam $- 1$ (%)", 100.0),
+    "deflection": ("mean deflection", "section over beam $- 1$ (%)", 100.0),
+    "frequency": ("frequency", "section over beam $- 1$ (%)", 100.0),
+    "growth": ("growth rate", "section $-$ beam ($10^{-3}$ V/c)", 1000.0),
+}
+#: Units of the root mean squares beside the panels' titles.
+_UNITS = {"twist": " %", "deflection": " %", "frequency": " %", "growth": ""}
+
+
+def from_files(summary: Path, deviations: Path) -> Figure:
+    """Draw ``comparison/section_and_beam.csv``."""
+    return draw(pd.read_csv(deviations), pd.read_csv(summary))
+
+
+def draw(table: pd.DataFrame, summary: pd.DataFrame) -> Figure:
+    """Draw the deviations of the sections from the beam, and their root mean square over k*.
+
+    Parameters
+    ----------
+    table
+        ``comparison/section_and_beam.csv``.
+    summary
+        ``comparison/summary.csv``, for solver and resolution.
+    """
+    figure = Figure(figsize=(PAGE_WIDTH, 5.4))
+    panels = figure.subplots(2, 2)
+    over_all = root_mean_square(table)
+    for axes, place, name in zip(panels.flat, "abcd", _QUANTITIES, strict=True):
+        title, label, factor = _QUANTITIES[name]
+        letter(axes, place, title)
+        along = onset_axis_among(table.columns)
+        axes.set(xlabel=along.label, ylabel=label)
+        _over_study(axes, table, name, factor, along)
+        _root_mean_squares(axes, over_all[name] * factor, _UNITS[name])
+    legend_above(figure, panels.flat[0], columns=2)
+    sources = summary[["solver", "resolution"]].drop_duplicates().values
+    add_provenance(figure, *solvers_of((f"solver '{one}'", str(mesh)) for one, mesh in sources))
+    return figure
+
+
+def _over_study(axes: Axes, table: pd.DataFrame, name: str, factor: float, along: Axis) -> None:
+    known = table[np.isfinite(table[name].astype(float))]
+    if known.empty:
+        say(axes, f"No section and beam were run at one {along.symbol}.")
+        return
+    axes.axhline(0.0, color=GREY, linewidth=0.8)
+    for model, rows in known.groupby("model", sort=False):
+        look = LOOKS[str(model)]
+        axes.plot(
+            rows[along.name],
+            factor * rows[name],
+            color=look.colour,
+            linestyle=look.line,
+            marker=look.marker,
+            label=look.label,
+        )
+
+
+def _root_mean_squares(axes: Axes, values: pd.Series, unit: str) -> None:
+    """Write the root mean squares on the right of the panel's title, in the models' colours."""
+    words = [(str(model), f"{value:.2g}{unit}") for model, value in values.dropna().items()]
+    place = 1.0
+    for model, word in reversed(words):
+        axes.text(
+            place,
+            1.02,
+            word,
+            transform=axes.transAxes,
+            ha="right",
+            va="bottom",
+            fontsize=6.5,
+            color=LOOKS[model].colour,
+        )
+        place -= 0.035 + 0.0185 * len(word)
