@@ -87,7 +87,6 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
         given_beam_polar=bool(config.steady.beam_polar),
         grid_study=plan.has_grid_study(config),
         refine_onset=models * rounds,
-        section_and_beam=plan.has_both(config),
         modal_contributions="3d" in config.sweep.models,
     )
     if is_paper_case(config) and with_paper:
