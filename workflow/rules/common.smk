@@ -31,6 +31,8 @@ STORE = str(PLACE_ON_DISK / start.STORE)
 # Results that are only looked up, so that a later run that computes does not find them.
 KEPT_STORE = str(PLACE_ON_DISK / CONFIG.run / ".kept")
 ENVIRONMENT = "../../envs/environment.yaml"
+# Priority of jobs that others wait for; figures are drawn in between. The modes are the longest.
+FIRST = 50
 PROVIDES = SOLVERS[CONFIG.solver].provides
 # Whether all cases of a batch go to one job: the solver takes many, or they are only looked up.
 IN_ONE_JOB = Capability.BATCH in PROVIDES or not CONFIG.compute

@@ -32,6 +32,7 @@ rule summary:
         ),
     log:
         f"{LOGS}/summary.log",
+    priority: FIRST
     localrule: True
     conda:
         ENVIRONMENT
@@ -102,6 +103,7 @@ rule onset:
         ],
     log:
         f"{LOGS}/onset.log",
+    priority: FIRST
     localrule: True
     conda:
         ENVIRONMENT

@@ -9,6 +9,7 @@ rule equivalent_section:
         f"{RESULTS}/structure/equivalent.nc",
     log:
         f"{LOGS}/equivalent_section.log",
+    priority: FIRST
     localrule: True
     conda:
         ENVIRONMENT
@@ -32,6 +33,7 @@ rule correction_factors:
         f"{RESULTS}/steady/correction.nc",
     log:
         f"{LOGS}/correction_factors.log",
+    priority: FIRST
     localrule: True
     conda:
         ENVIRONMENT

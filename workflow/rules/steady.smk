@@ -14,6 +14,7 @@ checkpoint steady_cases:
         f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
     log:
         f"{LOGS}/steady_cases_{{dimension}}.log",
+    priority: FIRST
     localrule: True
     conda:
         ENVIRONMENT
@@ -56,6 +57,7 @@ rule steady_case:
         f"{RESULTS}/steady/{{dimension}}/{{angle}}.nc",
     log:
         f"{LOGS}/steady_{{dimension}}_{{angle}}.log",
+    priority: FIRST
     conda:
         ENVIRONMENT
     threads: ranks
@@ -86,6 +88,7 @@ if IN_ONE_JOB:
             f"{RESULTS}/steady/{{dimension}}/polar.json",
         log:
             f"{LOGS}/steady_{{dimension}}.log",
+        priority: FIRST
         conda:
             ENVIRONMENT
         resources:
@@ -160,6 +163,7 @@ rule polar:
         f"{RESULTS}/steady/polar_{{dimension}}.nc",
     log:
         f"{LOGS}/polar_{{dimension}}.log",
+    priority: FIRST
     localrule: True
     conda:
         ENVIRONMENT

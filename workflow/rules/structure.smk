@@ -8,6 +8,7 @@ rule modes:
         mesh_study=f"{RESULTS}/structure/mesh_study.nc",
     log:
         f"{LOGS}/modes.log",
+    priority: FIRST + 1
     conda:
         ENVIRONMENT
     resources:

@@ -13,6 +13,7 @@ checkpoint unsteady_cases:
         f"{RESULTS}/cases/unsteady/{{model}}/{{batch}}.json",
     log:
         f"{LOGS}/unsteady_cases_{{model}}_{{batch}}.log",
+    priority: FIRST
     localrule: True
     conda:
         ENVIRONMENT
