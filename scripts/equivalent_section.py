@@ -4,8 +4,9 @@ import logging
 from pathlib import Path
 
 from equisection.beam.beam import Beam
+from equisection.beam.section import Section
 from equisection.config.groups import Flow
-from equisection.reduction.flutter_bias import flutter_bias
+from equisection.reduction.flutter_bias import FlutterBias, flutter_bias
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import REDUCTIONS, reduce_beam, validity_warnings
 from equisection.results.modes_dataset import modes_from_dataset
@@ -19,8 +20,10 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
     modes = modes_from_dataset(read_dataset(modes_file))
     count = min(modes.kind.count("bending"), modes.kind.count("torsion"))
     integrals = span_integrals(beam, modes, count)
-    sections = {reduction: reduce_beam(beam, modes, reduction) for reduction in REDUCTIONS}
-    flutter = {
+    sections: dict[str, Section] = {
+        reduction: reduce_beam(beam, modes, reduction) for reduction in REDUCTIONS
+    }
+    flutter: dict[str, FlutterBias] = {
         reduction: flutter_bias(section, beam, modes, flow.density)
         for reduction, section in sections.items()
     }
