@@ -47,7 +47,7 @@ def test_default_solver_to_the_report(node: Node, project: ClusterProject) -> No
     before = rules_of_jobs(node)
     project.run()
     submitted = rules_of_jobs(node) - before
-    assert submitted == {"modes": 1, "mesh_study": 1, "steady_batch": 2, "unsteady_batch": 1}
+    assert submitted == {"modes": 1, "steady_batch": 2, "unsteady_batch": 1}
 
     table = pd.read_csv(project.results / SUMMARY)
     assert set(table["k_star"]) == {6.0, 10.0, 21.0}
@@ -68,7 +68,7 @@ def test_default_solver_to_the_report(node: Node, project: ClusterProject) -> No
 
 def coarser(project: ClusterProject) -> None:
     """Let the copy's coarse mesh of the plate have 15,128 cells."""
-    presets = project.folder / "workflow" / "equisection" / "solvers" / "openfoam" / "presets.py"
+    presets = project.folder / "workflow/equisection/solvers/openfoam/mesh/presets.py"
     text = presets.read_text()
     assert "plate=0.52" in text
     presets.write_text(text.replace("plate=0.52", "plate=0.3"))

@@ -101,7 +101,7 @@ def test_every_result_that_is_lost_is_asked_for_again(finished: Project, tmp_pat
     for lost in ("structure/mesh_study.nc", "steady/3d/coarse_a5.nc", "unsteady/3d/k6.nc"):
         (project.results / lost).unlink()
     said = project.run("--dry-run")
-    for job in ("mesh study of the modes", "steady 3d cases", "3d, sweep"):
+    for job in ("modes of the beam", "steady 3d cases", "3d, sweep"):
         assert f": {job}\n" in said
     assert ": modes of the beam\n" not in said
 
