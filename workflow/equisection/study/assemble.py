@@ -191,8 +191,8 @@ def _corrected(config: Config, section: Section, correction: xr.Dataset) -> Sect
     ReductionError
         There is no equilibrium inside the polars.
     """
-    offsets = ("static_imbalance", "elastic_axis")
-    section.require_defaults("the correction for the finite span", offsets)
+    dampings = ("flexural_damping", "torsional_damping")
+    section.require_defaults("the correction for the finite span", but=dampings)
     equilibrium = corrected_equilibrium(
         factors_from_dataset(correction),
         math.radians(config.flow.incidence_deg),
