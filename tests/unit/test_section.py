@@ -152,7 +152,7 @@ def test_only_what_differs_from_mass_and_springs_is_written_down() -> None:
         "twist_recovery": 1.0,
         "deflection_recovery": 1.0,
     }
-    assert WING.model_dump() == dict(WING)
+    assert WING.model_dump() == {name: getattr(WING, name) for name in WING.model_fields_set}
     for section in (PLAIN, WING):
         assert Section.model_validate(json.loads(section.model_dump_json())) == section
 
