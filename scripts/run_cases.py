@@ -41,9 +41,11 @@ def main(
 def take_kept(cases: Path, output: Path, store: Path, reuse: Path) -> None:
     """Index the kept results of the cases; those that have none are named in the index."""
     answers = answer_from_kept(read_cases(cases), output.parent, store, reuse)
-    for name, found in answers.found.items():
-        found |= loads_zigzag(output.parent / f"{name}.nc", found)
-    write_index(output, answers.found, answers.missing)
+    found = {
+        name: attributes | loads_zigzag(output.parent / f"{name}.nc", attributes)
+        for name, attributes in answers.found.items()
+    }
+    write_index(output, found, answers.missing)
 
 
 if __name__ == "__main__":
