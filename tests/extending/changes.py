@@ -104,7 +104,7 @@ CHANGES = (
         ),
         rule="onset",
     ),
-    Change("new quantity of a section", "section_quantity", ("section", "kept_hashes")),
+    Change("new quantity of a section", "section_quantity", ("one_section", "kept_hashes")),
     Change("new kind of run", "kind", ("kinds",), ("static",), rule="static"),
 )
 
