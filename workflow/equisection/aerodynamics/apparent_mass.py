@@ -2,16 +2,17 @@ r"""Apparent mass of a finite beam: air that it accelerates without circulation 
 
 At infinite frequency a plate has no wake, only a bound vortex sheet. It is a lattice of rings, M a
 chord on each strip (bound vortex at a quarter, incidence at three quarters of each panel; Katz and
-Plotkin, *Low-Speed Aerodynamics*, 2001, chapter 13), whose strength Gamma follows from the incidence
-alone. The pressure jump is 2 dGamma/ds, so that a unit acceleration of strip j gives at strip i
+Plotkin, *Low-Speed Aerodynamics*, 2001, chapter 13), whose strength Gamma follows from the
+incidence alone. The pressure jump is 2 dGamma/ds, so that a unit acceleration of strip j gives at
+strip i
 
     M_w,ij = 2 sum_m Gamma_mi l_m    for an incidence of 1,
     M_t,ij = 2 sum_m x_m Gamma_mi l_m    for an incidence of x behind mid-chord,
 
-l_m being the length of chord from one bound vortex to the next, or to the trailing edge, and x_m its
-middle. Both are scaled by what the same lattice gives in two dimensions in the same channel, where
-the air has the mass pi/2 and the inertia pi/64 of a thin plate (Theodorsen, NACA Report 496, 1935).
-A beam from wall to wall has exactly these.
+l_m being the length of chord from one bound vortex to the next, or to the trailing edge, and x_m
+its middle. Both are scaled by what the same lattice gives in two dimensions in the same channel,
+where the air has the mass pi/2 and the inertia pi/64 of a thin plate (Theodorsen, NACA Report 496,
+1935). A beam from wall to wall has exactly these.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 r"""Unsteady incidence that the wake of a finite beam induces on its own sections.
 
 Lengths are in chords and times in c/V, so omega is omega c/V = 2 k. A strip of circulatory lift c
-carries the circulation 2 Gamma/(V c) = L(k) c on a line at the quarter chord, x_B = -1/4. In harmonic
-motion a thin plate has
+carries the circulation 2 Gamma/(V c) = L(k) c on a line at the quarter chord, x_B = -1/4. In
+harmonic motion a thin plate has
 
     L(k) = S(k) exp(-i k)/C(k),
 
@@ -10,8 +10,8 @@ with the functions of Theodorsen (NACA Report 496, 1935) and Sears (J. Aeronaut.
 circulation of the whole section over what its steady relation to the circulatory lift would give.
 The circulation goes on as a ring to the trailing edge, x_T = 1/2, and leaves it as a sheet that is
 swept downstream with its phase, exp(-i omega q) at the distance q. As in Weissinger's method for
-steady flow (NACA TM 1120, 1947) the incidence is that at three quarters of the chord, x_C = 1/4; with
-G of :mod:`equisection.aerodynamics.vortex_rings`,
+steady flow (NACA TM 1120, 1947) the incidence is that at three quarters of the chord, x_C = 1/4;
+with G of :mod:`equisection.aerodynamics.vortex_rings`,
 
     alpha_i = T(omega) c,
     T = (L(k)/2) { G(x_C - x_B) - G(x_C - x_T) + int_0^inf exp(-i omega q) d[-G(x_C - x_T - q)] }.
@@ -21,9 +21,9 @@ have. A beam from wall to wall, whose strips all carry one load, therefore induc
 frequency. T(0) is Weissinger's matrix less the section's own, so that any section polar may follow.
 T falls with omega^-1/2: nothing is induced at once.
 
-The incidence at the quarter chord, with G(0) = 0 of the bound line in its own place, is T_q(omega) c.
-(T_q - T) c over half a chord is the curvature of the induced flow, which acts as a pitch rate on the
-leading edge.
+The incidence at the quarter chord, with G(0) = 0 of the bound line in its own place, is T_q(omega)
+c. (T_q - T) c over half a chord is the curvature of the induced flow, which acts as a pitch rate
+on the leading edge.
 
 **As states.** With three fixed rates p, the same for every beam,
 

@@ -1,29 +1,29 @@
 r"""Downwash of the vortex rings of a flat beam in a channel, above that of two-dimensional flow.
 
 Lengths are in chords: x downstream, z along the span, y up. The beam and its wake are flat vortex
-rings in the plane y = 0. A rectangular ring of strength Gamma is four straight vortices, and the law
-of Biot and Savart gives its downwash as a sum over its corners, with signs that alternate
+rings in the plane y = 0. A rectangular ring of strength Gamma is four straight vortices, and the
+law of Biot and Savart gives its downwash as a sum over its corners, with signs that alternate
 (Katz and Plotkin, *Low-Speed Aerodynamics*, 2001, section 10.4.5, for one straight vortex),
 
     w/(Gamma/4 pi) = sum +- F(X, Z, Y),
     F(X, Z, Y) = (X Z/R) [1/(X^2 + Y^2) + 1/(Z^2 + Y^2)],    R^2 = X^2 + Y^2 + Z^2,
 
-X, Z, Y being the way from the corner to the point. A spanwise vortex at x = a across the strip j, with
-legs that trail to infinity upstream and downstream in equal parts, therefore has at station i
+X, Z, Y being the way from the corner to the point. A spanwise vortex at x = a across the strip j,
+with legs that trail to infinity upstream and downstream in equal parts, therefore has at station i
 
     G_ij(X) = 1/(4 pi) [F(X, z_i - e_j, 0) - F(X, z_i - e_{j+1}, 0)],    X = x - a,
 
-and a ring from a to b the difference G(x - a) - G(x - b). In two dimensions F is sgn(Z) X/(X^2 + Y^2),
-which belongs to the section and its polar. What is left,
+and a ring from a to b the difference G(x - a) - G(x - b). In two dimensions F is sgn(Z) X/(X^2 +
+Y^2), which belongs to the section and its polar. What is left,
 
     F - sgn(Z) X/(X^2 + Y^2) = (Z/(Z^2 + Y^2)) (X/R) + (X/(X^2 + Y^2)) (Z/R - sgn Z),
 
 vanishes at X = 0 and tends to +-Z/(Z^2 + Y^2) far up- and downstream.
 
-Slip walls are images (:mod:`equisection.aerodynamics.channel`): side walls repeat each strip and its
-mirror image with the period 2 W, floor and ceiling repeat all that at Y = n H with the sign (-1)^n.
-The sums over Z/(Z^2 + Y^2) are closed (`lattice_kernel`). The rest is summed image by image, those
-beyond the last as a uniform load; its alternating series in n ends with Euler's means.
+Slip walls are images (:mod:`equisection.aerodynamics.channel`): side walls repeat each strip and
+its mirror image with the period 2 W, floor and ceiling repeat all that at Y = n H with the sign
+(-1)^n. The sums over Z/(Z^2 + Y^2) are closed (`lattice_kernel`). The rest is summed image by
+image, those beyond the last as a uniform load; its alternating series in n ends with Euler's means.
 """
 
 from __future__ import annotations
