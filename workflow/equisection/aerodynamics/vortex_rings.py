@@ -160,7 +160,7 @@ class SpanGeometry:
 
     def _images(self) -> tuple[Floats, Floats]:
         """Shifts along z of the strip (sign 1) and of its mirror image (sign -1)."""
-        shifts = np.zeros(1)
+        shifts: Floats = np.zeros(1)
         if self.width is not None:
             reach = REACH if self.height is None else min(REACH, HEIGHTS * self.height)
             count = max(2, math.ceil(reach / (2 * self.width)))
