@@ -164,7 +164,8 @@ class SpanGeometry:
         if self.width is not None:
             reach = REACH if self.height is None else min(REACH, HEIGHTS * self.height)
             count = max(2, math.ceil(reach / (2 * self.width)))
-            shifts = 2 * self.width * np.arange(-count, count + 1)
+            steps = np.arange(-count, count + 1, dtype=np.float64)
+            shifts = np.asarray(2.0 * self.width * steps, dtype=np.float64)
         if not self.wall_at_root:
             return shifts, np.ones(shifts.size)
         return np.tile(shifts, 2), np.repeat([1.0, -1.0], shifts.size)
