@@ -207,8 +207,8 @@ def test_circulation_of_lift_is_continuous_at_rest() -> None:
     assert distances[2] < 1e-5
 
 
-def test_negative_time_is_the_conjugate() -> None:
-    """A real history has a real answer, so near rest T changes with i omega."""
+def test_slow_motion_is_steady_flow() -> None:
+    """T is continuous at rest, and real there."""
     matrix = incidence_matrix(half_wing(6.0), 1e-4)
     assert np.abs(matrix.imag).max() < 1e-2 * np.abs(matrix.real).max()
     assert matrix.real == pytest.approx(incidence_matrix(half_wing(6.0), 0.0).real, rel=1e-2)
