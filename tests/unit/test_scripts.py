@@ -147,7 +147,8 @@ def test_chain_of_scripts_ends_in_a_line_for_each_run(chain: Path) -> None:
     assert pd.read_csv(chain / "onset.csv")["model"].tolist() == ["2d-corrected", "3d"]
     critical = pd.read_csv(chain / "critical_speed.csv")
     assert tuple(critical.columns) == COLUMNS
-    assert critical["model"].tolist() == ["2d-corrected", "3d"]  # eigenvalues are of plain sections
+    by_basis = {basis: list(rows["model"]) for basis, rows in critical.groupby("basis")}
+    assert by_basis == {"eigenvalue": ["2d", "2d-paper"], "time": ["2d-corrected", "3d"]}
     pd.testing.assert_series_equal(
         summary["speed"] ** 2 * summary["k_star"],
         pd.Series([20.0**2 * nominal_k_star(read_dataset(chain / "equivalent.nc"))] * 4),
