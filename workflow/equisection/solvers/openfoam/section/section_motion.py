@@ -30,7 +30,9 @@ MOTION = "motion"
 #: Length of the spring (chords) of a section with a damper or with offset axes. A spring pulls, and
 #: its damper brakes, along the line to its attachment: so long a spring stays vertical where the
 #: attachment wanders along the stream, and in its middle position.
-_LONG = 1e4
+_LONG = 1e3
+#: Digits of the attachment's height, so that the long spring is slack to the last digit written.
+_DIGITS = 8
 #: Within the first distance from the plate the mesh moves with it, beyond the second it stands;
 #: the second as a part of the half channel at the most.
 _RIGID_WITHIN, _STILL_BEYOND, _STILL_PART = 0.3, 1.5, 0.75
@@ -84,7 +86,7 @@ def rigid_body(
         Up to the first distance (chords) the mesh moves with it, beyond the second it is at rest.
     """
     axes = BodyAxes.of(section, incidence)
-    centre = (*_tidy(axes.centre_of_mass), 0)
+    centre = (*axes.centre_of_mass, 0)
     about_centre = section.inertia - section.static_imbalance**2 / section.mass
     return {
         "patches": [PLATE],
@@ -126,22 +128,17 @@ def rigid_body(
 
 def _bending(section: Section, axes: BodyAxes) -> dict[str, Any]:
     """Return spring and damper of the bending, attached to the elastic axis."""
-    along, up = _tidy(axes.elastic_axis)
+    along, up = axes.elastic_axis
+    up = round(up, _DIGITS)
     length = _LONG if section.has_offset or section.flexural_damping else 0.0
     return {
         "sixDoFRigidBodyMotionRestraint": "linearSpring",
-        "anchor": (along, up - length if length else up, 0),
+        "anchor": (along, up - length, 0),
         "refAttachmentPt": (along, up, 0),
         "stiffness": section.flexural_stiffness / 2,
         "damping": section.flexural_damping / 2,
         "restLength": length,
     }
-
-
-def _tidy(place: tuple[float, float]) -> tuple[float, float]:
-    """Return a place as it is written: whole numbers without a point."""
-    along, up = (int(value) if value == int(value) else value for value in place)
-    return along, up
 
 
 def write_displacement(folder: Path, further: Mapping[str, Entries] | None = None) -> None:
