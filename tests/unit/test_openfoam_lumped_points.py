@@ -104,14 +104,20 @@ def test_other_forms_are_told_apart() -> None:
 
 def test_drag_above_the_place_of_reference_turns_the_nose_up() -> None:
     """About a point that is higher by w the same drag turns less nose up, by w F_x."""
-    loads = Handed.read(MESSAGE).about(np.array([0.5, 0.0]))
+    loads = Handed.read(MESSAGE).about((np.zeros(2), np.array([0.5, 0.0])))
     np.testing.assert_allclose(loads.moments[:, 2], [0.03 + 0.05, -0.5])
+
+
+def test_lift_ahead_of_the_place_of_reference_turns_the_nose_up() -> None:
+    """About a point that is further back by x the same lift turns more nose up, by x F_y."""
+    loads = Handed.read(MESSAGE).about((np.array([0.5, 0.0]), np.zeros(2)))
+    np.testing.assert_allclose(loads.moments[:, 2], [0.03 - 0.5 * 0.2, -0.5])
 
 
 def test_mesh_that_asks_twice_is_told_apart_from_another_iteration() -> None:
     """The second time the moments are about the points' new places; the forces are the same."""
     first = Handed.read(MESSAGE)
-    again = first.about(np.array([0.1, 0.2]))
+    again = first.about((np.zeros(2), np.array([0.1, 0.2])))
     assert again.is_again(first)
     assert not first.is_again(None)
     assert not Handed(first.time + 0.02, first.forces, first.moments).is_again(first)
