@@ -17,7 +17,6 @@ from pydantic import (
 )
 
 from equisection.beam.section import Section
-from equisection.errors import EquisectionError
 
 SCHEMA_VERSION = 1
 
@@ -124,28 +123,6 @@ class BeamModes(Block):
     bending_damping: float = 0.0  # of critical, of every mode
     torsion_damping: float = 0.0  # the same
     elastic_axis: float = 0.5  # x/c from the leading edge
-
-    def require_defaults(self, model: str) -> None:
-        """Refuse a beam with imbalance, dampers or an axis off mid-chord.
-
-        Parameters
-        ----------
-        model
-            The model without a place for them, as the message names it.
-
-        Raises
-        ------
-        EquisectionError
-            One of them is not at its default.
-        """
-        fields = type(self).model_fields
-        more = [
-            f"{name} {getattr(self, name):g} (allowed is {fields[name].default:g})"
-            for name in sorted(self.left_out)
-            if getattr(self, name) != fields[name].default
-        ]
-        if more:
-            raise EquisectionError(f"{model} takes no beam with {', '.join(more)}")
 
 
 class EndCriteria(Block):

@@ -17,11 +17,11 @@ import numpy as np
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups.openfoam_keys import MORPH
+from equisection.errors import SolverError
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
-from equisection.errors import SolverError
 from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.settings import Settings

@@ -47,9 +47,7 @@ class BodyMotion:
     height: NDArray[np.float64]
 
 
-def write_motion(
-    folder: Path, section: Section, incidence: float, channel_height: float
-) -> None:
+def write_motion(folder: Path, section: Section, incidence: float, channel_height: float) -> None:
     """Write ``constant/dynamicMeshDict``: the section, and the mesh that morphs around it."""
     entries = morphing(section, incidence, channel_height)
     write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", entries))
