@@ -132,7 +132,8 @@ def test_body_turns_about_its_centre_of_mass_and_hangs_on_its_elastic_axis(tmp_p
     written = body_of(offset, tmp_path, incidence)
     axis = np.array([-0.2 * math.cos(incidence), 0.2 * math.sin(incidence), 0.0])
     np.testing.assert_allclose(numbers(written["refAttachmentPt"]), axis, atol=1e-8)
-    np.testing.assert_allclose(numbers(written["centreOfMass"]), axis + [0.1, 0, 0], atol=1e-12)
+    centre = axis + np.array([0.1, 0.0, 0.0])
+    np.testing.assert_allclose(numbers(written["centreOfMass"]), centre, atol=1e-12)
     assert written["centreOfRotation"] == written["centreOfMass"]
     np.testing.assert_allclose(numbers(written["momentOfInertia"]), [1, 1, 5.9 / 2])
 

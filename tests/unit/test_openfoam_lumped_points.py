@@ -139,3 +139,75 @@ def test_loads_do_their_work_on_the_surface_as_it_moves() -> None:
     shapes = np.concatenate([POINTS.torsion, POINTS.bending])
     at_edges = np.array([np.interp(EDGES, POINTS.locations, shape) for shape in shapes])
     assert work == pytest.approx(0.5 * np.trapezoid(at_edges, EDGES, axis=1))
+
+
+INCIDENCE, AXIS = np.radians(5.0), -0.2
+OFFSET = LumpedPoints.of(
+    beam_modes().model_copy(update={"imbalance": 3.0, "elastic_axis": 0.5 + AXIS}), EDGES, INCIDENCE
+)
+PLACE = np.array([0.1, -0.04, 0.3, 0.02])
+
+
+def test_points_of_a_beam_with_its_axis_off_mid_chord_turn_about_the_axis() -> None:
+    """Each is as far from the axis as at rest, and is turned by the twist."""
+    rows = np.array([row.split() for row in OFFSET.message(PLACE).splitlines()[1:]], dtype=float)
+    axis = AXIS * np.array([np.cos(INCIDENCE), -np.sin(INCIDENCE)])
+    arm = rows[:, :2] - axis
+    arm[:, 1] -= OFFSET.deflection(PLACE)
+    np.testing.assert_allclose(np.hypot(*arm.T), abs(AXIS))
+    turned = np.arctan2(*arm.T[::-1]) - np.arctan2(*-axis[::-1])
+    np.testing.assert_allclose(turned, rows[:, 3], atol=1e-9)
+    np.testing.assert_allclose(rows[:, 3], -OFFSET.twist(PLACE), atol=1e-9)
+
+
+def test_loads_of_an_offset_beam_do_the_work_of_its_points() -> None:
+    """Virtual work of forces and moments on the points, by differences of where they go."""
+    generator = np.random.default_rng(3)
+    forces, moments = generator.normal(size=(2, EDGES.size + 1, 3))
+    forces[[0, -1]] = moments[[0, -1]] = 0.0
+    loads = OFFSET.modal_loads(forces, OFFSET.about_axis(forces, moments, PLACE)) * OFFSET.inertia
+    for mode, load in enumerate(loads):
+        small = 1e-5 * np.eye(4)[mode]
+        (x_less, y_less), (x_more, y_more) = (
+            OFFSET.axes.mid_chord_places(*motion_at_loads(OFFSET, PLACE + sign * small, PLACE))
+            for sign in (-1, 1)
+        )
+        shifts = np.stack([x_more - x_less, y_more - y_less], axis=1) / 2e-5
+        twist = OFFSET.torsion_at_loads[mode] if mode < 2 else np.zeros(EDGES.size + 1)
+        work = (forces[:, :2] * shifts).sum() - moments[:, 2] @ twist
+        assert load == pytest.approx(work, rel=1e-6)
+
+
+def motion_at_loads(
+    points: LumpedPoints, position: np.ndarray, about: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return twist and deflection near a position, as the shapes at the loads say."""
+    change = position - about
+    return (
+        points.twist(about) + change[:2] @ points.torsion_at_loads,
+        points.deflection(about) + change[2:] @ points.bending_at_loads,
+    )
+
+
+def test_moment_about_mid_chord_is_that_about_an_axis_there() -> None:
+    forces, moments = handed(np.array(0.3), np.array(0.06))
+    np.testing.assert_array_equal(POINTS.about_axis(forces, moments, PLACE), moments)
+    about = OFFSET.about_axis(forces, moments, np.zeros(4))
+    _, moment = OFFSET.coefficients(forces, about)
+    assert moment == pytest.approx(0.06 + AXIS * 0.3 * np.cos(INCIDENCE))
+
+
+def test_mass_of_the_modes_is_that_of_a_beam_with_imbalance() -> None:
+    """M of the uniform beam: I int f f, m int g g, -S int f g, by sums over many stations."""
+    modes = beam_modes()
+    span = np.array(modes.span)
+    shapes = np.array([*modes.torsion_shape, *modes.bending_shape])
+    per_length = np.full((4, 4), -3.0)
+    per_length[:2, :2], per_length[2:, 2:] = modes.inertia, modes.mass
+    products = shapes[:, None] * shapes[None, :]
+    exact = 0.5 * 3.7 * per_length * np.trapezoid(products, span, axis=-1)
+    own = OFFSET.inertia[:, None] * OFFSET.mass
+    np.testing.assert_allclose(own, exact, rtol=2e-3, atol=2e-3 * np.abs(np.diag(exact)).min())
+    np.testing.assert_allclose(own, own.T, rtol=1e-12)
+    assert np.linalg.eigvalsh(own).min() > 0.0
+    np.testing.assert_array_equal(POINTS.mass, np.eye(4))

@@ -4,11 +4,11 @@ Modes q_i of generalised inertia M_ii, each row over it,
 
     sum_j mu_ij q_j'' + 2 zeta_i omega_i q_i' + omega_i^2 q_i = p_i(s),    mu_ii = 1,
 
-with viscous damping zeta (of critical) and, between bending and torsion, the inertial coupling mu_ij =
-M_ij/M_ii of a static imbalance. Where p goes linearly from p_0 to p_1 over a step h, the motion is known in
-closed form: state, load and its rise obey one linear system with constant coefficients, and its matrix
-exponential takes them over the step (Van Loan, IEEE Trans. Autom. Control 23, 1978). Of an undamped mode alone
-that is Duhamel's integral (c = cos omega h, s = sin omega h):
+with viscous damping zeta (of critical) and, between bending and torsion, the inertial coupling
+mu_ij = M_ij/M_ii of a static imbalance. Where p goes linearly from p_0 to p_1 over a step h, the
+motion is known exactly: state, load and its rise obey one linear system of constant coefficients,
+and its matrix exponential takes them over the step (Van Loan, IEEE Trans. Autom. Control 23, 1978).
+Of an undamped mode alone that is Duhamel's integral (c = cos omega h, s = sin omega h):
 
     q_1  = c q_0 + s/omega v_0 + (1 - c)/omega^2 p_0 + (1/omega^2 - s/(omega^3 h)) (p_1 - p_0)
     v_1  = -omega s q_0 + c v_0 + s/omega p_0 + (1 - c)/(omega^2 h) (p_1 - p_0)

@@ -1,7 +1,8 @@
 """History of the structure of a coupled run, a row for each time step in a text file.
 
 A row holds the whole state of the modes, so that the run can be taken up after any step, and the
-loads on the plate; last, where the elastic axis is off mid-chord, the moment about it. It is in the file before OpenFOAM goes on to the next step.
+loads on the plate. Its last number, where the elastic axis is off mid-chord, is the moment about
+that. It is in the file before OpenFOAM goes on to the next step.
 """
 
 from __future__ import annotations

@@ -157,7 +157,7 @@ class SectionRun(FreeRun[Mesh]):
         return f"{where}, where {fault}" if fault else where
 
     def mesh_fault(self, twist: float, height: float) -> str:
-        """Return the fault of the mesh at a twist (rad) and a height of mid-chord (chords), or ''."""
+        """Return the fault of the mesh at a twist (rad) and height (chords) of mid-chord, or ''."""
         mesh = MorphingMesh(self.installation, self.folder, self.mesh.channel.height)
         quality = mesh.along(twist, height, 1, self.work / "moved")[-1]
         faults = quality.faults
