@@ -27,7 +27,7 @@ from tests.free_vibration import Complexes, Floats, exact_poles, fitted_poles
 from tests.sample_cases import UNSTEADY
 from tests.watching import nothing
 
-INCIDENCE_DEG, DURATION, STEP = 0.5, 24.0, 0.02
+INCIDENCE_DEG, DURATION, STEP = 0.5, 16.0, 0.02
 #: Time (c/V) after the release that is left out, in which the wake forms.
 BEFORE = 3.0
 REFINEMENT = 0.6
@@ -93,7 +93,7 @@ def by_embedded(chosen: Section, near: Complexes) -> Complexes:
 def main() -> None:
     """Print frequency and growth rate of both motions, by both solvers and in vacuum."""
     rows = []
-    for imbalance, axis in ((0.0, 0.5), (0.2, 0.5), (0.0, 0.35), (0.2, 0.35)):
+    for imbalance, axis in ((0.0, 0.5), (0.2, 0.35)):
         chosen = section(imbalance, axis)
         vacuum = exact_poles(chosen.mass_matrix, chosen.damping_matrix, chosen.stiffness_matrix)
         flow, embedded = by_openfoam(chosen, vacuum), by_embedded(chosen, vacuum)

@@ -28,6 +28,7 @@ from equisection.beam.section import Section
 Floats = NDArray[np.float64]
 #: x and y, each of shape (n,).
 Places = tuple[Floats, Floats]
+Value = Floats | float
 
 
 @dataclass(frozen=True)
@@ -70,7 +71,7 @@ class BodyAxes:
 
     def deflection(self, height: Floats, twist: Floats) -> Floats:
         """Return w/c of the elastic axis from the height of the centre of mass and the twist."""
-        return height - self.centre_of_mass[1] + self.arm * np.sin(twist)
+        return np.asarray(height - self.centre_of_mass[1] + self.arm * np.sin(twist))
 
     def axis_places(self, twist: Floats, deflection: Floats) -> Places:
         """Return the places of the elastic axis at twists (rad) and deflections (chords)."""
@@ -85,11 +86,11 @@ class BodyAxes:
         return along - ahead * np.cos(incidence), up + ahead * np.sin(incidence)
 
 
-def moment_about(places: Places, moment: Floats, lift: Floats, drag: Floats) -> Floats:
+def moment_about(places: tuple[Value, Value], moment: Value, lift: Value, drag: Value) -> Floats:
     """Return c_m about places from c_m about mid-chord at rest, c_l and c_d.
 
     c_m(x, y) = c_m(0) + x c_l - y c_d: lift ahead of a place, and drag above it, turn the nose up
     about it.
     """
     along, up = places
-    return moment + along * lift - up * drag
+    return np.asarray(moment + along * lift - up * drag)

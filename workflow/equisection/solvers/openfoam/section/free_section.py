@@ -192,7 +192,7 @@ class SectionRun(FreeRun[Mesh]):
         copy_flow(source, folder)
         self.write_motion(folder)
         drag, lift, moment = loads.last(WINDOW // 3).means()
-        about_axis = moment_about(self.axes.elastic_axis, moment, lift, drag)
+        about_axis = float(moment_about(self.axes.elastic_axis, moment, lift, drag))
         known = {"lift": lift, "moment": moment, "axis_moment": about_axis}
         write_text(folder / _AT_RELEASE, json.dumps(known))
         mark_ready(folder)
