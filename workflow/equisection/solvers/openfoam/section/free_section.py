@@ -54,6 +54,7 @@ from equisection.solvers.verdicts import (
     last_look,
     refused,
 )
+from equisection.verdict.zigzag import zigzag_of
 
 logger = logging.getLogger(__name__)
 
@@ -244,4 +245,5 @@ def _result(
         axis_moment=history.axis_moment if is_offset else np.empty(0),
         incidence=math.radians(case.incidence_deg) + history.twist,
         verdict=judge(case, tip, failure),
+        loads_zigzag=zigzag_of(so_far.time, so_far.lift, so_far.moment),
     )
