@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from tests.sample_cases import beam_modes
 
+from equisection.cases import BeamModes
+from equisection.errors import EquisectionError
 from equisection.solvers.openfoam.beam.lumped_points import Handed, LumpedPoints
 
 EDGES = np.linspace(0.0, 3.7, 75)
@@ -211,3 +213,17 @@ def test_mass_of_the_modes_is_that_of_a_beam_with_imbalance() -> None:
     np.testing.assert_allclose(own, own.T, rtol=1e-12)
     assert np.linalg.eigvalsh(own).min() > 0.0
     np.testing.assert_array_equal(POINTS.mass, np.eye(4))
+
+
+def test_coupled_beam_refuses_a_field_that_it_does_not_have() -> None:
+    """A beam of a later kind is refused by name until its physics is here."""
+
+    class LaterModes(BeamModes):
+        left_out = frozenset({*BeamModes.left_out, "chordwise"})
+        chordwise: float = 0.0
+
+    plain = LaterModes(**dict(beam_modes()))
+    assert LumpedPoints.of(plain, EDGES).span == 3.7
+    later = LaterModes(**dict(beam_modes()), chordwise=0.3)
+    with pytest.raises(EquisectionError, match=r"takes no beam with chordwise 0\.3 \(allowed is 0"):
+        LumpedPoints.of(later, EDGES)

@@ -178,7 +178,9 @@ class Adapter:
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
-        return kind(installation, case, mesh, self._settings.coupling, place).run(tell)
+        run = kind(installation, case, mesh, self._settings.coupling, place)
+        _ = run.axes  # refuses what it does not have, the same
+        return run.run(tell)
 
     def _free_plate(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
@@ -189,7 +191,9 @@ class Adapter:
 
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         coupling, ranks = self._settings.coupling, self._ranks
-        return PlateRun(installation, case, mesh, coupling, place, ranks).run(tell)
+        run = PlateRun(installation, case, mesh, coupling, place, ranks)
+        _ = run.points  # refuses what it does not have before the steady flow, which takes long
+        return run.run(tell)
 
 
 def _require_own_loads(case: UnsteadyCase) -> None:

@@ -40,6 +40,8 @@ from equisection.structure.span import gram, integrate
 
 Floats = NDArray[np.float64]
 
+#: Fields of the modes with a default that the coupled beam has.
+_OF_BEAM = ("imbalance", "bending_damping", "torsion_damping", "elastic_axis")
 #: Iterations of the mesh's displacement in each motion.
 _ITERATIONS = 4
 #: A shape that is less than this at the tip, relative to its largest, is held there.
@@ -95,7 +97,13 @@ class LumpedPoints:
         """Place the points of a plate whose layers of cells begin and end at ``edges`` (z/c).
 
         ``incidence`` is the rigid one (rad), on which only an axis off mid-chord depends.
+
+        Raises
+        ------
+        EquisectionError
+            The beam has more than the coupled beam of OpenFOAM has.
         """
+        modes.require_defaults("the coupled beam of OpenFOAM", but=_OF_BEAM)
         span = float(edges[-1])
         locations = _points(edges)
         stations = np.array(modes.span)

@@ -31,6 +31,10 @@ Places = tuple[Floats, Floats]
 Value = Floats | float
 
 
+#: Members of a section beyond mass and springs that the rigid body has.
+OF_BODY = ("elastic_axis", "static_imbalance", "flexural_damping", "torsional_damping")
+
+
 @dataclass(frozen=True)
 class BodyAxes:
     """Axes of a section at its rigid incidence.
@@ -51,7 +55,14 @@ class BodyAxes:
 
     @classmethod
     def of(cls, section: Section, incidence: float) -> BodyAxes:
-        """Return the axes of a section in its flow at a rigid incidence (rad)."""
+        """Return the axes of a section in its flow at a rigid incidence (rad).
+
+        Raises
+        ------
+        EquisectionError
+            The section has more than the rigid body of OpenFOAM has.
+        """
+        section.require_defaults("the rigid body of OpenFOAM", but=OF_BODY)
         arm = section.static_imbalance / section.mass
         return cls(incidence, section.axis_behind_mid_chord, arm)
 
