@@ -1,4 +1,4 @@
-"""Known values of other codes and authors, each within its tolerance, and the page that has them."""
+"""Known values of other codes and authors, each within its tolerance, and the page of them."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ _INTRODUCTION = f"""# Validation
 Numbers known from elsewhere, and what this package makes of them.
 
 ```
-make validation        # {COMMAND}, about ten seconds
+make validation        # {COMMAND}, about twenty seconds
 ```
 
 The command computes every number of the column *here* and writes this page.
