@@ -37,6 +37,7 @@ COLUMNS = (
     "k_star",
     "growth_rate",
     "frequency_strouhal",
+    "speed",
     "growth_rate_exact",
     "frequency_strouhal_exact",
 )
@@ -50,7 +51,9 @@ _MID_CHORD = 0.5
 _MOTIONS = ("heave", "pitch")
 
 
-def linear_theory(equivalent: xr.Dataset, k_star: Sequence[float]) -> pd.DataFrame:
+def linear_theory(
+    equivalent: xr.Dataset, k_star: Sequence[float], speed: float = math.nan
+) -> pd.DataFrame:
     """Return ``comparison/linear_theory.csv``: growth and frequency of both motions over k*.
 
     Those of the p-k method, which are exact at flutter, and the exact ones of the p-plane; NaN for
@@ -62,18 +65,21 @@ def linear_theory(equivalent: xr.Dataset, k_star: Sequence[float]) -> pd.DataFra
         ``structure/equivalent.nc``.
     k_star
         Values of k* (-), in any order.
+    speed
+        V (m/s) at which the beam as given has its k*; with it come the speeds of the others.
     """
-    rows = []
+    rows, given = [], nominal_k_star(equivalent)
     ascending = sorted(k_star)
     for reduction in (str(name) for name in equivalent["reduction"].values):
         section = section_in_flow(equivalent, reduction)
-        scales = np.array(ascending) / nominal_k_star(equivalent)
+        scales = np.array(ascending) / given
         p = _growth_and_frequency(section, scales)
         exact = exact_growth_and_frequency(section, scales)
         for column, motion in enumerate(_MOTIONS):
-            for value, *roots in zip(ascending, p[:, column], exact[:, column], strict=True):
-                numbers = [x for root in roots for x in (root.real, root.imag / (2 * math.pi))]
-                rows.append((reduction, motion, value, *numbers))
+            for value, root, is_so in zip(ascending, p[:, column], exact[:, column], strict=True):
+                there = speed * math.sqrt(given / value)
+                numbers = (root.real, root.imag / math.tau, there)
+                rows.append((reduction, motion, value, *numbers, is_so.real, is_so.imag / math.tau))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 
