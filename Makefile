@@ -19,7 +19,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run report paper cost identification cost-model status verify test lint docs drawing bench openfoam slurm clean
+.PHONY: run report paper validation cost identification cost-model status verify test lint docs drawing bench openfoam slurm clean
 
 run: $(ENV)/run
 	@$(BIN)/equisection folder $(CONFIG) > /dev/null
@@ -50,6 +50,9 @@ paper: $(ENV)/run
 	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Figs. 9 to 12 in $(PAPER_PLATE)/figures/" \
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \
 		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"
+
+validation: $(ENV)/run
+	$(BIN)/python -m equisection.validation
 
 cost: $(ENV)/run
 	$(SNAKEMAKE) --configfile config/paper/embedded.yaml -- results/paper-embedded/comparison/summary.csv

@@ -37,6 +37,7 @@ ROOMS = (
     "analysis",
     "figures",
     "run",
+    "validation",
     "paper",
 )
 #: Modules that are the same idea of two solvers.

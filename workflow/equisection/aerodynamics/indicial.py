@@ -6,7 +6,9 @@ A step of incidence builds its circulatory lift up after Wagner's function phi, 
     phi(tau) = 1 - A_1 exp(-b_1 tau) - A_2 exp(-b_2 tau).
 
 In the frequency domain the same statement is Theodorsen's function C(k) (NACA Report 496, 1935),
-with k = omega c/(2 V). As states, with the incidence alpha_34 at three quarters of the chord:
+with k = omega c/(2 V), and for a motion exp(p s) that grows or decays it is C(p/2) with complex
+arguments (Edwards, Ashley & Breakwell, AIAA Journal 17, 1979). As states, with the incidence
+alpha_34 at three quarters of the chord:
 
     z_i' = 2 b_i (alpha_34 - z_i),
     alpha_E = (1 - A_1 - A_2) alpha_34 + A_1 z_1 + A_2 z_2,    ' = d/ds,
@@ -57,3 +59,24 @@ def theodorsen_of_jones(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
     ik = 1j * np.asarray(reduced_frequency, dtype=np.float64)
     lags = zip(JONES_AMPLITUDES, JONES_RATES_SEMICHORD, strict=True)
     return np.asarray(1.0 - sum(a * ik / (ik + b) for a, b in lags), dtype=np.complex128)
+
+
+def theodorsen_of_growing(rate: complex) -> complex:
+    """C of a motion that grows or decays, exact, at p/2 = growth + i k, per semi-chord.
+
+    C(z) = K_1(z)/(K_0(z) + K_1(z)) with modified Bessel functions, on the imaginary axis
+    Theodorsen's (Edwards, Ashley & Breakwell, AIAA Journal 17, 1979). It is cut along the negative
+    real axis: the wake of what decays without turning never ends. There the value is that from
+    above.
+    """
+    first, zeroth = scipy.special.kve(1, complex(rate)), scipy.special.kve(0, complex(rate))
+    return complex(first / (zeroth + first))
+
+
+def theodorsen_slope(rate: complex) -> complex:
+    """dC/dz of :func:`theodorsen_of_growing`: 2 C - 1 - C (1 - C)/z.
+
+    From K_0' = -K_1 and K_1' = -K_0 - K_1/z (Abramowitz & Stegun, 9.6.26 and 9.6.27).
+    """
+    value = theodorsen_of_growing(rate)
+    return 2.0 * value - 1.0 - value * (1.0 - value) / rate

@@ -19,7 +19,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.aerodynamics.indicial import theodorsen
+from equisection.aerodynamics.indicial import (
+    theodorsen,
+    theodorsen_of_growing,
+    theodorsen_slope,
+)
 
 Floats = NDArray[np.float64]
 
@@ -84,5 +88,36 @@ class ThinAirfoil:
             -(omega**2) * self._apparent_mass
             + 1j * omega * self._apparent_rate
             + lag * (by_place + 1j * omega * by_rate),
+            dtype=np.complex128,
+        )
+
+    def influence_of_growing(self, rate: complex) -> NDArray[np.complex128]:
+        """Return Q of a motion exp(p s) that grows or decays, shape (2, 2).
+
+        At p = i omega it is :meth:`influence`.
+
+        Parameters
+        ----------
+        rate
+            p (V/c), not 0; Re p is the growth rate, Im p is omega c/V.
+        """
+        lag = theodorsen_of_growing(0.5 * rate)
+        by_place, by_rate = self._circulatory
+        return np.asarray(
+            rate**2 * self._apparent_mass
+            + rate * self._apparent_rate
+            + lag * (by_place + rate * by_rate),
+            dtype=np.complex128,
+        )
+
+    def influence_slope(self, rate: complex) -> NDArray[np.complex128]:
+        """Return dQ/dp of :meth:`influence_of_growing`, shape (2, 2)."""
+        lag, slope = theodorsen_of_growing(0.5 * rate), theodorsen_slope(0.5 * rate)
+        by_place, by_rate = self._circulatory
+        return np.asarray(
+            2.0 * rate * self._apparent_mass
+            + self._apparent_rate
+            + 0.5 * slope * (by_place + rate * by_rate)
+            + lag * by_rate,
             dtype=np.complex128,
         )

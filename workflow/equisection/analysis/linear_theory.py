@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from equisection.beam.section import Section
 from equisection.errors import IncidenceOutOfRangeError, ResultFileError
+from equisection.motion.exact_roots import exact_growth_and_frequency
 from equisection.motion.linear_flutter import (
     FlutterIterationError,
     divergence_scale,
@@ -30,7 +31,16 @@ from equisection.results.section_dataset import nominal_k_star, section_in_flow
 from equisection.study.plan import Model, model
 
 #: Columns of ``comparison/linear_theory.csv``, in order.
-COLUMNS = ("reduction", "motion", "k_star", "growth_rate", "frequency_strouhal", "speed")
+COLUMNS = (
+    "reduction",
+    "motion",
+    "k_star",
+    "growth_rate",
+    "frequency_strouhal",
+    "speed",
+    "growth_rate_exact",
+    "frequency_strouhal_exact",
+)
 #: Columns that the theory adds to ``comparison/onset.csv``.
 ONSET_COLUMNS = ("linear_flutter", "linear_divergence", "divergence_by_polar")
 #: Name of the beam among the reductions.
@@ -46,6 +56,9 @@ def linear_theory(
 ) -> pd.DataFrame:
     """Return ``comparison/linear_theory.csv``: growth and frequency of both motions over k*.
 
+    Those of the p-k method, which are exact at flutter, and the exact ones of the p-plane; NaN for
+    what has ceased to turn.
+
     Parameters
     ----------
     equivalent
@@ -59,11 +72,14 @@ def linear_theory(
     ascending = sorted(k_star)
     for reduction in (str(name) for name in equivalent["reduction"].values):
         section = section_in_flow(equivalent, reduction)
-        p = _growth_and_frequency(section, np.array(ascending) / given)
+        scales = np.array(ascending) / given
+        p = _growth_and_frequency(section, scales)
+        exact = exact_growth_and_frequency(section, scales)
         for column, motion in enumerate(_MOTIONS):
-            for value, root in zip(ascending, p[:, column], strict=True):
+            for value, root, is_so in zip(ascending, p[:, column], exact[:, column], strict=True):
                 there = speed * math.sqrt(given / value)
-                rows.append((reduction, motion, value, root.real, root.imag / math.tau, there))
+                numbers = (root.real, root.imag / math.tau, there)
+                rows.append((reduction, motion, value, *numbers, is_so.real, is_so.imag / math.tau))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
 from equisection.beam.section import Section
+from equisection.motion.exact_roots import GrowingMotion, growth_and_frequency_of
 from equisection.motion.linear_flutter import (
     FlutterEquations,
     Neutral,
@@ -31,6 +32,7 @@ from equisection.motion.linear_flutter import (
 from equisection.structure.modal_matrices import ModalMatrices
 
 Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -66,28 +68,94 @@ def beam_flutter(
     density
         Density of the fluid rho (kg/m^3).
     """
-    first = matrices.bending
-    stiffness = matrices.stiffness[first, first] / matrices.likeness[first, first]
-    speed = _reference_speed(stiffness, chord, density)
-    pressure = 0.5 * density * speed**2
-    kinds = np.repeat([0, 1], [first, len(matrices.mass) - first])
-    # Rows over force and moment, columns by chords and radians; rates by V/c.
-    size = chord ** kinds.astype(float)
-    units = pressure * np.outer(size, size)
-    rate = speed / chord
-    air = ThinAirfoil(elastic_axis - 0.5)
+    flow = _BeamInFlow(matrices, chord, elastic_axis, density)
+    return _onset(neutral_oscillation(flow.equations), flow.speed, chord)
 
-    def influence(omega: float) -> NDArray[np.complex128]:
-        by_kind = air.influence(omega)[np.ix_(kinds, kinds)]
-        return np.asarray(by_kind * matrices.likeness, dtype=np.complex128)
 
-    equations = FlutterEquations(
-        mass=matrices.mass * rate**2 / units,
-        damping=matrices.damping * rate / units,
-        stiffness=matrices.stiffness / units,
-        influence=influence,
-    )
-    return _onset(neutral_oscillation(equations), speed, chord)
+def beam_growth(
+    matrices: ModalMatrices,
+    chord: float,
+    elastic_axis: float,
+    density: float,
+    speeds: Floats,
+) -> Complexes:
+    """Exact growth and frequency of a beam on its modes (1/s, rad/s), shape (n, m).
+
+    The m motions at each speed, each followed from still air
+    (:mod:`equisection.motion.exact_roots`); NaN where one has ceased to turn.
+
+    Parameters
+    ----------
+    matrices
+        Modes of the beam (SI).
+    chord
+        Chord c (m).
+    elastic_axis
+        Place of the elastic axis (x/c from the leading edge).
+    density
+        Density of the fluid rho (kg/m^3).
+    speeds
+        Speeds V > 0 (m/s), shape (n,), in any order.
+    """
+    flow = _BeamInFlow(matrices, chord, elastic_axis, density)
+    roots = growth_and_frequency_of(flow.motion, flow.in_still_air, (flow.speed / speeds) ** 2)
+    return np.asarray(roots * speeds[:, None] / chord)
+
+
+class _BeamInFlow:
+    """A beam on its modes at the speed at which k* is 1: matrices in units of rho/2, V and c."""
+
+    def __init__(
+        self, matrices: ModalMatrices, chord: float, elastic_axis: float, density: float
+    ) -> None:
+        first = matrices.bending
+        stiffness = matrices.stiffness[first, first] / matrices.likeness[first, first]
+        self.speed = _reference_speed(stiffness, chord, density)
+        pressure = 0.5 * density * self.speed**2
+        kinds = np.repeat([0, 1], [first, len(matrices.mass) - first])
+        # Rows over force and moment, columns by chords and radians; rates by V/c.
+        size = chord ** kinds.astype(float)
+        units = pressure * np.outer(size, size)
+        rate = self.speed / chord
+        self.mass = matrices.mass * rate**2 / units
+        self.damping = matrices.damping * rate / units
+        self.stiffness = matrices.stiffness / units
+        self.air = ThinAirfoil(elastic_axis - 0.5)
+        self.likeness = matrices.likeness
+        self.kinds = kinds
+
+    def _on_modes(self, by_kind: Floats | Complexes) -> Complexes:
+        return np.asarray(
+            by_kind[np.ix_(self.kinds, self.kinds)] * self.likeness, dtype=np.complex128
+        )
+
+    @property
+    def equations(self) -> FlutterEquations:
+        """Equations of neutral oscillations."""
+        return FlutterEquations(
+            self.mass,
+            self.damping,
+            self.stiffness,
+            lambda omega: self._on_modes(self.air.influence(omega)),
+        )
+
+    @property
+    def motion(self) -> GrowingMotion:
+        """Equations of motions that grow or decay."""
+        return GrowingMotion(
+            self.mass,
+            self.damping,
+            self.stiffness,
+            lambda p: self._on_modes(self.air.influence_of_growing(p)),
+            lambda p: self._on_modes(self.air.influence_slope(p)),
+        )
+
+    @property
+    def in_still_air(self) -> Floats:
+        """Frequencies (V/c) with the apparent mass of the air, rising."""
+        mass = self.mass + self._on_modes(self.air.apparent_mass).real
+        squares = np.linalg.eigvals(np.linalg.solve(mass, self.stiffness)).real
+        return np.asarray(np.sqrt(np.sort(squares)))
 
 
 def _reference_speed(torsional_stiffness: float, chord: float, density: float) -> float:

@@ -1,0 +1,49 @@
+"""Known values of other codes and authors, each within its tolerance, and the page of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from equisection.validation.__main__ import known_values, main
+from equisection.validation.known_values import ORIGINS, KnownValue
+
+VALUES = known_values()
+PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
+
+
+@pytest.mark.parametrize("value", VALUES, ids=lambda value: f"{value.case}: {value.quantity}")
+def test_known_value(value: KnownValue) -> None:
+    assert value.agrees, (
+        f"{value.computed:.9g} {value.unit} here, {value.known:.9g} known ({value.source.words}); "
+        f"off by {value.difference:.2e}, allowed is {value.tolerance:.2e}: {value.reason}"
+    )
+
+
+def test_a_value_that_is_off_does_not_agree() -> None:
+    value = VALUES[0]
+    assert not replace(value, known=(1 + 2 * value.tolerance) * value.known).agrees
+    assert not replace(value, known=(1 - 2 * value.tolerance) * value.known).agrees
+
+
+def test_every_value_has_an_origin_and_a_tolerance_with_a_reason() -> None:
+    for value in VALUES:
+        assert value.source.origin in ORIGINS
+        assert value.source.words
+        assert value.reason
+        assert value.tolerance < 0.2
+
+
+def test_the_page_is_what_the_command_writes(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["--check", "--page", str(PAGE)]) == 0, capsys.readouterr().err
+
+
+def test_a_page_that_is_out_of_date_is_told(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    old = tmp_path / "validation.md"
+    old.write_text(PAGE.read_text(encoding="utf-8").replace("# Validation", "# Other", 1))
+    assert main(["--check", "--page", str(old)]) == 1
+    assert "run `make validation`" in capsys.readouterr().err

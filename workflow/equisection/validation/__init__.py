@@ -1,0 +1,1 @@
+"""Published and independent numbers, computed again by this package: `docs/validation.md`."""

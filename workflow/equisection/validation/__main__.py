@@ -1,0 +1,122 @@
+"""Write the page of validation, or check that it is up to date.
+
+python -m equisection.validation           writes docs/validation.md
+python -m equisection.validation --check   tells whether it is up to date
+"""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from equisection.files import write_text
+from equisection.validation.flutter_values import flutter_values
+from equisection.validation.known_values import ORIGINS, KnownValue
+from equisection.validation.structure_values import structure_values
+from equisection.validation.wing_values import wing_values
+
+COMMAND = "python -m equisection.validation"
+PAGE = Path("docs/validation.md")
+
+_INTRODUCTION = f"""# Validation
+
+Numbers known from elsewhere, and what this package makes of them.
+
+```
+make validation        # {COMMAND}, about twenty seconds
+```
+
+The command computes every number of the column *here* and writes this page.
+`tests/physics/test_validation.py` asserts each within its tolerance, whose reason is below the
+tables.
+
+| origin | is |
+|---|---|
+"""
+
+#: Problems that have no row, and the reason.
+_WITHOUT = (
+    (
+        "Goland's wing with a tip store, or with a spring along the span",
+        "a beam here has no masses or supports along the span yet",
+    ),
+    (
+        "square prism, galloping (Parkinson and Smith, 1964)",
+        "its coefficients were not at hand to look them up",
+    ),
+    ("Pazy wing", "its stiffness and mass vary along the span; a beam here is uniform"),
+    (
+        "NACA 0012 of SU2's tutorial by CFD",
+        "the flow there is compressible; the row above has its structure in incompressible flow",
+    ),
+    (
+        "embedded plate with separation",
+        "nothing published; `tests/physics/test_stability.py` has an independent assembly",
+    ),
+)
+
+
+def known_values() -> list[KnownValue]:
+    """Every known value, in the order of the page."""
+    return [*flutter_values(), *structure_values(), *wing_values()]
+
+
+def page(values: Sequence[KnownValue]) -> str:
+    """Return the page of validation as Markdown."""
+    cases = list(dict.fromkeys(value.case for value in values))
+    text = _INTRODUCTION
+    text += "".join(f"| {origin} | {words} |\n" for origin, words in ORIGINS.items())
+    for case in cases:
+        text += f"\n## {case}\n\n" + _table([value for value in values if value.case == case])
+    text += "\n## Without a row\n\n| case | reason |\n|---|---|\n"
+    return text + "".join(f"| {case} | {reason} |\n" for case, reason in _WITHOUT)
+
+
+def _table(values: Sequence[KnownValue]) -> str:
+    lines = ["| quantity | known | here | difference | origin |", "|---|---|---|---|---|"]
+    lines += [
+        f"| {value.quantity} | {value.known:.9g} {_unit(value)} | {value.computed:.6g} "
+        f"| {_percent(value.difference)} | {value.source.origin} |"
+        for value in values
+    ]
+    sources = dict.fromkeys((value.source.origin, value.source.words) for value in values)
+    reasons = dict.fromkeys(value.reason for value in values)
+    named = "".join(f"- {origin}: {words}.\n" for origin, words in sources)
+    return "\n".join(lines) + f"\n\n{named}- tolerance: {'; '.join(reasons)}.\n"
+
+
+def _unit(value: KnownValue) -> str:
+    return "" if value.unit == "-" else value.unit
+
+
+def _percent(difference: float) -> str:
+    """Return a relative difference as per cent, to a thousandth of one per cent."""
+    rounded = round(100.0 * difference, 3)
+    return f"{rounded + 0.0:+.3f} %" if rounded else "0.000 %"
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Write or check the page; return the exit status."""
+    parser = argparse.ArgumentParser(prog=COMMAND, description="Known values, computed here.")
+    parser.add_argument("--page", type=Path, default=PAGE)
+    parser.add_argument("--check", action="store_true", help="only tell whether it is up to date")
+    options = parser.parse_args(arguments)
+    text = page(known_values())
+    if not options.check:
+        write_text(options.page, text)
+        print(f"written: {options.page}")
+        return 0
+    there = options.page.read_text(encoding="utf-8") if options.page.exists() else ""
+    if there == text:
+        return 0
+    changes = difflib.unified_diff(there.splitlines(), text.splitlines(), "there", "made now", n=0)
+    print("\n".join(changes), file=sys.stderr)
+    print(f"{options.page} is out of date: run `make validation` and commit it", file=sys.stderr)
+    return 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,38 @@
+"""Known lift of finite wings."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+from equisection.aerodynamics.induction import cosine_strips, induction_matrix
+from equisection.aerodynamics.lifting_line import LiftingLine
+from equisection.aerodynamics.polar import Polar
+from equisection.validation.known_values import KnownValue, Source
+
+_LATTICE = Source("independent", "vortex lattice of a flat rectangular wing")
+
+
+def lift_slope(aspect_ratio: float) -> float:
+    """dC_L/dalpha (1/rad) of a rectangular thin wing in free air by the lifting line."""
+    strips = cosine_strips(60, root_on_wall=False)
+    matrix = induction_matrix(strips, 1.0, aspect_ratio, root_on_wall=False)
+    wing = LiftingLine(Polar.flat_plate(0.5), strips, matrix)
+    return wing.solve(math.radians(1.0)).lift / math.radians(1.0)
+
+
+def wing_values() -> list[KnownValue]:
+    """Known lift slopes of rectangular wings."""
+    return [
+        KnownValue(
+            "Rectangular wing in free air",
+            f"lift slope, aspect ratio {aspect:g}",
+            "1/rad",
+            value,
+            _LATTICE,
+            partial(lift_slope, aspect),
+            1.0 / (aspect + 2.0),
+            "a lifting line leaves out the chord; R. T. Jones's edge factor 1 + 1/AR bounds that",
+        )
+        for aspect, value in ((4.0, 3.655), (6.0, 4.256), (7.4, 4.530), (8.0, 4.625))
+    ]
