@@ -79,10 +79,15 @@ MALFORMED = [
     ({"beam": {"damping": {"bending": 0.2}}}, "beam.damping.bending", "0.2", "and below 0.2"),
     ({"beam": {"damping": 0.01}}, "beam.damping", "0.01", "the keys bending, torsion"),
     (
-        {"beam": {"damping": {"bending": 0.01}}, "solver": "openfoam"},
-        "beam.damping.bending",
-        "0.01",
-        "with solver 'openfoam' is 0",
+        {
+            "beam": {**AXES["beam"], "elastic_axis": 0.4, "mass_axis": 0.4},
+            "structure": {"method": "beam"},
+            "solver": "openfoam",
+            "sweep": {"models": ["2d", "2d-corrected"]},
+        },
+        "sweep.models",
+        "['2d', '2d-corrected']",
+        "with solver 'openfoam' are models without 2d-corrected where",
     ),
     (
         {
