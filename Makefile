@@ -83,6 +83,7 @@ lint: $(ENV)/lint
 	$(BIN)/mypy --disable-error-code name-defined scripts
 	$(BIN)/mypy docs/drawings/*.py
 	$(BIN)/python -m equisection.config --check
+	$(BIN)/python -m equisection.figures --check
 	$(BIN)/snakemake --lint
 
 docs: $(ENV)/docs

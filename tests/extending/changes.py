@@ -18,6 +18,8 @@ from tests.conftest import ROOT
 
 FOLDER = ROOT / "docs" / "examples" / "extending"
 EDITS = "edits.patch"
+#: Files that commands of the project write.
+GENERATED = ("config/README.md", "docs/files.md", "workflow/schemas/config.schema.yaml")
 #: What a copy is without: what git does not keep, and kept results, which it links to.
 LEFT_OUT = (".git", ".venv", ".*_cache", ".snakemake", ".sphinx", ".hypothesis", "site")
 
@@ -154,11 +156,9 @@ def apply(change: Change, folder: Path) -> tuple[str, ...]:
     for name in change.new:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy2(change.folder / name, folder / name)
-    generated = {
-        path: path.read_bytes()
-        for path in (folder / "config/README.md", folder / "workflow/schemas/config.schema.yaml")
-    }
-    run(folder, "-m", "equisection.config").check_returncode()
+    generated = {path: path.read_bytes() for path in (folder / name for name in GENERATED)}
+    for writer in ("equisection.config", "equisection.figures"):
+        run(folder, "-m", writer).check_returncode()
     return tuple(
         path.relative_to(folder).as_posix()
         for path, before in generated.items()

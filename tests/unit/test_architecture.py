@@ -19,6 +19,7 @@ ROOMS = (
     "conventions",
     "errors",
     "files",
+    "generated",
     "provenance",
     "keys",
     "io",

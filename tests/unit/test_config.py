@@ -122,7 +122,7 @@ def test_every_key_is_described_and_listed():
 
 @pytest.mark.parametrize(
     ("written", "number"),
-    [("3.3e9", 3.3e9), ("3.3e+9", 3.3e9), (" 70e9 ", 70e9), (2000000000, 2e9), ("1_000", 1e3)],
+    [("3.3e9", 3.3e9), ("3.3e+9", 3.3e9), (" 70e9 ", 70e9), (2000000000, 2e9)],
 )
 def test_numbers_may_be_text(written, number):
     modulus = load_config({"beam": {"youngs_modulus": written}}).beam.youngs_modulus

@@ -24,6 +24,11 @@ def test_a_change_has_a_test_and_few_files(change: Change) -> None:
     assert len(change.new) + len(change.edited) <= MOST
 
 
+def test_a_figure_takes_at_most_four_files() -> None:
+    (figure,) = (change for change in CHANGES if change.name == "figure")
+    assert len(figure.new) + len(figure.edited) <= 4
+
+
 def test_every_example_is_a_change() -> None:
     assert {path.name for path in FOLDER.iterdir()} == {change.name for change in CHANGES}
 

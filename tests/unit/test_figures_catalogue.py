@@ -11,6 +11,7 @@ import pytest
 
 from equisection.config import Config, load_config, resolve_config
 from equisection.figures import catalogue
+from equisection.figures.__main__ import COMMAND, PAGE, main, page_text
 from equisection.figures.catalogue import CATALOGUE, Entry, RunFiles
 
 REPORT = Path(__file__).parents[2] / "workflow" / "report"
@@ -41,6 +42,18 @@ def test_figure_has_a_caption_without_a_number(entry: Entry) -> None:
 def test_keys_of_a_figure_are_keys_of_the_configuration(entry: Entry) -> None:
     values = entry.values(resolve_config(Config()))
     assert set(values) == set(entry.keys)
+
+
+def test_list_of_figures_in_the_documentation_is_that_of_the_catalogue(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    status = main(["--check"])
+    assert status == 0, capsys.readouterr().out + f"\nto mend it: {COMMAND}"
+
+
+def test_page_without_the_marks_of_the_list_is_refused() -> None:
+    with pytest.raises(ValueError, match=f"{PAGE}: one of the lines"):
+        page_text("# A page\n")
 
 
 def test_module_that_draws_from_files_is_in_the_catalogue() -> None:

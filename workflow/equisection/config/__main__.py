@@ -6,8 +6,6 @@ tables of ``config/README.md`` below the mark that says so; ``--check`` changes 
 
 from __future__ import annotations
 
-import argparse
-import difflib
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,7 +14,7 @@ import yaml
 
 from equisection.config.reference import reference
 from equisection.config.words import schema
-from equisection.files import write_text
+from equisection.generated import write_or_check
 
 COMMAND = "python -m equisection.config"
 SCHEMA = Path("workflow/schemas/config.schema.yaml")
@@ -46,36 +44,8 @@ def readme_text(readme: Path) -> str:
 
 def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Write or check both files; return the exit status."""
-    parser = argparse.ArgumentParser(prog=COMMAND, description=__doc__)
-    parser.add_argument("--check", action="store_true", help="change nothing, exit 1 if outdated")
-    check = parser.parse_args(arguments).check
     wanted = {SCHEMA: schema_text(), README: readme_text(root / README)}
-    outdated = False
-    for path, text in wanted.items():
-        file = root / path
-        found = file.read_text(encoding="utf-8") if file.is_file() else ""
-        if found == text:
-            continue
-        outdated = True
-        if check:
-            _print_difference(path, found, text)
-        else:
-            write_text(file, text)
-            print(f"written: {path}")
-    if check and outdated:
-        print(f"\nThe models have changed; to mend it: {COMMAND}", file=sys.stderr)
-    return int(check and outdated)
-
-
-def _print_difference(path: Path, found: str, wanted: str) -> None:
-    sys.stdout.writelines(
-        difflib.unified_diff(
-            found.splitlines(keepends=True),
-            wanted.splitlines(keepends=True),
-            fromfile=f"{path} (found)",
-            tofile=f"{path} (from the models)",
-        )
-    )
+    return write_or_check(wanted, root, COMMAND, (__doc__ or "").strip(), arguments)
 
 
 if __name__ == "__main__":

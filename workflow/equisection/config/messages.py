@@ -15,11 +15,14 @@ from pydantic_core import ErrorDetails
 from equisection.config.words import Fragment, allowed, alternatives, resolved, schema
 from equisection.keys.checks import Path, Problem
 from equisection.keys.values import NAME_PATTERN
+from equisection.keys.written_number import LARGEST, SMALLEST, is_of_sensible_size, number_in
 
 #: Parts of pydantic's locations that are no part of a key's path, and the types they choose.
 _TAGS = {"list": "array", "range": "object"}
 _KEY_ITSELF = "[key]"
 _STARTS_AS_NUMBER = re.compile(r"\s*[-+]?\.?\d")
+#: Digits of any script and base, with what some languages allow between them.
+_OTHER_DIGITS = re.compile(r"\s*[-+]?(?:0[xXbBoO][0-9a-fA-F_]+|[\d_:.]+(?:[eE][-+]?\d+)?)\s*")
 _DECIMAL_COMMA = re.compile(r"\s*[-+]?\d+,\d+\s*$")
 _NAME: Fragment = {"type": "string", "pattern": NAME_PATTERN}
 
@@ -136,13 +139,24 @@ def _hint(value: object, fragment: Fragment) -> str:
 
 
 def _number_hint(value: object) -> str:
-    if isinstance(value, float) and not math.isfinite(value):
-        return ", neither infinite nor NaN"
     if not isinstance(value, str):
-        return ""
+        return _size_hint(value)
     if _DECIMAL_COMMA.match(value):
         return "; write decimals with a point"
     try:
-        return "" if math.isfinite(float(value)) else ", neither infinite nor NaN"
+        return _size_hint(number_in(value))
     except ValueError:
-        return "; write it without its unit" if _STARTS_AS_NUMBER.match(value) else ""
+        pass
+    if _OTHER_DIGITS.fullmatch(value):
+        return "; write it as a plain decimal with the digits 0 to 9, as 90 or 1.5e3"
+    return "; write it without its unit" if _STARTS_AS_NUMBER.match(value) else ""
+
+
+def _size_hint(value: object) -> str:
+    if not isinstance(value, int | float) or isinstance(value, bool):
+        return ""
+    if isinstance(value, float) and not math.isfinite(value):
+        return ", neither infinite nor NaN"
+    if is_of_sensible_size(value):
+        return ""
+    return f", in size from {SMALLEST:g} to {LARGEST:g}"

@@ -11,9 +11,13 @@ from typing import Any
 import yaml
 
 from equisection.errors import ConfigError
+from equisection.keys.plain_yaml import BoundError, PlainLoader, oddities
 
 #: With this key Snakemake takes values for Python and executes them (its "yte").
 _EXECUTES = "__use_yte__"
+#: Most bytes of a file, and most lines that it is refused with.
+_MOST_BYTES = 1_000_000
+_MOST_LINES = 10
 _ALLOWED = "allowed is a file of sections, as config/config.yaml is"
 #: How files of other encodings begin; UTF-32 first, whose mark begins with that of UTF-16.
 _MARKS = {
@@ -36,14 +40,17 @@ def read_config_file(path: Path) -> dict[str, Any]:
     text = _text(path)
     try:
         # the parser in C would be faster, and crash on what is nested a million times
-        loader = yaml.SafeLoader(text)
+        loader = PlainLoader(text)
         node = loader.get_single_node()
         repeated = list(_repeated(node))
-        content = None if node is None else loader.construct_document(node)
+        odd = [_is_odd(path, *oddity) for oddity in oddities(node)]
+        content = None if node is None or odd else loader.construct_document(node)
     except (yaml.YAMLError, ValueError, RecursionError) as error:
-        content, repeated = _json(text), []
+        content, repeated, odd = None if isinstance(error, BoundError) else _json(text), [], []
         if content is None:
             raise ConfigError(f"config: {_place(path, text, error)}") from None
+    if odd:
+        raise ConfigError("\n".join(_first(path, odd)))
     if not isinstance(content, dict):
         found = "nothing" if content is None else type(content).__name__
         found = {"list": "a list", "str": "a text"}.get(found, found)
@@ -78,7 +85,8 @@ def check_config_files(paths: Iterable[Path]) -> None:
 
 def _text(path: Path) -> str:
     try:
-        content = path.read_bytes()
+        with path.open("rb") as file:
+            content = file.read(_MOST_BYTES + 1)
     except IsADirectoryError:
         raise ConfigError(f"config: {path}: is a folder; {_ALLOWED}") from None
     except FileNotFoundError:
@@ -88,6 +96,8 @@ def _text(path: Path) -> str:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise ConfigError(f"config: {path}: cannot be read ({reason}); {_ALLOWED}") from None
+    if len(content) > _MOST_BYTES:
+        raise ConfigError(f"config: {path}: is larger than {_MOST_BYTES // 10**6} MB; {_ALLOWED}")
     for mark, encoding in _MARKS.items():
         if content.startswith(mark):
             raise ConfigError(
@@ -132,7 +142,8 @@ def _place(path: Path, text: str, error: Exception) -> str:
         return f"{path}: a value is no YAML ({error}); put it in quotes"
     tab = text.split("\n")[line - 1][column - 1 : column] == "\t"
     hint = "; indent with blanks, not with tabs" if tab else ""
-    return f"{path}, line {line}, column {column}: is no YAML: {reason}{hint}"
+    fault = "" if isinstance(error, BoundError) else "is no YAML: "
+    return f"{path}, line {line}, column {column}: {fault}{reason}{hint}"
 
 
 def _code(character: int | str | bytes) -> str:
@@ -145,6 +156,18 @@ def _stands_twice(path: Path, key: str, first: int, again: int) -> str:
         f"config: {key}: stands twice in {path}, in lines {first} and {again}; allowed is each key "
         "once in its section"
     )
+
+
+def _is_odd(path: Path, key: str, line: int, words: str) -> str:
+    where = key if key.isprintable() else repr(key)
+    return f"config: {where or 'all of it'}: {words} ({path}, line {line})"
+
+
+def _first(path: Path, lines: list[str]) -> list[str]:
+    """Return the first lines, and the number of those that follow."""
+    further = len(lines) - _MOST_LINES
+    rest = [f"config: {path}: {further} more values of this sort"] if further > 0 else []
+    return lines[:_MOST_LINES] + rest
 
 
 def _repeated(

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 _LONGEST = 60
+_MOST_BITS = 10_000
 
 
 class _Shown(reprlib.Repr):
@@ -23,12 +24,19 @@ class _Shown(reprlib.Repr):
             return "null"
         if isinstance(x, bool):
             return str(x).lower()
-        if isinstance(x, float):
-            return _float(x)
+        if isinstance(x, int | float):
+            return self._number(x, level)
         if isinstance(x, list | tuple):
             return self.repr_list(list(x), level)
         if isinstance(x, Mapping):
             return self._mapping(x, level)
+        return super().repr1(x, level)
+
+    def _number(self, x: float, level: int) -> str:
+        if isinstance(x, float):
+            return _float(x)
+        if x.bit_length() > _MOST_BITS:  # Python writes no more digits
+            return f"a number of {x.bit_length() * math.log10(2):.0f} digits"
         return super().repr1(x, level)
 
     def _mapping(self, x: Mapping[Any, Any], level: int) -> str:

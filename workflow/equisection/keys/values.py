@@ -10,6 +10,8 @@ from typing import Annotated
 
 from pydantic import BeforeValidator, Field
 
+from equisection.keys.written_number import is_of_sensible_size, number_in
+
 #: How YAML writes nothing; on the command line Snakemake leaves the word as it is.
 NULL_WORDS = frozenset({"null", "Null", "NULL", "~"})
 _TRUTHS = {"true": True, "yes": True, "on": True, "false": False, "no": False, "off": False}
@@ -22,9 +24,12 @@ def _number(value: object) -> float:
     if isinstance(value, bool) or not isinstance(value, (int, float, str)):
         raise ValueError("not a number")
     try:
-        return float(value)
+        number = number_in(value) if isinstance(value, str) else float(value)
     except OverflowError:
         raise ValueError("too large for a number") from None
+    if not is_of_sensible_size(number):
+        raise ValueError("of a size that no quantity has")
+    return number
 
 
 def _whole(value: object) -> int:
