@@ -51,7 +51,13 @@ ONCE_WITH_BEAM_AND = {
 #: Rules that run once with the paper's beam and flow.
 ONCE_WITH_THE_PAPERS_CASE = ("workflow_drawing", "paper_comparison")
 
-RUN_A_SOLVER = ("steady_batch", "steady_case", "unsteady_batch", "unsteady_case")
+RUN_A_SOLVER = (
+    "steady_batch",
+    "steady_case",
+    "sections_batch",
+    "unsteady_batch",
+    "unsteady_case",
+)
 
 
 def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = True) -> Counter[str]:
@@ -85,9 +91,12 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
     if is_paper_case(config) and with_paper:
         jobs.update((*ONCE_WITH_THE_PAPERS_CASE, *(["rigid_beam_table"] * (dimensions == 2))))
     if batches:
-        of_sweep = models * (1 + rounds)
+        sections = len([name for name in config.sweep.models if name.startswith("2d")])
+        together = sections if sections > 1 else 0
         jobs.update(steady_cases=dimensions, steady_batch=dimensions)
-        jobs.update(unsteady_cases=of_sweep, unsteady_batch=of_sweep)
+        jobs.update(sweep_cases=models > 1, unsteady_cases=models * rounds + (models == 1))
+        jobs.update(sections_batch=together > 0)
+        jobs.update(unsteady_batch=models * (1 + rounds) - together)
         jobs.update(ONCE_WITH_BATCHES)
     else:
         jobs.update(mode_shapes=1, section_polar=1, spanwise_loads=dimensions == 2)

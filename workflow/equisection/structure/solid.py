@@ -95,11 +95,12 @@ def solid_modes(beam: Beam, elements: tuple[int, int, int], count: int) -> Solid
             f"elements is {elements}; give three counts of at least 1 (chord, span, thickness)"
         )
     element = _one_element(beam, elements)
-    frequencies, fields = [], []
+    frequencies: list[Floats] = []
+    fields: list[Floats] = []
     for parity in _CLASSES:
         found = np.sort(np.concatenate([np.empty(0), *frequencies]))
         highest = found[count - 1] if found.size >= count else np.inf
-        frequency, field = _class_modes(beam, element, elements, parity, count, highest)
+        frequency, field = _class_modes(beam, element, elements, parity, count, highest=highest)
         frequencies.append(frequency)
         fields.append(field)
     frequency = np.concatenate(frequencies)
@@ -219,6 +220,7 @@ def _class_modes(
     elements: tuple[int, int, int],
     parity: tuple[int, int],
     count: int,
+    *,
     highest: float,
 ) -> tuple[Floats, Floats]:
     """Frequencies (Hz) and mid-thickness displacements of one class of modes.
