@@ -82,7 +82,7 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
         for capability in SOLVERS[config.solver].provides & ONCE_WITH_BEAM_AND.keys():
             jobs.update(ONCE_WITH_BEAM_AND[capability])
     jobs.update(
-        polar=dimensions,
+        polar=1 if batches else dimensions,
         correction_factors=plan.has_beam_polar(config),
         given_beam_polar=bool(config.steady.beam_polar),
         grid_study=plan.has_grid_study(config),
@@ -93,7 +93,7 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
     if batches:
         sections = len([name for name in config.sweep.models if name.startswith("2d")])
         together = sections if sections > 1 else 0
-        jobs.update(steady_cases=dimensions, steady_batch=dimensions)
+        jobs.update(steady_cases=1, steady_batch=dimensions)
         jobs.update(sweep_cases=models > 1, unsteady_cases=models * rounds + (models == 1))
         jobs.update(sections_batch=together > 0)
         jobs.update(unsteady_batch=models * (1 + rounds) - together)

@@ -36,7 +36,7 @@ FIRST = 50
 PROVIDES = SOLVERS[CONFIG.solver].provides
 # Whether all cases of a batch go to one job: the solver takes many, or they are only looked up.
 IN_ONE_JOB = Capability.BATCH in PROVIDES or not CONFIG.compute
-# Models whose cases of the sweep one job writes, for a solver that takes many cases is quick, and
+# Models whose cases of the sweep one job writes, since a solver that takes many cases is quick, and
 # those of a section that it also runs in one.
 WRITTEN_TOGETHER = list(CONFIG.sweep.models) if Capability.BATCH in PROVIDES else []
 SECTIONS_TOGETHER = plan.sections_together(CONFIG)
@@ -112,6 +112,20 @@ def section_polar():
     """Return the file of the section polar of the run's resolution, if it is one."""
     path = CONFIG.embedded.polars.get(CONFIG.steady.resolution, FLAT_PLATE)
     return given([] if path == FLAT_PLATE else [path])
+
+
+def of_dimensions(pattern):
+    """Return the files of the steady cases of all dimensions where one job writes them, or else the
+    pattern of those of one.
+    """
+    return expand(pattern, dimension=DIMENSIONS) if WRITTEN_TOGETHER else pattern
+
+
+def log_of_dimensions(name):
+    """Return the log of such a job."""
+    return (
+        f"{LOGS}/{name}.log" if WRITTEN_TOGETHER else f"{LOGS}/{name}_{{dimension}}.log"
+    )
 
 
 def structure_of_model(wildcards):
