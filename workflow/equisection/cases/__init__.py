@@ -1,15 +1,6 @@
 """Cases: all that decides a result, and nothing else, as a small canonical file with a hash."""
 
-from equisection.cases.case import (
-    BeamModes,
-    Case,
-    EndCriteria,
-    Geometry,
-    Medium,
-    SolverBlock,
-    SteadyCase,
-    UnsteadyCase,
-)
+from equisection.cases.case import BeamModes, Case, EndCriteria, Geometry, Medium, SolverBlock
 from equisection.cases.case_file import (
     are_alike,
     canonical,
@@ -18,7 +9,16 @@ from equisection.cases.case_file import (
     read_cases,
     write_cases,
 )
-from equisection.cases.kinds import FREE, KINDS, STEADY, Kind, kind_of, point_of
+from equisection.cases.kinds import (
+    FREE,
+    KINDS,
+    STEADY,
+    Kind,
+    SteadyCase,
+    UnsteadyCase,
+    kind_of,
+    point_of,
+)
 
 __all__ = [
     "FREE",
