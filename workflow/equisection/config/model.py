@@ -22,6 +22,8 @@ from equisection.config.groups import (
     Sweep,
     Unsteady,
 )
+from equisection.config.groups.flow import LARGEST_MACH
+from equisection.config.groups.sweep import Range
 from equisection.keys.checks import DisagreementError, Problem, check, disagreements
 from equisection.keys.values import EMPTY, Name
 
@@ -83,6 +85,21 @@ class Config(KeyGroup):
         """The section of the configured solver, which has its name."""
         section: SolverKeys = getattr(self, self.solver)
         return section
+
+
+@check("sweep.speed", "flow.sound_speed")
+def _incompressible_sweep(
+    speed: tuple[float, ...] | Range | None, sound_speed: float
+) -> Iterator[Problem]:
+    values = speed.values() if isinstance(speed, Range) else speed or ()
+    fastest = max(values, default=0.0)
+    if fastest > LARGEST_MACH * sound_speed:
+        yield Problem(
+            "sweep.speed",
+            fastest,
+            f"allowed is up to {LARGEST_MACH * sound_speed:g} m/s, Mach {LARGEST_MACH:g} "
+            "(incompressible flow)",
+        )
 
 
 @check("correction", "steady.beam_polar")
