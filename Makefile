@@ -22,9 +22,7 @@ endif
 .PHONY: run report paper validation cost identification cost-model status verify test lint docs drawing bench openfoam slurm clean
 
 run: $(ENV)/run
-	@$(BIN)/equisection folder $(CONFIG) > /dev/null
-	$(SNAKEMAKE)
-	@folder=$$($(BIN)/equisection folder $(CONFIG)) && printf '%s\n' '' \
+	@folder=$$($(BIN)/equisection folder $(CONFIG)) && echo "$(SNAKEMAKE)" && $(SNAKEMAKE) && printf '%s\n' '' \
 		"figures:    $$folder/figures/" \
 		"tables:     $$folder/tables/ and $$folder/comparison/" \
 		"report:     make report$(if $(CONFIG), CONFIG=$(CONFIG)) writes $$folder/report.html" \

@@ -25,4 +25,7 @@ def main(index: Path, cases: Sequence[str], output: Path) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
-        main(Path(snakemake.input.index), snakemake.params.cases, Path(snakemake.output[0]))
+        for index, output in zip(
+            snakemake.input[: len(snakemake.output)], snakemake.output, strict=True
+        ):
+            main(Path(index), snakemake.params.cases, Path(output))

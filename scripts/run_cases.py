@@ -2,7 +2,9 @@
 
 import logging
 import sys
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from equisection.cases import read_cases
 from equisection.results.failures import warning_of
@@ -32,6 +34,32 @@ def main(
     )
     if output.suffix == ".json":
         write_index(output, attributes)
+    warn(attributes, output)
+
+
+def run_together(
+    cases: Sequence[Path],
+    indices: Sequence[Path],
+    store: Path,
+    progress: Path,
+    reuse: Path | None = None,
+) -> None:
+    """Run several case files as one; the results of each go to the folder of its index."""
+    of_index = dict(zip(indices, map(read_cases, cases), strict=True))
+    run = {
+        f"{index.parent.name}/{name}": case
+        for index, batch in of_index.items()
+        for name, case in batch.items()
+    }
+    attributes = run_cases(run, indices[0].parents[1], store, progress, reuse)
+    for index, batch in of_index.items():
+        found = {name: attributes[f"{index.parent.name}/{name}"] for name in batch}
+        write_index(index, found)
+        warn(found, index)
+
+
+def warn(attributes: Mapping[str, Mapping[str, Any]], output: Path) -> None:
+    """Tell, in the log and on the terminal, of cases without a result."""
     warning = warning_of(attributes, output)
     if warning:
         logging.getLogger(__name__).warning("%s", warning)
@@ -50,15 +78,17 @@ def take_kept(cases: Path, output: Path, store: Path, reuse: Path) -> None:
 
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
-        arguments = (
-            Path(snakemake.input[0]),
-            Path(snakemake.output[0]),
-            Path(snakemake.params.store),
-        )
+        outputs = [Path(path) for path in snakemake.output]
+        cases = [Path(path) for path in snakemake.input[: len(outputs)]]
+        store = Path(snakemake.params.store)
         reuse = Path(snakemake.params.reuse) if snakemake.params.reuse else None
         if reuse is not None and not snakemake.params.compute:
-            take_kept(*arguments, reuse)
+            for case_file, index in zip(cases, outputs, strict=True):
+                take_kept(case_file, index, store, reuse)
         else:
             progress = Path(snakemake.log[0]).with_suffix(".progress.json")
-            allocation = Allocation(snakemake.threads, snakemake.resources.get("mpi") or MPIRUN)
-            main(*arguments, progress, reuse, allocation=allocation)
+            if len(outputs) > 1:
+                run_together(cases, outputs, store, progress, reuse)
+            else:
+                allocation = Allocation(snakemake.threads, snakemake.resources.get("mpi") or MPIRUN)
+                main(cases[0], outputs[0], store, progress, reuse, allocation=allocation)

@@ -1,4 +1,4 @@
-"""Write the case file of the steady polar of a dimension, or of one of its cases."""
+"""Write the case file of the steady polar of each dimension, or of one of its cases."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -25,9 +25,5 @@ def main(raw_config: dict[str, Any], dimension: str, names: Sequence[str], outpu
 
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
-        main(
-            snakemake.params.config,
-            snakemake.wildcards.dimension,
-            list(snakemake.params.cases),
-            Path(snakemake.output[0]),
-        )
+        for output in map(Path, snakemake.output):
+            main(snakemake.params.config, output.parent.name, list(snakemake.params.cases), output)

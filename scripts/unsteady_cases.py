@@ -1,4 +1,4 @@
-"""Write the case file of a batch for a model, or of one of its cases."""
+"""Write the case file of a batch for a model, or for each of several, or of one case."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -24,7 +24,7 @@ def main(
     """Write the cases, named by their point of the study.
 
     ``structure_files`` holds ``equivalent``, with ``modes`` in 3D and ``correction`` for
-    corrected models.
+    corrected models; further ones are not used.
     """
     config = load_config(raw_config)
     model = plan.model(model_name, config.reduction)
@@ -37,12 +37,13 @@ def main(
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
         made_from = {"modes", "equivalent", "correction"} & set(snakemake.input.keys())
-        main(
-            snakemake.params.config,
-            snakemake.wildcards.model,
-            {name: Path(snakemake.input[name]) for name in made_from},
-            plan.read_refinement(Path(snakemake.input.chosen))
-            if "chosen" in set(snakemake.input.keys())
-            else list(snakemake.params.cases),
-            Path(snakemake.output[0]),
-        )
+        for output in map(Path, snakemake.output):
+            main(
+                snakemake.params.config,
+                output.parent.name,
+                {name: Path(snakemake.input[name]) for name in made_from},
+                plan.read_refinement(Path(snakemake.input.chosen))
+                if "chosen" in set(snakemake.input.keys())
+                else list(snakemake.params.cases),
+                output,
+            )

@@ -210,3 +210,19 @@ def test_a_fork_is_softer_than_a_clamp():
     half_sine = np.sin(np.pi * fork.span)
     assert fork.bending(1).shape[0] == pytest.approx(half_sine, abs=1e-3)
     assert fork.torsion(1).shape[0] == pytest.approx(half_sine, abs=1e-3)
+
+
+def test_all_modes_in_the_plane_of_a_thick_bar_are_found():
+    """As many as a beam with shear and rotary inertia has, more than are asked for at first."""
+    bar = altered(PAPER, length=4.0, chord=0.1, thickness=0.045, boundary="clamped-clamped")
+    modes = compute_modes(bar, "solid", (2, 40, 1), 24)
+    in_plane = modes.frequency[[kind == "in-plane" for kind in modes.kind]]
+    waves = np.array([4.73004, 7.85320, 10.99561, *((np.arange(4, 30) + 0.5) * np.pi)])
+    speed = np.sqrt(bar.youngs_modulus / bar.density)  # of sound along the bar (m/s)
+    slender = waves**2 * speed * bar.chord / np.sqrt(12.0) / (2.0 * np.pi * bar.length**2)
+    # Timoshenko (1921), to first order in (k c)^2, with the shear factor 5/6 of a rectangle
+    shear = 2.0 * (1.0 + bar.poisson_ratio) / (5.0 / 6.0)
+    beam = slender * (1.0 - (waves * bar.chord / bar.length) ** 2 / 24.0 * (1.0 + shear))
+    assert in_plane.size > 4
+    assert in_plane == pytest.approx(beam[: in_plane.size], rel=0.01)
+    assert modes.frequency[-1] < beam[in_plane.size]

@@ -245,3 +245,16 @@ def test_command_tells_it_from_another_folder(
     monkeypatch.chdir(tmp_path)
     assert main(["cost"]) == 0
     assert capsys.readouterr().out == here
+
+
+def test_sections_are_one_job_where_the_solver_marches_them_together() -> None:
+    sweep = {**REFINED, "models": ["2d", "2d-corrected", "3d"]}
+    jobs = solver_jobs(load_config({"sweep": sweep}), read_cost_model(COSTS))
+    of_sweep = {job.what: (job.number, job.cells) for job in jobs if "steady" not in job.what}
+    strips = load_config({}).embedded.strips
+    assert of_sweep == {
+        "2d": (3, 3),  # rounds of its refinement
+        "2d-corrected": (3, 3),
+        "3d": (1 + 3, 3 * strips),
+        "2d, 2d-corrected": (1, 6),
+    }

@@ -79,6 +79,18 @@ def test_figures_of_a_job_mean_the_same_by_a_name() -> None:
                 assert all(other.keys.get(name, key) == key for name, key in entry.keys.items())
 
 
+def test_a_family_is_drawn_in_one_job_where_the_solver_takes_many_cases() -> None:
+    """Elsewhere each figure waits for its own files alone: those of the beam take days."""
+    raw = {"solver": "openfoam", "sweep": {"models": ["2d"]}, "unsteady": {"time_step": 0.02}}
+    together = catalogue.figures_by_job(Config())
+    alone = catalogue.figures_by_job(load_config(raw))
+    of_loads = [entry.name for entry in together["figures_of_loads"]]
+    assert {"section-polar", "spanwise-loads", "lift-correction"} <= set(of_loads)
+    assert not {"mode_shapes", "section_polar", "spanwise_loads"} & set(together)
+    assert [entry.name for entry in alone["section_polar"]] == ["section-polar"]
+    assert not {entry.family for entry in CATALOGUE} & set(alone) - {""}
+
+
 def test_files_are_those_of_the_run_and_of_the_runs_that_it_takes() -> None:
     taken = "results/other/unsteady/3d/sweep.json"
     config = load_config({"sweep": {"models": ["2d"], "taken": {"3d": taken}}})

@@ -27,18 +27,13 @@ ONCE = (
     "equivalent_section",
     "summary",
     "onset",
-    "mode_shapes",
-    "section_polar",
     "response",
     "growth_rate",
     "run",
 )
 
-#: Rules that run once where the solver has 3D cases.
-ONCE_WITH_BEAM = ("spanwise_loads",)
-
-#: Rules that run once where there is a polar of the beam, computed or given.
-ONCE_WITH_BEAM_POLAR = ("correction_factors", "load_corrections")
+#: Rules of figures that run once where the solver takes many cases in one job.
+ONCE_WITH_BATCHES = ("figures_of_modes", "figures_of_loads")
 
 #: Rules that run once where the solver has a mesh of the section.
 ONCE_WITH_MESH = ("section_mesh", "mesh_of_section", "courant_number")
@@ -56,7 +51,13 @@ ONCE_WITH_BEAM_AND = {
 #: Rules that run once with the paper's beam and flow.
 ONCE_WITH_THE_PAPERS_CASE = ("workflow_drawing", "paper_comparison")
 
-RUN_A_SOLVER = ("steady_batch", "steady_case", "unsteady_batch", "unsteady_case")
+RUN_A_SOLVER = (
+    "steady_batch",
+    "steady_case",
+    "sections_batch",
+    "unsteady_batch",
+    "unsteady_case",
+)
 
 
 def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = True) -> Counter[str]:
@@ -72,9 +73,7 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
     angles = len(steady.incidence_deg) + of_study * len(steady.study)
     rounds = plan.refinement_rounds(config)
     dimensions = len(plan.steady_dimensions(config))
-    jobs = Counter((*ONCE, *(ONCE_WITH_BEAM if dimensions == 2 else ())))
-    if plan.has_beam_polar(config):
-        jobs.update(ONCE_WITH_BEAM_POLAR)
+    jobs = Counter(ONCE)
     if plan.has_mesh(config):
         jobs.update(ONCE_WITH_MESH)
     if plan.has_surface(config):
@@ -83,19 +82,26 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
         for capability in SOLVERS[config.solver].provides & ONCE_WITH_BEAM_AND.keys():
             jobs.update(ONCE_WITH_BEAM_AND[capability])
     jobs.update(
-        polar=dimensions,
+        polar=1 if batches else dimensions,
+        correction_factors=plan.has_beam_polar(config),
         given_beam_polar=bool(config.steady.beam_polar),
         grid_study=plan.has_grid_study(config),
         refine_onset=models * rounds,
-        modal_contributions="3d" in config.sweep.models,
     )
     if is_paper_case(config) and with_paper:
         jobs.update((*ONCE_WITH_THE_PAPERS_CASE, *(["rigid_beam_table"] * (dimensions == 2))))
     if batches:
-        of_sweep = models * (1 + rounds)
-        jobs.update(steady_cases=dimensions, steady_batch=dimensions)
-        jobs.update(unsteady_cases=of_sweep, unsteady_batch=of_sweep)
+        sections = len([name for name in config.sweep.models if name.startswith("2d")])
+        together = sections if sections > 1 else 0
+        jobs.update(steady_cases=1, steady_batch=dimensions)
+        jobs.update(sweep_cases=models > 1, unsteady_cases=models * rounds + (models == 1))
+        jobs.update(sections_batch=together > 0)
+        jobs.update(unsteady_batch=models * (1 + rounds) - together)
+        jobs.update(ONCE_WITH_BATCHES)
     else:
+        jobs.update(mode_shapes=1, section_polar=1, spanwise_loads=dimensions == 2)
+        jobs.update(load_corrections=plan.has_beam_polar(config))
+        jobs.update(modal_contributions="3d" in config.sweep.models)
         jobs.update(steady_case_file=dimensions * angles, steady_case=dimensions * angles)
         jobs.update(steady_results=dimensions)
         jobs.update(unsteady_case_file=models * k_star, unsteady_case=models * k_star)

@@ -131,7 +131,7 @@ def test_results_beside_the_run_are_the_store_alone(finished: Project) -> None:
 
 def test_logs_are_there_and_no_job_is_left_in_progress(finished: Project) -> None:
     logs = {path.name for path in (finished.results / "logs").iterdir()}
-    assert {"modes.log", "steady_3d.log", "unsteady_2d-corrected_sweep.log", "summary.log"} <= logs
+    assert {"modes.log", "steady_3d.log", "unsteady_sections_sweep.log", "summary.log"} <= logs
     assert {Path(name).suffix for name in logs} == {".log"}
 
 

@@ -8,7 +8,13 @@ import xarray as xr
 from tests.workflow.project import Project, has_nothing_to_do, jobs_run, small
 
 SUMMARY = "comparison/summary.csv"
-SOLVER_RULES = {"steady_batch", "steady_case", "unsteady_batch", "unsteady_case"}
+SOLVER_RULES = {
+    "steady_batch",
+    "steady_case",
+    "sections_batch",
+    "unsteady_batch",
+    "unsteady_case",
+}
 
 
 def results_of_solver(project: Project) -> dict[str, bytes]:
@@ -30,7 +36,7 @@ def test_editing_the_package_without_changing_a_case_runs_no_solver(
 
     done = jobs_run(project.run(project.target(SUMMARY)))
 
-    assert {"modes", "steady_cases", "unsteady_cases"} <= set(done)
+    assert {"modes", "steady_cases", "sweep_cases"} <= set(done)
     assert not SOLVER_RULES & set(done)
     assert results_of_solver(project) == before
     assert has_nothing_to_do(project.run(project.target(SUMMARY)))
@@ -92,7 +98,7 @@ def test_another_value_in_the_polar_computes_the_sweep_again(section: Project) -
     assert has_nothing_to_do(section.run(section.target(SUMMARY)))
 
 
-def test_correction_by_what_the_modes_feel_runs_the_corrected_section_alone(
+def test_correction_by_what_the_modes_feel_computes_the_corrected_section_alone(
     finished: Project, tmp_path: Path
 ) -> None:
     """They feel less than the mean of a load that is lost at the tip: less twist and deflection."""
@@ -102,8 +108,11 @@ def test_correction_by_what_the_modes_feel_runs_the_corrected_section_alone(
 
     done = jobs_run(project.run(project.target(SUMMARY)))
 
-    assert done["correction_factors"] == done["unsteady_batch"] == 1
-    assert not {"modes", "steady_batch"} & set(done)
+    assert done["correction_factors"] == done["sections_batch"] == 1
+    assert not {"modes", "steady_batch", "unsteady_batch"} & set(done)
+    for name, content in results_of_solver(finished).items():  # what they cost is in them too
+        same = (project.results / name).read_bytes() == content
+        assert same == ("2d-corrected" not in name)
     after = pd.read_csv(project.results / SUMMARY).set_index(["model", "k_star"])
     loads = ["mean_twist_deg", "mean_deflection_chords"]
     for model in ("2d", "3d"):

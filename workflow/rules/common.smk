@@ -37,6 +37,10 @@ FIRST = 50
 PROVIDES = SOLVERS[CONFIG.solver].provides
 # Whether all cases of a batch go to one job: the solver takes many, or they are only looked up.
 IN_ONE_JOB = Capability.BATCH in PROVIDES or not CONFIG.compute
+# Models whose cases of the sweep one job writes, since a solver that takes many cases is quick, and
+# those of a section that it also runs in one.
+WRITTEN_TOGETHER = list(CONFIG.sweep.models) if Capability.BATCH in PROVIDES else []
+SECTIONS_TOGETHER = plan.sections_together(CONFIG)
 DIMENSIONS = plan.steady_dimensions(CONFIG)
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
@@ -111,15 +115,50 @@ def section_polar():
     return given([] if path == FLAT_PLATE else [path])
 
 
+def of_dimensions(pattern):
+    """Return the files of the steady cases of all dimensions where one job writes them, or else the
+    pattern of those of one.
+    """
+    return expand(pattern, dimension=DIMENSIONS) if WRITTEN_TOGETHER else pattern
+
+
+def log_of_dimensions(name):
+    """Return the log of such a job."""
+    return (
+        f"{LOGS}/{name}.log" if WRITTEN_TOGETHER else f"{LOGS}/{name}_{{dimension}}.log"
+    )
+
+
 def structure_of_model(wildcards):
     """Return the files that a model's cases are made from."""
-    model = plan.model(wildcards.model, CONFIG.reduction)
+    return structure_of(wildcards.model)
+
+
+def structure_of(name):
+    """Return the files that the cases of the model of a name are made from."""
+    model = plan.model(name, CONFIG.reduction)
     files = {"equivalent": f"{RESULTS}/structure/equivalent.nc"}
     if model.dimension == "3d":
         files["modes"] = f"{RESULTS}/structure/modes.nc"
     if model.corrected:
         files["correction"] = f"{RESULTS}/steady/correction.nc"
     return files
+
+
+def structure_of_models():
+    """Return the files that the cases of all models are made from."""
+    return {
+        name: path
+        for model in WRITTEN_TOGETHER
+        for name, path in structure_of(model).items()
+    }
+
+
+def sweeps_of(models, place):
+    """Return the files of the sweeps of some models, cases or indices of results."""
+    return [
+        f"{RESULTS}/{place}unsteady/{model}/{plan.SWEEP_BATCH}.json" for model in models
+    ]
 
 
 def inputs_of_batch(wildcards):

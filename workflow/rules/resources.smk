@@ -24,6 +24,8 @@ def dimension_of(wildcards):
     """Return the dimension of a job's cases."""
     if "dimension" in wildcards.keys():
         return wildcards.dimension
+    if "model" not in wildcards.keys():
+        return "2d"  # sections together
     return plan.model(wildcards.model, CONFIG.reduction).dimension
 
 
@@ -40,6 +42,8 @@ def launcher(wildcards):
 def work_of(wildcards):
     """Return the work of a job."""
     dimension = dimension_of(wildcards)
+    if not wildcards.keys():
+        return jobs.batch_work(CONFIG, kinds.FREE, *SECTIONS_TOGETHER)
     if "angle" in wildcards.keys():
         resolution, _ = plan.rigid_point(wildcards.angle)
         return cost.work_of(CONFIG, kinds.STEADY, dimension, resolution)

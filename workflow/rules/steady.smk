@@ -7,13 +7,13 @@ every job that depends on a file written anew. (A rule that is inherited is no c
 
 
 checkpoint steady_cases:
-    """Write the cases of all incidences and resolutions of a dimension into one case file."""
+    """Write the cases of all incidences and resolutions, a case file for each dimension."""
     input:
         polars=solver_input_files(),
     output:
-        f"{RESULTS}/cases/steady/{{dimension}}/polar.json",
+        of_dimensions(f"{RESULTS}/cases/steady/{{dimension}}/polar.json"),
     log:
-        f"{LOGS}/steady_cases_{{dimension}}.log",
+        log_of_dimensions("steady_cases"),
     priority: FIRST
     localrule: True
     conda:
@@ -23,7 +23,7 @@ checkpoint steady_cases:
         config=RESOLVED,
         cases=STEADY,
     message:
-        "cases of the steady {wildcards.dimension} polar"
+        "cases of the steady polar: {output}"
     script:
         "../../scripts/steady_cases.py"
 
@@ -156,13 +156,13 @@ if CONFIG.steady.beam_polar:
 
 
 rule polar:
-    """Gather the steady results of a dimension into its polar."""
+    """Gather the steady results of each dimension into its polar."""
     input:
-        index=f"{RESULTS}/steady/{{dimension}}/polar.json",
+        indices=of_dimensions(f"{RESULTS}/steady/{{dimension}}/polar.json"),
     output:
-        f"{RESULTS}/steady/polar_{{dimension}}.nc",
+        of_dimensions(f"{RESULTS}/steady/polar_{{dimension}}.nc"),
     log:
-        f"{LOGS}/polar_{{dimension}}.log",
+        log_of_dimensions("polar"),
     priority: FIRST
     localrule: True
     conda:
@@ -171,7 +171,7 @@ rule polar:
         code=code("polar"),
         cases=STEADY,
     message:
-        "{wildcards.dimension} polar"
+        "polar: {output}"
     script:
         "../../scripts/polar.py"
 

@@ -27,6 +27,33 @@ checkpoint unsteady_cases:
         "../../scripts/unsteady_cases.py"
 
 
+if len(WRITTEN_TOGETHER) > 1:
+
+    ruleorder: sweep_cases > unsteady_cases
+
+    checkpoint sweep_cases:
+        """Write the cases of the sweep of all models, a case file for each."""
+        input:
+            **structure_of_models(),
+            polars=solver_input_files(),
+        output:
+            sweeps_of(WRITTEN_TOGETHER, "cases/"),
+        log:
+            f"{LOGS}/sweep_cases.log",
+        priority: FIRST
+        localrule: True
+        conda:
+            ENVIRONMENT
+        params:
+            code=code("unsteady_cases", "solvers"),
+            config=RESOLVED,
+            cases=SWEEP,
+        message:
+            "cases of the sweep"
+        script:
+            "../../scripts/unsteady_cases.py"
+
+
 checkpoint unsteady_case_file:
     """Write the case file of one k*."""
     input:
@@ -72,6 +99,21 @@ if IN_ONE_JOB:
             f"{LOGS}/unsteady_{{model}}_{{batch}}.log",
         message:
             "{wildcards.model}, {wildcards.batch}"
+
+    if SECTIONS_TOGETHER:
+
+        ruleorder: sections_batch > unsteady_batch
+
+        use rule steady_batch as sections_batch with:
+            input:
+                sweeps_of(SECTIONS_TOGETHER, "cases/"),
+                kept=kept_files(),
+            output:
+                sweeps_of(SECTIONS_TOGETHER, ""),
+            log:
+                f"{LOGS}/unsteady_sections_sweep.log",
+            message:
+                "sweep of the sections"
 
 else:
 

@@ -73,6 +73,9 @@ class Entry:
         Condition under which a run has it.
     drawn_with
         Name of the job that draws it, if that draws others too.
+    family
+        Name of that job where the solver takes many cases at once. All that it draws from is made
+        in seconds there, and starting a job takes longer than drawing.
     """
 
     name: str
@@ -81,6 +84,7 @@ class Entry:
     keys: Mapping[str, str] = field(default_factory=dict)
     exists: Callable[[Config], bool] = _always
     drawn_with: str = ""
+    family: str = ""
 
     @property
     def caption(self) -> str:
@@ -92,10 +96,9 @@ class Entry:
         """Name of its module in this package."""
         return self.name.replace("-", "_")
 
-    @property
-    def job(self) -> str:
-        """Name of the rule that draws it."""
-        return self.drawn_with or self.module
+    def job(self, together: bool = False) -> str:
+        """Return the name of the rule that draws it, alone or with its family."""
+        return (together and self.family) or self.drawn_with or self.module
 
     def files(self, run: RunFiles) -> dict[str, str | list[str]]:
         """Return its input files, by name."""
@@ -175,17 +178,23 @@ _POLAR_3D = {"polar_3d": "steady/polar_3d.nc"}
 _CORRECTION = {**_POLAR_2D, **_POLAR_3D, "correction": "steady/correction.nc"}
 _RESOLUTION = {"resolution": "steady.resolution"}
 _INCIDENCE = {"incidence_deg": "flow.incidence_deg"}
+_OF_MODES, _OF_LOADS = "figures_of_modes", "figures_of_loads"
 
 #: Every figure, in the order of Fig. 1: structure, steady loads, response.
 CATALOGUE = (
-    Entry("mode-shapes", "modes", _MODES, {"beam": "beam"}),
+    Entry("mode-shapes", "modes", _MODES, {"beam": "beam"}, family=_OF_MODES),
     Entry(
         "mesh-of-section",
         "mesh of the section",
         {"section_mesh": "steady/section_mesh.nc"},
         exists=plan.has_mesh,
     ),
-    Entry("section-polar", "section polars", {**_POLAR_2D, "grid_study": grid_study}),
+    Entry(
+        "section-polar",
+        "section polars",
+        {**_POLAR_2D, "grid_study": grid_study},
+        family=_OF_LOADS,
+    ),
     Entry(
         "surface-loads",
         "wall distance and pressure",
@@ -210,7 +219,14 @@ CATALOGUE = (
         {"method": "structure.method", "elements": "structure.elements"},
         exists=_rigid_beam_has(Capability.MESH),
     ),
-    Entry("spanwise-loads", "spanwise loads", _POLAR_3D, _RESOLUTION, exists=_runs_rigid_beam),
+    Entry(
+        "spanwise-loads",
+        "spanwise loads",
+        _POLAR_3D,
+        _RESOLUTION,
+        exists=_runs_rigid_beam,
+        family=_OF_LOADS,
+    ),
     Entry(
         "surface-of-beam",
         "pressure and shear stress over the beam",
@@ -236,6 +252,7 @@ CATALOGUE = (
         _RESOLUTION,
         exists=plan.has_beam_polar,
         drawn_with="load_corrections",
+        family=_OF_LOADS,
     ),
     Entry(
         "moment-correction",
@@ -244,12 +261,14 @@ CATALOGUE = (
         _RESOLUTION,
         exists=plan.has_beam_polar,
         drawn_with="load_corrections",
+        family=_OF_LOADS,
     ),
     Entry(
         "modal-contributions",
         "modal contributions",
         {**_MODES, "index_of_beam": indices_of_beam},
         exists=_has_beam_model,
+        family=_OF_MODES,
     ),
     Entry(
         "response",
@@ -291,9 +310,10 @@ def figures(config: Config) -> list[Entry]:
 
 def figures_by_job(config: Config) -> dict[str, list[Entry]]:
     """Return the figures of a run by the job that draws them."""
+    together = Capability.BATCH in SOLVERS[config.solver].provides
     jobs: dict[str, list[Entry]] = {}
     for entry in figures(config):
-        jobs.setdefault(entry.job, []).append(entry)
+        jobs.setdefault(entry.job(together), []).append(entry)
     return jobs
 
 

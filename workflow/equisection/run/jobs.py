@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from rich import box
 from rich.table import Table
 
-from equisection.cases import Kind
+from equisection.cases import FREE, Kind
 from equisection.config import Config
 from equisection.run import cost
 from equisection.run.cost import CostModel
@@ -77,14 +77,15 @@ def solver_jobs(config: Config, model: CostModel) -> list[Jobs]:
     return found
 
 
-def batch_work(config: Config, kind: Kind, model: str) -> Work:
-    """Return the work of the job that runs a batch of a kind and model, or looks it up.
+def batch_work(config: Config, kind: Kind, *models: str) -> Work:
+    """Return the work of the job that runs a batch of a kind and models, or looks it up.
 
-    A batch is all rigid cases of a dimension, or the sweep of a model or a round of its refinement.
+    A batch is all rigid cases of a dimension, or the sweep of a model or a round of its refinement,
+    or the sweeps of several sections.
     """
     if not config.compute:
         return LOOKING_UP
-    chosen = [one for one in plan.planned_cases(config) if (one.kind, one.model) == (kind, model)]
+    chosen = [one for one in plan.planned_cases(config) if one.kind == kind and one.model in models]
     number = sum(len(one.names) for one in chosen)
     most = max(number, config.sweep.onset_points) if kind.of_sweep else number
     dimension = chosen[0].dimension
@@ -120,7 +121,13 @@ def _one_by_one(config: Config) -> Iterator[tuple[str, str, int, Work]]:
 
 def _batches(config: Config) -> Iterator[tuple[str, str, int, Work]]:
     """Give name, dimension, number and work of jobs of many cases each."""
+    together = plan.sections_together(config)
     groups = {(one.kind, one.model): one.dimension for one in plan.planned_cases(config)}
     for (kind, model), dimension in groups.items():
         number = len(plan.batches(config)) if kind.of_sweep else 1
-        yield kind.model_of(model), dimension, number, batch_work(config, kind, model)
+        if kind.of_sweep and model in together:
+            number -= 1  # the rounds of its refinement
+        if number:
+            yield kind.model_of(model), dimension, number, batch_work(config, kind, model)
+    if together:
+        yield ", ".join(together), "2d", 1, batch_work(config, FREE, *together)

@@ -38,7 +38,10 @@ class JobsOfRun:
         A log older than the case file is that of an earlier case of the same name.
         """
         job = place.replace("/", "_")
-        logs = (f"{job}_{case.stem}.log", f"{job}.log")
+        logs = [f"{job}_{case.stem}.log", f"{job}.log"]
+        kind, _, model = place.partition("/")
+        if model.startswith("2d"):
+            logs.append(f"{kind}_sections_{case.stem}.log")
         there = [self._folder / name for name in logs if name in self._logs]
         if not there:
             return "", None

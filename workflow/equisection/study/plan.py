@@ -31,6 +31,8 @@ DIMENSION_PATTERN = r"[23]d"
 #: refinement of the onset.
 BATCH_PATTERN = r"sweep|round[1-9][0-9]*"
 SWEEP_BATCH = "sweep"
+#: Sections that one job marches. Up to so many, what a step costs hardly depends on their number.
+MOST_TOGETHER = 500
 #: Ratio of one value to the next where an onset is looked for beyond the ends of a sweep (-): a
 #: factor of two in three strides.
 STRIDE = 1.26
@@ -140,6 +142,20 @@ def _rounds_to_narrow(config: Config, width: float) -> int:
 def batches(config: Config) -> list[str]:
     """Return the batches of a model: the sweep, then the rounds of refinement."""
     return [SWEEP_BATCH, *(f"round{n}" for n in range(1, refinement_rounds(config) + 1))]
+
+
+def sections_together(config: Config) -> tuple[str, ...]:
+    """Return the models of a section whose sweeps one job runs, none if each has its own.
+
+    A solver that takes many cases marches them at the cost of one model. More than `MOST_TOGETHER`
+    cases are divided by model, for the processors that there may be.
+    """
+    sections = tuple(
+        name for name in config.sweep.models if model(name, config.reduction).dimension == "2d"
+    )
+    many = len(sections) * len(sweep_cases(config)) > MOST_TOGETHER
+    alone = Capability.BATCH not in SOLVERS[config.solver].provides or len(sections) < 2
+    return () if many or alone else sections
 
 
 def batches_before(batch: str) -> list[str]:
