@@ -3,7 +3,7 @@
 Equilibrium is found with Newton's method on the bubble incidences x alone: all other states
 follow linearly from the deficits. Linearised about equilibrium the system is Y' = J Y with
 
-    J = A + B F (1 - E F)^-1 C,    F = du/dx,
+    J = A + B F (1 - E F)^-1 C,    F = du/d(signals),
 
 whose eigenvalues are growth rate and frequency of the small oscillations.
 """
@@ -26,7 +26,7 @@ SHORTEST_STEP = 1e-3
 
 
 def rigid_state(system: StripSystem) -> tuple[Floats, Floats]:
-    """States Y (N, n) and deficits u (N, 2 S) of the beam held rigid at theta_0.
+    """States Y (N, n) and deficits u (N, d S) of the beam held rigid at theta_0.
 
     The structure is undeformed and at rest, every lag in equilibrium with the incidence that
     the strip then has: the state from which a case is released.
@@ -36,7 +36,7 @@ def rigid_state(system: StripSystem) -> tuple[Floats, Floats]:
 
 
 def equilibrium(system: StripSystem) -> tuple[Floats, Floats]:
-    """States Y (N, n) and deficits u (N, 2 S) of static aeroelastic equilibrium.
+    """States Y (N, n) and deficits u (N, d S) of static aeroelastic equilibrium.
 
     Lanes that have none inside the polar (or near which Newton's method does not converge)
     are NaN.
@@ -50,7 +50,8 @@ def _steady(system: StripSystem, free: NDArray[np.intp]) -> tuple[Floats, Floats
     matrix_a = system.rates[:, free[:, None], free]
     others = system.rates[:, free, n:]
     response = -np.linalg.solve(matrix_a, others)
-    probe = system.probe[:, :, n:] + system.probe[:, :, free] @ response
+    bubbles = system.probe[:, : system.layout.strips]
+    probe = bubbles[:, :, n:] + bubbles[:, :, free] @ response
     gain, offset = probe[:, :, :-1], probe[:, :, -1]
     start = offset.copy() if not np.any(gain) else np.zeros_like(offset)
     x = _newton(system, gain, offset, start)
@@ -103,9 +104,9 @@ def jacobian(system: StripSystem, states: Floats, deficits: Floats) -> Floats:
     """J of the linearised system about a steady state, shape (N, n, n)."""
     n = system.layout.size
     columns = np.concatenate([states, deficits, np.ones((states.shape[0], 1))], axis=1)
-    x = np.einsum("nij,nj->ni", system.probe, columns)
-    slopes = system.deficit_slopes(x)
-    closed = np.eye(x.shape[1]) - system.probe[:, :, n:-1] @ slopes
+    signals = np.einsum("nij,nj->ni", system.probe, columns)
+    slopes = system.deficit_slopes(signals)
+    closed = np.eye(signals.shape[1]) - system.probe[:, :, n:-1] @ slopes
     seen = np.linalg.solve(closed, system.probe[:, :, :n])
     return np.asarray(
         system.rates[:, :, :n] + system.rates[:, :, n:-1] @ slopes @ seen, dtype=np.float64

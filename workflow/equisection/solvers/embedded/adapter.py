@@ -40,7 +40,7 @@ class Adapter:
     """The embedded solver on one section polar; fulfils the solver protocol."""
 
     name = "embedded"
-    version = "4"
+    version = "5"
     provides = frozenset({Capability.BATCH})
 
     def __init__(self, polar: Polar, strips: int, lags: SeparationLags) -> None:
