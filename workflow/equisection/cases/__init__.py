@@ -7,6 +7,7 @@ from equisection.cases.case import (
     Geometry,
     Medium,
     SolverBlock,
+    Start,
     SteadyCase,
     UnsteadyCase,
 )
@@ -31,6 +32,7 @@ __all__ = [
     "Kind",
     "Medium",
     "SolverBlock",
+    "Start",
     "SteadyCase",
     "UnsteadyCase",
     "are_alike",

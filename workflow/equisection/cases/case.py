@@ -162,10 +162,20 @@ class EndCriteria(Block):
     periods: int
 
 
-class UnsteadyCase(Case):
-    """Free section (`2d`) or free beam (`3d`), released from the rigid steady state."""
+class Start(Block):
+    """Start of a free motion: twist of the tip until the release (deg), and its heave rate then.
 
-    left_out = frozenset({"lift_factor", "moment_factor"})
+    The beam has them in its first modes, the section by its recovery factors.
+    """
+
+    twist_deg: float = 0.0
+    heave_rate: float = 0.0  # over V, up
+
+
+class UnsteadyCase(Case):
+    """Free section (`2d`) or free beam (`3d`), released from a steady state."""
+
+    left_out = frozenset({"lift_factor", "moment_factor", "start"})
 
     kind: Literal["unsteady"] = "unsteady"
     k_star: float  # structural, uncorrected
@@ -173,6 +183,7 @@ class UnsteadyCase(Case):
     lift_factor: float = 1.0  # of c_l, where the correction is of the loads and not of the section
     moment_factor: float = 1.0  # of c_m about mid-chord, the same
     beam: BeamModes | None = None
+    start: Start = Start()
     duration: float  # c/V
     time_step: float  # c/V
     output_interval: float  # c/V

@@ -10,7 +10,7 @@ from equisection.config.groups.openfoam_keys import OpenFoam
 from equisection.config.groups.steady import Steady
 from equisection.config.groups.structure import Elements, Structure
 from equisection.config.groups.sweep import ModelName, Range, Sweep
-from equisection.config.groups.unsteady import Unsteady, VerdictKeys
+from equisection.config.groups.unsteady import StartKeys, Unsteady, VerdictKeys
 from equisection.keys.group import KeyGroup
 
 __all__ = [
@@ -30,6 +30,7 @@ __all__ = [
     "OpenFoam",
     "Range",
     "Separation",
+    "StartKeys",
     "Steady",
     "Structure",
     "Sweep",
