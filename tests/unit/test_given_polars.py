@@ -156,7 +156,7 @@ def test_polar_of_the_beam_has_its_moments_about_mid_chord(tmp_path: Path) -> No
     raw: dict[str, Any] = {**CFD, "steady": {"beam_polar": "beam.csv"}}
     refusals = {
         "": "config: steady.beam_polar: 'beam.csv': allowed are moments about mid-chord: its lift",
-        "# Valid for: moment_axis 0.25\n": "mid-chord: it says moment_axis 0.25; write them",
+        "# Valid for: moment_axis 0.25\n": "mid-chord: it says 0.25; write them",
     }
     for said, words in refusals.items():
         (tmp_path / "beam.csv").write_text(said + LEVEL)

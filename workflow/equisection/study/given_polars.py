@@ -95,7 +95,7 @@ def _of_beam(config: Config, directory: Path) -> Iterator[Problem]:
             "steady.beam_polar",
             polar,
             "allowed are moments about mid-chord: "
-            + (points.about_quarter_chord or f"it says moment_axis {_short(axis)}")
+            + (points.about_quarter_chord if math.isnan(axis) else f"it says {_short(axis)}")
             + "; write them about mid-chord, and say so in the file: # Valid for: moment_axis 0.5",
         )
         return
