@@ -6,6 +6,7 @@ from pathlib import Path
 
 from equisection.cases import read_cases
 from equisection.results.failures import warning_of
+from equisection.results.loads_zigzag import loads_zigzag
 from equisection.run.script import logged
 from equisection.solvers.protocol import MPIRUN, ONE_THREAD, Allocation
 from equisection.store.index import write_index
@@ -40,7 +41,11 @@ def main(
 def take_kept(cases: Path, output: Path, store: Path, reuse: Path) -> None:
     """Index the kept results of the cases; those that have none are named in the index."""
     answers = answer_from_kept(read_cases(cases), output.parent, store, reuse)
-    write_index(output, answers.found, answers.missing)
+    found = {
+        name: attributes | loads_zigzag(output.parent / f"{name}.nc", attributes)
+        for name, attributes in answers.found.items()
+    }
+    write_index(output, found, answers.missing)
 
 
 if __name__ == "__main__":

@@ -81,9 +81,11 @@ class Run:
         data = xr.Dataset({"x": ("t", np.zeros(3), {"units": "1", "long_name": "nothing"})})
         write_dataset(path, data.assign_attrs(**attributes))
 
-    def finished(self, k_star: float, regime: str, reason: str = "because") -> Path:
+    def finished(
+        self, k_star: float, regime: str, reason: str = "because", **attributes: float
+    ) -> Path:
         path = self.folder / f"unsteady/2d/k{k_star:g}.nc"
-        self.result(path, case_hash=self.case(k_star), regime=regime, reason=reason)
+        self.result(path, case_hash=self.case(k_star), regime=regime, reason=reason, **attributes)
         return path
 
     def job(self, k_star: float, process: Process) -> None:

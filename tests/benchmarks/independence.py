@@ -1,7 +1,7 @@
 """Whether time step and outer correctors of a run are fine enough, at a stable and an unstable k*,
 and whether it matters how the mesh of the section moves.
 
-    python -m tests.benchmarks.independence [--plate] [k* ...]
+    python -m tests.benchmarks.independence [--plate | --plate-medium] [k* ...]
 
 Each variant is a run of its own (`results/independence-...`), made by the workflow from
 `config/openfoam.yaml`, or for the plate from `config/openfoam3d.yaml`, so that what was computed or
@@ -15,12 +15,14 @@ import os
 import subprocess
 import sys
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import xarray as xr
+
+from equisection.verdict.zigzag import zigzag_of
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,8 @@ class Variant:
 class Study:
     """What is varied: a model by a configuration, whose own choice is the first variant.
 
-    ``duration`` (c/V) is that of the others, and of what is compared.
+    ``duration`` (c/V) is that of the others, and of what is compared; ``resolution`` is that of
+    all, in the place of the configuration's.
     """
 
     configuration: str
@@ -51,24 +54,29 @@ class Study:
     variants: tuple[Variant, ...]
     duration: float
     k_star: tuple[float, ...]
+    resolution: str = ""
 
     def run_of(self, variant: Variant) -> str:
         """Return the name of a variant's run."""
         if variant == self.variants[0]:
             return self.run
-        return f"independence-{'' if self.model == '2d' else f'{self.model}-'}{variant.name}"
+        parts = [self.model] if self.model != "2d" else []
+        parts += [self.resolution] if self.resolution else []
+        return "-".join(["independence", *parts, variant.name])
 
     def overrides(self, variant: Variant, k_star: Sequence[float]) -> list[str]:
         """Return what the command line changes in the configuration."""
-        if variant == self.variants[0]:
+        if variant == self.variants[0] and not self.resolution:
             return []
         unsteady: dict[str, float] = {"duration": self.duration, "time_step": variant.time_step}
         openfoam: dict[str, object] = {"outer_correctors": variant.outer_correctors}
         if self.model == "2d":
             unsteady["output_interval"] = 5 * variant.time_step
             openfoam["mesh_motion"] = variant.mesh_motion
+        steady = {"resolution": self.resolution}
         return [
             f"run={self.run_of(variant)}",
+            *([f"steady={json.dumps(steady)}"] if self.resolution else []),
             f"sweep={json.dumps({'k_star': list(k_star), 'models': [self.model]})}",
             f"unsteady={json.dumps(unsteady)}",
             f"openfoam={json.dumps(openfoam)}",
@@ -115,6 +123,13 @@ PLATE = Study(
     duration=30.0,
     k_star=(6.44,),
 )
+#: The same on finer cells, where two iterations do not suffice.
+PLATE_MEDIUM = replace(
+    PLATE,
+    run="paper-plate-openfoam-3d-medium",
+    variants=(Variant(0.04, 2), Variant(0.04, 4)),
+    resolution="medium",
+)
 
 
 def oscillation(history: xr.Dataset, periods: float = 3.0) -> tuple[float, float]:
@@ -157,6 +172,7 @@ def table(study: Study, k_star: Sequence[float]) -> pd.DataFrame:
                 steps = whole.attrs["end_time"] / variant.time_step
                 history = whole.sel(time=slice(0.0, study.duration))
                 growth_rate, frequency = oscillation(history)
+                sampled = float(np.median(np.diff(history["time"].values)))
                 rows.append(
                     {
                         "k_star": value,
@@ -166,6 +182,12 @@ def table(study: Study, k_star: Sequence[float]) -> pd.DataFrame:
                         "growth_rate": growth_rate,
                         "frequency": frequency,
                         "tip_twist_deg": np.degrees(history["tip_twist"].values[-1]),
+                        "mean_lift": float(history["cl"].sel(time=slice(10.0, None)).mean()),
+                        "mean_moment": float(history["cm"].sel(time=slice(10.0, None)).mean()),
+                        "zigzag": zigzag_of(
+                            *(history[name].values for name in ("time", "cl", "cm")),
+                            steps_per_sample=round(sampled / variant.time_step),
+                        ),
                         "cpu_seconds_a_step": whole.attrs["cpu_seconds"] / steps,
                     }
                 )
@@ -175,11 +197,12 @@ def table(study: Study, k_star: Sequence[float]) -> pd.DataFrame:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.independence")
     parser.add_argument("--plate", action="store_true", help="of the plate, not of the section")
+    parser.add_argument("--plate-medium", action="store_true", help="of the plate on medium")
     parser.add_argument(
         "k_star", nargs="*", type=float, help="(default: 5 and 10; of the plate 6.44)"
     )
     options = parser.parse_args()
-    chosen = PLATE if options.plate else SECTION
+    chosen = PLATE_MEDIUM if options.plate_medium else PLATE if options.plate else SECTION
     at = options.k_star or chosen.k_star
     for each in chosen.variants:
         chosen.compute(each, at, os.cpu_count() or 1)

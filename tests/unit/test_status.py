@@ -34,6 +34,14 @@ class TestStates:
         entry = run.entry("k6")
         assert (entry.state, entry.regime) == (State.DONE, "limit-cycle")
 
+    def test_loads_that_zigzag_are_told_beside_the_verdict(self, run: Run) -> None:
+        run.finished(6.0, "settled", "at rest", loads_zigzag=0.0641)
+        run.finished(7.0, "settled", "at rest", loads_zigzag=0.0041)
+        text = run.entry("k6").text
+        assert text.startswith("at rest; not converged in its time step: ")
+        assert "6.4 %" in text
+        assert run.entry("k7").text == "at rest"
+
     def test_a_failed_run_gives_its_reason(self, run: Run) -> None:
         run.finished(6.0, "failed", "left the polar")
         entry = run.entry("k6")

@@ -4,6 +4,7 @@ import hashlib
 import os
 
 import equisection
+from equisection.cases import KINDS
 from equisection.study import plan
 from equisection.config import resolve_config
 from equisection.config.groups import FLAT_PLATE

@@ -8,9 +8,12 @@ from equisection.run import jobs
 from equisection.run import cost
 from equisection.solvers.protocol import MPIRUN
 
+# A solver need not tell what its jobs will ask for; they then get what starting them takes.
+TELLS_WORK = bool(SOLVERS[CONFIG.solver].work)
+
 try:
     COSTS = cost.read_cost_model(PROJECT / cost.COST_MODEL)
-    for dimension in ("2d", "3d"):
+    for dimension in SOLVERS[CONFIG.solver].dimensions if TELLS_WORK else ():
         COSTS.of(CONFIG.solver, dimension)
 except ConfigError as error:
     print(error, file=sys.stderr)
@@ -47,10 +50,16 @@ def work_of(wildcards):
     return jobs.batch_work(CONFIG, kinds.STEADY, dimension)
 
 
+def work_and_costs(wildcards):
+    """Return the work of a job, and what a cell costs."""
+    if not TELLS_WORK:
+        return cost.NOT_TOLD
+    return work_of(wildcards), COSTS.of(CONFIG.solver, dimension_of(wildcards))
+
+
 def memory(wildcards, attempt):
     """Return the memory of a job (MB); one that ran out of it gets as much again."""
-    costs = COSTS.of(CONFIG.solver, dimension_of(wildcards))
-    return attempt * cost.megabytes(work_of(wildcards), costs, ranks(wildcards))
+    return attempt * cost.megabytes(*work_and_costs(wildcards), ranks(wildcards))
 
 
 def memory_of_plate_mesh(wildcards, attempt):
@@ -61,5 +70,4 @@ def memory_of_plate_mesh(wildcards, attempt):
 
 def runtime(wildcards):
     """Return the time of a job (minutes), which goes on in the next one if that is too little."""
-    costs = COSTS.of(CONFIG.solver, dimension_of(wildcards))
-    return cost.minutes(work_of(wildcards), costs, ranks(wildcards))
+    return cost.minutes(*work_and_costs(wildcards), ranks(wildcards))

@@ -29,6 +29,7 @@ QUANTITIES = (
     "solver",
     "resolution",
     "mean_known",
+    "loads_zigzag",
 )
 
 
@@ -96,7 +97,12 @@ def summarise(
 
 
 def _of(attributes: Mapping[str, Any], name: str) -> Any:
-    """Return an attribute; of results without ``mean_known`` only growth makes a mean unknown."""
+    """Return an attribute; of results without ``mean_known`` only growth makes a mean unknown.
+
+    A result without ``loads_zigzag`` has loads that are not iterated, or no history.
+    """
+    if name == "loads_zigzag":
+        return attributes.get(name, math.nan)
     if name == "mean_known" and name not in attributes:
         return int(attributes["regime"] in {"settled", "limit-cycle"})
     return attributes[name]

@@ -34,29 +34,23 @@ from pydantic import (
     model_validator,
 )
 
+from equisection.beam.quantity import Quantity
 from equisection.conventions import dynamic_pressure
 from equisection.errors import EquisectionError, ReductionError
 
 Floats = NDArray[np.float64]
 
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 _NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False)]
-
-#: Members by which a section is more than a mass on two springs at mid-chord, and their defaults.
-MORE_THAN_SPRINGS = {
-    "static_imbalance": 0.0,
-    "flexural_damping": 0.0,
-    "torsional_damping": 0.0,
-    "elastic_axis": 0.5,
-}
-#: Left out where a section is written down, so that a case without them keeps its hash.
-_LEFT_OUT = {"chord": 1.0, **MORE_THAN_SPRINGS}
 
 
 class Section(BaseModel):
     """Section of a beam per unit span: mass, springs and dampers about its elastic axis.
 
-    Units are those of SI; a section in a flow (:meth:`in_flow`) has none.
+    Units are those of SI; a section in a flow (:meth:`in_flow`) has none. The
+    :class:`~equisection.beam.quantity.Quantity` of a member gives its number in a flow and its
+    variable in results.
 
     Attributes
     ----------
@@ -91,17 +85,89 @@ class Section(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
-    torsional_stiffness: _Positive
-    flexural_stiffness: _Positive
-    inertia: _Positive
-    mass: _Positive
-    static_imbalance: Annotated[float, Field(allow_inf_nan=False)] = 0.0
-    flexural_damping: _NotNegative = 0.0
-    torsional_damping: _NotNegative = 0.0
-    chord: _Positive = 1.0
-    elastic_axis: Annotated[float, Field(ge=0.0, le=1.0, allow_inf_nan=False)] = 0.5
-    twist_recovery: Annotated[float, Field(allow_inf_nan=False)] = 1.0
-    deflection_recovery: Annotated[float, Field(allow_inf_nan=False)] = 1.0
+    torsional_stiffness: Annotated[
+        _Positive,
+        Quantity(
+            "N m rad-1 m-1",
+            "torsional stiffness k_theta per unit span",
+            "k_star",
+            "k_theta/(q c^2)",
+            speeds=2,
+            chords=2,
+            stiffness=1.0,
+        ),
+    ]
+    flexural_stiffness: Annotated[
+        _Positive,
+        Quantity(
+            "N m-2",
+            "flexural stiffness k_w per unit span",
+            "k_w_star",
+            "k_w/q",
+            speeds=2,
+            stiffness=1.0,
+        ),
+    ]
+    inertia: Annotated[
+        _Positive,
+        Quantity(
+            "kg m",
+            "moment of inertia I_2D about the elastic axis per unit span",
+            "i_star",
+            "I_2D/(rho c^4/2)",
+            chords=4,
+        ),
+    ]
+    mass: Annotated[
+        _Positive,
+        Quantity("kg m-1", "mass m_2D per unit span", "m_star", "m_2D/(rho c^2/2)", chords=2),
+    ]
+    static_imbalance: Annotated[
+        _Finite,
+        Quantity(
+            "kg",
+            "static imbalance S_2D per unit span, positive with mass aft",
+            "s_star",
+            "S_2D/(rho c^3/2)",
+            chords=3,
+        ),
+    ] = 0.0
+    flexural_damping: Annotated[
+        _NotNegative,
+        Quantity(
+            "N s m-2",
+            "flexural damping c_w per unit span",
+            "c_w_star",
+            "c_w/(rho V c/2)",
+            speeds=1,
+            chords=1,
+            stiffness=0.5,
+        ),
+    ] = 0.0
+    torsional_damping: Annotated[
+        _NotNegative,
+        Quantity(
+            "N m s rad-1 m-1",
+            "torsional damping c_theta per unit span",
+            "c_theta_star",
+            "c_theta/(rho V c^3/2)",
+            speeds=1,
+            chords=3,
+            stiffness=0.5,
+        ),
+    ] = 0.0
+    chord: Annotated[_Positive, Quantity("m", "chord c")] = 1.0
+    elastic_axis: Annotated[
+        float,
+        Field(ge=0.0, le=1.0, allow_inf_nan=False),
+        Quantity("1", "place of the elastic axis, x/c from the leading edge"),
+    ] = 0.5
+    twist_recovery: Annotated[
+        _Finite, Quantity("1", "a: twist of the tip = twist of the section / a")
+    ] = 1.0
+    deflection_recovery: Annotated[
+        _Finite, Quantity("1", "b: deflection of the tip = deflection of the section / b")
+    ] = 1.0
 
     @model_validator(mode="after")
     def _is_a_body(self) -> Section:
@@ -166,21 +232,18 @@ class Section(BaseModel):
         speed
             Speed V (m/s).
         """
-        return self._with(
-            torsional_stiffness=self.k_star(density, speed),
-            flexural_stiffness=self.k_w_star(density, speed),
-            inertia=self.i_star(density),
-            mass=self.m_star(density),
-            static_imbalance=self.static_imbalance / (0.5 * density * self.chord**3),
-            flexural_damping=self.flexural_damping / (0.5 * density * speed * self.chord),
-            torsional_damping=self.torsional_damping / (0.5 * density * speed * self.chord**3),
-            chord=1.0,
-        )
+        flowing = {
+            name: getattr(self, name)
+            / (0.5 * density * speed**quantity.speeds * self.chord**quantity.chords)
+            for name, quantity in QUANTITIES.items()
+            if quantity.flow_name
+        }
+        return self._with(**flowing, chord=1.0)
 
     def scaled(self, stiffness_scale: float) -> Section:
         """Return the section with both stiffnesses times a factor s (-).
 
-        The dampings go with the square root of s, so that the damping ratios stay: another s is
+        The dampings grow with the square root of s, so that the damping ratios stay: another s is
         the same section in a flow of another speed.
 
         Raises
@@ -190,12 +253,12 @@ class Section(BaseModel):
         """
         if not stiffness_scale > 0.0:
             raise ReductionError(f"stiffness_scale is {stiffness_scale}; give a positive number")
-        root = math.sqrt(stiffness_scale)
         return self._with(
-            torsional_stiffness=stiffness_scale * self.torsional_stiffness,
-            flexural_stiffness=stiffness_scale * self.flexural_stiffness,
-            torsional_damping=root * self.torsional_damping,
-            flexural_damping=root * self.flexural_damping,
+            **{
+                name: stiffness_scale**quantity.stiffness * getattr(self, name)
+                for name, quantity in QUANTITIES.items()
+                if quantity.stiffness
+            }
         )
 
     def _with(self, **changes: float) -> Section:
@@ -241,25 +304,45 @@ class Section(BaseModel):
                 "section.in_flow(density, speed), which has the chord 1"
             )
 
-    def require_defaults(self, model: str, members: Iterable[str] = MORE_THAN_SPRINGS) -> None:
+    def require_defaults(self, model: str, *, but: Iterable[str] = ()) -> None:
         """Refuse a section that has more than a model can represent.
 
         Parameters
         ----------
         model
             Name of the model in the message.
-        members
-            Members that have to be at their defaults, by default :data:`MORE_THAN_SPRINGS`.
+        but
+            Members of :data:`MORE_THAN_SPRINGS` that the model has; a member that is added later
+            is refused until the model names it.
 
         Raises
         ------
         EquisectionError
-            One of them is not at its default.
+            Another of them is not at its default.
         """
         more = [
-            f"{name} {getattr(self, name):g} (allowed is {MORE_THAN_SPRINGS[name]:g})"
-            for name in members
-            if getattr(self, name) != MORE_THAN_SPRINGS[name]
+            f"{name} {getattr(self, name):g} (allowed is {default:g})"
+            for name, default in MORE_THAN_SPRINGS.items()
+            if name not in but and getattr(self, name) != default
         ]
         if more:
             raise EquisectionError(f"{model} takes no section with {', '.join(more)}")
+
+
+#: Quantity of each member.
+QUANTITIES: dict[str, Quantity] = {
+    name: quantity
+    for name, field in Section.model_fields.items()
+    for quantity in field.metadata
+    if isinstance(quantity, Quantity)
+}
+#: Members with a default that say nothing of the motion: how it is scaled, and the tip's.
+_OF_NO_MOTION = ("chord", "twist_recovery", "deflection_recovery")
+#: Members by which a section is more than a mass on two springs at mid-chord, and their defaults.
+MORE_THAN_SPRINGS: dict[str, float] = {
+    name: field.default
+    for name, field in Section.model_fields.items()
+    if not field.is_required() and name not in _OF_NO_MOTION
+}
+#: Left out where a section is written down, so that a case without them keeps its hash.
+_LEFT_OUT = {"chord": 1.0, **MORE_THAN_SPRINGS}

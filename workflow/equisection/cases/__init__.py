@@ -8,8 +8,6 @@ from equisection.cases.case import (
     Medium,
     SolverBlock,
     Start,
-    SteadyCase,
-    UnsteadyCase,
 )
 from equisection.cases.case_file import (
     are_alike,
@@ -19,7 +17,16 @@ from equisection.cases.case_file import (
     read_cases,
     write_cases,
 )
-from equisection.cases.kinds import FREE, KINDS, STEADY, Kind, kind_of, point_of
+from equisection.cases.kinds import (
+    FREE,
+    KINDS,
+    STEADY,
+    Kind,
+    SteadyCase,
+    UnsteadyCase,
+    kind_of,
+    point_of,
+)
 
 __all__ = [
     "FREE",

@@ -8,15 +8,8 @@ from __future__ import annotations
 
 from typing import Any, ClassVar, Literal
 
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    SerializerFunctionWrapHandler,
-    model_serializer,
-    model_validator,
-)
+from pydantic import BaseModel, ConfigDict, SerializerFunctionWrapHandler, model_serializer
 
-from equisection.beam.section import Section
 from equisection.errors import EquisectionError
 
 SCHEMA_VERSION = 1
@@ -96,12 +89,6 @@ class Case(Block):
         return ""
 
 
-class SteadyCase(Case):
-    """Rigid section or beam at one incidence."""
-
-    kind: Literal["steady"] = "steady"
-
-
 class BeamModes(Block):
     """Modes of the beam for one k*, non-dimensional, bending and torsion apart.
 
@@ -170,42 +157,3 @@ class Start(Block):
 
     twist_deg: float = 0.0
     heave_rate: float = 0.0  # over V, up
-
-
-class UnsteadyCase(Case):
-    """Free section (`2d`) or free beam (`3d`), released from a steady state."""
-
-    left_out = frozenset({"lift_factor", "moment_factor", "start"})
-
-    kind: Literal["unsteady"] = "unsteady"
-    k_star: float  # structural, uncorrected
-    section: Section | None = None  # in its flow; the corrected one in `2d-corrected`
-    lift_factor: float = 1.0  # of c_l, where the correction is of the loads and not of the section
-    moment_factor: float = 1.0  # of c_m about mid-chord, the same
-    beam: BeamModes | None = None
-    start: Start = Start()
-    duration: float  # c/V
-    time_step: float  # c/V
-    output_interval: float  # c/V
-    criteria: EndCriteria
-    refusal: str = ""  # why there is no structure to move; such a case is not run
-    diverges: bool = False  # the refusal is a static divergence, which is an instability
-
-    @property
-    def longest(self) -> float:
-        """Longest duration of its history (c/V)."""
-        return self.duration
-
-    @property
-    def not_run(self) -> str:
-        """Reason for the lack of a structure to move; empty for a case that is run."""
-        return self.refusal
-
-    @model_validator(mode="after")
-    def _one_structure(self) -> UnsteadyCase:
-        if self.refusal:
-            return self
-        wanted = "section" if self.dimension == "2d" else "beam"
-        if getattr(self, wanted) is None or (self.section is None) == (self.beam is None):
-            raise ValueError(f"a case of dimension {self.dimension} holds '{wanted}' alone")
-        return self

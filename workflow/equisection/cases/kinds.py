@@ -3,20 +3,67 @@
 The store, the kept results, the status, the verification and the cost of a run go through
 :data:`KINDS`, and name no kind. A new kind takes
 
-- a class of cases in :mod:`equisection.cases.case`;
-- an entry in :data:`KINDS`;
+- a class of cases and an entry in :data:`KINDS`, both in this module;
 - a class of results, which fulfils :class:`equisection.results.case_result.CaseResult`;
 - the method ``run_<folder>`` of the solvers that run it, and ``<folder>_work`` of their work;
-- its rules, which write its case files and run them.
+- its rules, ``workflow/rules/<folder>.smk``, which write its case files and run them.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
-from equisection.cases.case import Case, SteadyCase, UnsteadyCase
+from pydantic import model_validator
+
+from equisection.beam.section import Section
+from equisection.cases.case import BeamModes, Case, EndCriteria, Start
 from equisection.errors import CaseFileError
+
+
+class SteadyCase(Case):
+    """Rigid section or beam at one incidence."""
+
+    kind: Literal["steady"] = "steady"
+
+
+class UnsteadyCase(Case):
+    """Free section (`2d`) or free beam (`3d`), released from a steady state."""
+
+    left_out = frozenset({"lift_factor", "moment_factor", "start"})
+
+    kind: Literal["unsteady"] = "unsteady"
+    k_star: float  # structural, uncorrected
+    section: Section | None = None  # in its flow; the corrected one in `2d-corrected`
+    lift_factor: float = 1.0  # of c_l, where the correction is of the loads and not of the section
+    moment_factor: float = 1.0  # of c_m about mid-chord, the same
+    beam: BeamModes | None = None
+    start: Start = Start()
+    duration: float  # c/V
+    time_step: float  # c/V
+    output_interval: float  # c/V
+    criteria: EndCriteria
+    refusal: str = ""  # why there is no structure to move; such a case is not run
+    diverges: bool = False  # the refusal is a static divergence, which is an instability
+
+    @property
+    def longest(self) -> float:
+        """Longest duration of its history (c/V)."""
+        return self.duration
+
+    @property
+    def not_run(self) -> str:
+        """Reason for the lack of a structure to move; empty for a case that is run."""
+        return self.refusal
+
+    @model_validator(mode="after")
+    def _one_structure(self) -> UnsteadyCase:
+        if self.refusal:
+            return self
+        wanted = "section" if self.dimension == "2d" else "beam"
+        if getattr(self, wanted) is None or (self.section is None) == (self.beam is None):
+            raise ValueError(f"a case of dimension {self.dimension} holds '{wanted}' alone")
+        return self
 
 
 @dataclass(frozen=True)
@@ -28,7 +75,7 @@ class Kind:
     name
         Name.
     case
-        Class of its cases. Its ``kind`` also names the folders of a run.
+        Class of its cases. Its ``kind`` also names the folders of a run and the file of its rules.
     point
         Fields that distinguish a case from others of its study; its result has them as attributes.
     has_history

@@ -16,6 +16,7 @@ from equisection.config.groups import (
     Flow,
     KeyGroup,
     OpenFoam,
+    SolverKeys,
     StartKeys,
     Steady,
     Structure,
@@ -79,13 +80,10 @@ class Config(KeyGroup):
         return self
 
     @property
-    def solver_section(self) -> Embedded | OpenFoam:
-        """The section of the configured solver."""
-        sections: dict[str, Embedded | OpenFoam] = {
-            "embedded": self.embedded,
-            "openfoam": self.openfoam,
-        }
-        return sections[self.solver]
+    def solver_section(self) -> SolverKeys:
+        """The section of the configured solver, which has its name."""
+        section: SolverKeys = getattr(self, self.solver)
+        return section
 
 
 @check("correction", "steady.beam_polar")
@@ -167,10 +165,10 @@ def _resolutions_exist(
     meshes: dict[str, str],
     solver: str,
 ) -> Iterator[Problem]:
-    key_of_names, there = {
-        "embedded": ("embedded.polars", polars),
-        "openfoam": ("openfoam.meshes", meshes),
-    }[solver]
+    named = {"embedded": ("embedded.polars", polars), "openfoam": ("openfoam.meshes", meshes)}
+    if solver not in named:  # one without resolutions takes any name
+        return
+    key_of_names, there = named[solver]
     names = {"steady.resolution": resolution}
     names |= {f"steady.study.{place}": name for place, name in enumerate(study)}
     for key, name in names.items():

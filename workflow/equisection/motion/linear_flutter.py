@@ -58,6 +58,9 @@ _CLEAR_PART = 0.3
 _MOST_HALVINGS = 6
 #: Im p that is round-off.
 _STILL = 1e-12
+#: Name of the theory in messages, and the members beyond mass and springs that it has.
+_THEORY = "linear theory"
+_OF_THEORY = ("static_imbalance", "flexural_damping", "torsional_damping", "elastic_axis")
 #: Bounds of the part of its way that an iteration goes.
 _LEAST_PART, _LARGEST_PART = 0.25, 1.5
 
@@ -94,6 +97,7 @@ class _Flow:
 
     def __init__(self, section: Section) -> None:
         section.require_in_flow()
+        section.require_defaults(_THEORY, but=_OF_THEORY)
         self.mass = section.mass_matrix
         self.inverse_mass = np.asarray(np.linalg.inv(self.mass), dtype=np.float64)
         self.damping = section.damping_matrix
@@ -131,9 +135,10 @@ def divergence_scale(section: Section, moment_slope: float | None = None) -> flo
     Raises
     ------
     EquisectionError
-        The section is in SI units.
+        The section is in SI units, or has a quantity that the theory lacks.
     """
     section.require_in_flow()
+    section.require_defaults(_THEORY, but=_OF_THEORY)
     plate = ThinAirfoil(section.axis_behind_mid_chord)
     slope = plate.moment_slope if moment_slope is None else moment_slope
     return 0.0 if slope <= 0.0 else slope / section.torsional_stiffness

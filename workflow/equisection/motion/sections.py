@@ -30,6 +30,9 @@ SECTION_TIME_STEP = 0.05
 OUTPUT_INTERVAL = 0.1
 """Default interval of the histories in convective times."""
 
+_OF_STRIPS = ("elastic_axis", "static_imbalance", "flexural_damping", "torsional_damping")
+"""Members beyond mass and springs that the strip model has."""
+
 
 @dataclass(frozen=True)
 class SectionHistories:
@@ -93,6 +96,7 @@ def section_system(
     """
     for section in sections:
         section.require_in_flow()
+        section.require_defaults("the strip model", but=_OF_STRIPS)
     one = np.ones((1, 1))
     factors = np.ones((len(sections), 2)) if load_factors is None else load_factors
     structure = StripStructure(

@@ -8,35 +8,11 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
-from equisection.beam.section import Section
+from equisection.beam.section import QUANTITIES, Section
 from equisection.conventions import dynamic_pressure
 from equisection.reduction.flutter_bias import FlutterBias
 from equisection.reduction.integrals import Integrals
 
-#: Members of :class:`Section` with units and meaning.
-_MEMBERS = {
-    "torsional_stiffness": ("N m rad-1 m-1", "torsional stiffness k_theta per unit span"),
-    "flexural_stiffness": ("N m-2", "flexural stiffness k_w per unit span"),
-    "inertia": ("kg m", "moment of inertia I_2D about the elastic axis per unit span"),
-    "mass": ("kg m-1", "mass m_2D per unit span"),
-    "static_imbalance": ("kg", "static imbalance S_2D per unit span, positive with mass aft"),
-    "flexural_damping": ("N s m-2", "flexural damping c_w per unit span"),
-    "torsional_damping": ("N m s rad-1 m-1", "torsional damping c_theta per unit span"),
-    "chord": ("m", "chord c"),
-    "elastic_axis": ("1", "place of the elastic axis, x/c from the leading edge"),
-    "twist_recovery": ("1", "a: twist of the tip = twist of the section / a"),
-    "deflection_recovery": ("1", "b: deflection of the tip = deflection of the section / b"),
-}
-#: What they are called in the flow of the run, and are there; the others stay, the chord is 1.
-_IN_FLOW = {
-    "torsional_stiffness": ("k_star", "k_theta/(q c^2)"),
-    "flexural_stiffness": ("k_w_star", "k_w/q"),
-    "inertia": ("i_star", "I_2D/(rho c^4/2)"),
-    "mass": ("m_star", "m_2D/(rho c^2/2)"),
-    "static_imbalance": ("s_star", "S_2D/(rho c^3/2)"),
-    "flexural_damping": ("c_w_star", "c_w/(rho V c/2)"),
-    "torsional_damping": ("c_theta_star", "c_theta/(rho V c^3/2)"),
-}
 _RATIOS = {"inertia_ratio": "c^2 m_2D/I_2D", "stiffness_ratio": "c^2 k_w/k_theta"}
 _INTEGRALS = {
     "mass_theta": "M_theta (Eq. 6)",
@@ -74,10 +50,13 @@ def equivalent_to_dataset(
     si = list(sections.values())
     in_flow = [section.in_flow(density, speed) for section in si]
     variables: dict[str, object] = {
-        name: _of_each(si, name, units, text) for name, (units, text) in _MEMBERS.items()
+        name: _of_each(si, name, quantity.units, quantity.meaning)
+        for name, quantity in QUANTITIES.items()
     }
-    for member, (name, text) in _IN_FLOW.items():
-        variables[name] = _of_each(in_flow, member, "1", text)
+    for member, quantity in QUANTITIES.items():
+        if quantity.flow_name:
+            text = quantity.flow_meaning
+            variables[quantity.flow_name] = _of_each(in_flow, member, "1", text)
     for name, text in _RATIOS.items():
         variables[name] = _of_each(si, name, "1", text)
     for name, text in _INTEGRALS.items():
@@ -176,13 +155,17 @@ def _of_each(
 def section_from_dataset(equivalent: xr.Dataset, reduction: str) -> Section:
     """Return one form of the section of ``structure/equivalent.nc``, in SI units."""
     chosen = equivalent.sel(reduction=reduction)
-    return Section(**{member: float(chosen[member]) for member in _MEMBERS})
+    return Section(**{member: float(chosen[member]) for member in QUANTITIES})
 
 
 def section_in_flow(equivalent: xr.Dataset, reduction: str) -> Section:
     """Return one form of the section of ``structure/equivalent.nc``, in the flow of the run."""
     chosen = equivalent.sel(reduction=reduction)
-    names = {member: _IN_FLOW.get(member, (member,))[0] for member in _MEMBERS if member != "chord"}
+    names = {
+        member: quantity.flow_name or member
+        for member, quantity in QUANTITIES.items()
+        if member != "chord"
+    }
     return Section(**{member: float(chosen[name]) for member, name in names.items()})
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING
@@ -83,6 +84,9 @@ class UnsteadyResult:
         Time that the case took, where the solver knows it better than its job.
     verdict
         The values of :data:`VERDICT_ATTRIBUTES`.
+    loads_zigzag
+        Zigzag of the loads from time step to time step over their standard deviation; NaN where
+        the loads of a step are not iterated.
     """
 
     time: NDArray[np.float64]
@@ -101,6 +105,7 @@ class UnsteadyResult:
     bending_loads: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 0)))
     tip_flow: TipFlow | None = None
     spent: Spent | None = None
+    loads_zigzag: float = math.nan
 
     def of_case(self, case: UnsteadyCase) -> xr.Dataset:
         """Return the data set that is written to the file of a case."""
@@ -145,6 +150,8 @@ class UnsteadyResult:
             "chord": chord,
             "end_time": float(self.time[-1]) if self.time.size else 0.0,
         }
+        if not math.isnan(self.loads_zigzag):
+            attributes["loads_zigzag"] = self.loads_zigzag
         dataset = xr.Dataset(
             variables,
             {"time": ("time", self.time, {"units": "c/V", "long_name": "convective time t V/c"})},

@@ -50,6 +50,10 @@ class CellCost(KeyGroup):
     memory_kb: NotNegative = Field(description="Memory (kB).")
 
 
+#: Work and cost of a job whose solver does not tell them: it asks for what starting it takes.
+NOT_TOLD = (Work(cells=0.0), CellCost(iteration=0.0, step=0.0, memory_kb=0.0))
+
+
 class CostModel(
     RootModel[dict[str, Annotated[dict[str, CellCost], Field(min_length=1)]]], frozen=True
 ):
@@ -123,11 +127,12 @@ def work_of(config: Config, kind: Kind, dimension: str, resolution: str, cases: 
     ConfigError
         The solver gives no work of such cases.
     """
-    estimate = getattr(import_module(SOLVERS[config.solver].work), kind.work_function, None)
+    module = SOLVERS[config.solver].work
+    estimate = getattr(import_module(module), kind.work_function, None) if module else None
     if estimate is None:
         raise ConfigError(
             f"solver: '{config.solver}' does not tell the work of {kind.name} cases; "
-            f"{kind.work_function} is to be in {SOLVERS[config.solver].work}"
+            f"{kind.work_function} is to be in {module or 'a module that the registry names'}"
         )
     work: Work = estimate(config, dimension, resolution, cases)
     return work

@@ -17,6 +17,7 @@ import numpy as np
 from equisection.cases import Kind
 from equisection.errors import EquisectionError, ResultFileError
 from equisection.results.failures import failure_of
+from equisection.results.loads_zigzag import warning_of_zigzag
 from equisection.results.netcdf import read_attributes
 from equisection.results.whole import is_whole
 from equisection.run.listing import Listed, cases_of_run, config_of_run
@@ -239,6 +240,9 @@ def _finished(entry: CaseStatus, attributes: dict[str, Any]) -> CaseStatus:
     """Return the entry of a result; one without a verdict has perhaps a failure."""
     failure = failure_of(attributes)
     reason = failure or str(attributes.get("reason", ""))
+    doubt = warning_of_zigzag(_number(attributes.get("loads_zigzag")) or 0.0)
+    if doubt:
+        reason = f"{reason}; {doubt}"
     return replace(
         entry,
         state=State.FAILED if failure else State.DONE,

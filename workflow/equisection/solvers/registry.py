@@ -24,8 +24,9 @@ if TYPE_CHECKING:  # jobs need not build the models of the configuration
 class SolverEntry:
     """Module of an adapter, its capabilities, and the ``dimensions`` of its cases.
 
-    ``work`` is the module with the work of its jobs (:class:`.work.Estimate`). ``check`` is one
-    whose function ``problems`` yields the parts of a configuration that it has no cases for.
+    ``work`` is the module with the work of its jobs (:class:`.work.Estimate`); without it they ask
+    for the memory and time that starting them takes. ``check`` is one whose function ``problems``
+    yields the parts of a configuration that it has no cases for.
     """
 
     module: str

@@ -36,6 +36,8 @@ from equisection.study.plan import Model
 
 #: Of the twist, below which its extrema are not where they seem to be.
 FEWEST_SAMPLES_A_PERIOD = 6
+#: Members of a section beyond mass and springs that the correction for the finite span has.
+_CORRECTED = ("static_imbalance", "elastic_axis", "flexural_damping", "torsional_damping")
 
 
 def steady_case(
@@ -205,6 +207,7 @@ def _corrected(
     ReductionError
         There is no equilibrium inside the polars.
     """
+    section.require_defaults("the correction for the finite span", but=_CORRECTED)
     equilibrium = corrected_equilibrium(
         factors_from_dataset(correction),
         math.radians(config.flow.incidence_deg),

@@ -7,6 +7,7 @@ from equisection.beam.beam import FREE_TIP, MID_CHORD, Beam, Boundary, CrossSect
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
 from equisection.config.groups.openfoam_keys import OpenFoam
+from equisection.config.groups.solver_keys import SolverKeys
 from equisection.config.groups.steady import Steady
 from equisection.config.groups.structure import Elements, Structure
 from equisection.config.groups.sweep import ModelName, Range, Sweep
@@ -30,6 +31,7 @@ __all__ = [
     "OpenFoam",
     "Range",
     "Separation",
+    "SolverKeys",
     "StartKeys",
     "Steady",
     "Structure",

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Annotated
 
 from pydantic import Field
 
+from equisection.config.groups.solver_keys import SolverKeys
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.values import NULLABLE, NUMBER, WHOLE, Name, NotNegative, Number, Truth
@@ -47,7 +47,7 @@ class Identification(KeyGroup):
     )
 
 
-class Embedded(KeyGroup):
+class Embedded(SolverKeys):
     """The embedded solver."""
 
     polars: Annotated[dict[Name, Annotated[str, Field(min_length=1)]], Field(min_length=1)] = Field(
@@ -88,20 +88,6 @@ class Embedded(KeyGroup):
     def input_files(self) -> list[str]:
         """Return the files that the solver reads."""
         return [path for path in self.polars.values() if path != FLAT_PLATE]
-
-    def threads(self, dimension: str) -> int:
-        """Return the threads of a job that runs cases of a dimension."""
-        del dimension
-        return 1
-
-    def environment(self) -> dict[str, str]:
-        """Return variables by which jobs find the solver on a machine."""
-        return {}
-
-    def refuses_folder(self, folder: Path) -> str:
-        """Return why the solver cannot work in a folder; empty if it can, as in any."""
-        del folder
-        return ""
 
 
 @check("embedded.separation.delay", "embedded.separation.relaxation")

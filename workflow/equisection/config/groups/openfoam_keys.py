@@ -9,8 +9,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from equisection.config.groups.solver_keys import SolverKeys
 from equisection.keys.checks import Problem, check
-from equisection.keys.group import KeyGroup
 from equisection.keys.values import NUMBER, WHOLE, Name
 
 MeshName = Literal[
@@ -40,7 +40,7 @@ LARGEST_TIME_STEP = 0.04
 _DROPPED = re.compile(r"""[\s'"]""")
 
 
-class OpenFoam(KeyGroup):
+class OpenFoam(SolverKeys):
     """OpenFOAM: k-omega SST, walls resolved; the section on one core, the plate on several."""
 
     meshes: Annotated[dict[Name, MeshName], Field(min_length=1)] = Field(
@@ -81,10 +81,6 @@ class OpenFoam(KeyGroup):
     def threads(self, dimension: str) -> int:
         """Return the threads of a job that runs a case of a dimension."""
         return self.ranks if dimension == "3d" else 1
-
-    def input_files(self) -> list[str]:
-        """Return the files that the solver reads."""
-        return []
 
     def environment(self) -> dict[str, str]:
         """Return variables by which jobs find the solver on a machine."""

@@ -72,6 +72,7 @@ from equisection.solvers.verdicts import (
     last_look,
     refused,
 )
+from equisection.verdict.zigzag import zigzag_of
 
 logger = logging.getLogger(__name__)
 
@@ -264,7 +265,8 @@ class PlateRun(FreeRun[PlateMesh]):
 
     def _result(self, failure: str) -> UnsteadyResult:
         case = self.case
-        history = self.history().sampled(case.time_step, case.output_interval, case.duration)
+        every_step = self.history()
+        history = every_step.sampled(case.time_step, case.output_interval, case.duration)
         end = math.inf if failure else decided_at(case, self.tip_motion(history))
         history = history.sampled(case.time_step, case.output_interval, end)
         tip = self.tip_motion(history)
@@ -283,6 +285,7 @@ class PlateRun(FreeRun[PlateMesh]):
             bending_amplitudes=history.position[:, torsion:].T,
             torsion_loads=history.load[:, :torsion].T,
             bending_loads=history.load[:, torsion:].T,
+            loads_zigzag=zigzag_of(every_step.time, every_step.lift, every_step.moment),
         )
 
 

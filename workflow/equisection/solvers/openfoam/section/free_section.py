@@ -53,6 +53,7 @@ from equisection.solvers.verdicts import (
     last_look,
     refused,
 )
+from equisection.verdict.zigzag import zigzag_of
 
 logger = logging.getLogger(__name__)
 
@@ -230,4 +231,5 @@ def _result(
         moment=history.moment,
         incidence=math.radians(case.incidence_deg) + history.twist,
         verdict=judge(case, tip, failure),
+        loads_zigzag=zigzag_of(so_far.time, so_far.lift, so_far.moment),
     )
