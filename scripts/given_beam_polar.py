@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from equisection.aerodynamics.polar import Polar
+from equisection.io.polar_rows import MID_CHORD
 from equisection.results.netcdf import write_dataset
 from equisection.results.polar_dataset import given_polar
 from equisection.run.script import logged
@@ -10,7 +11,8 @@ from equisection.run.script import logged
 
 def main(polar: Path, resolution: str, output: Path) -> None:
     """Write the file's polar as that of the run's resolution."""
-    write_dataset(output, given_polar(Polar.read(polar, symmetric=False), resolution))
+    beam = Polar.read(polar, symmetric=False, moment_axis=MID_CHORD)
+    write_dataset(output, given_polar(beam, resolution))
 
 
 if __name__ == "__main__":

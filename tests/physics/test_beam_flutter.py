@@ -14,6 +14,7 @@ from scipy.optimize import brentq
 from equisection.aerodynamics.induction import cosine_strips
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
+from equisection.aerodynamics.thin_airfoil import ThinAirfoil
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.beam import Beam
 from equisection.errors import ModesError, ReductionError
@@ -22,6 +23,7 @@ from equisection.motion.beams import BeamParameters, beam_system
 from equisection.motion.steady_states import least_stable_eigenvalue
 from equisection.reduction.beam_section import reduce
 from equisection.reduction.flutter_bias import FlutterBias, flutter_bias, refusal
+from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import reduce_beam
 from equisection.structure.modal_matrices import modal_matrices
 from equisection.structure.mode_set import ModeSet
@@ -243,6 +245,42 @@ class TestSection:
 def bias_of(beam: Beam, reduction: str = "consistent") -> FlutterBias:
     modes = modes_of(beam, 3)
     return flutter_bias(reduce_beam(beam, modes, reduction), beam, modes, AIR)
+
+
+def deflection_over_twist(mass, stiffness, likeness, onset: FlutterOnset) -> float:
+    """|w/theta| (chords per rad) of a bending and a torsion mode at flutter, from the row of w."""
+    chord = 1.8288
+    pressure = 0.5 * AIR * onset.speed**2
+    units = pressure * np.array([1.0, chord])
+    air = ThinAirfoil(0.33 - 0.5).influence(onset.omega * chord / onset.speed)
+    row = (stiffness[0] - onset.omega**2 * mass[0]) / units - air[0] * likeness[0]
+    return abs(row[1] / row[0])
+
+
+def test_ratio_of_an_oscillating_tip():
+    """Goland's wing at flutter: 0.484 for its tip; the section's 0.321 times sqrt(2) is 0.454.
+
+    With a/b, the ratio of a static load, it would be 0.395.
+    """
+    beam = goland()
+    section = reduce_beam(beam, modes_of(beam), "consistent")
+    ratio = span_integrals(beam, modes_of(beam), 1).oscillation_ratio
+    assert ratio == pytest.approx(math.sqrt(2.0), rel=1e-4)
+    raw = deflection_over_twist(
+        section.mass_matrix,
+        section.stiffness_matrix,
+        np.ones((2, 2)),
+        section_flutter(section, AIR),
+    )
+    pair = modal_matrices(beam, modes_of(beam), 1, 1)
+    exact = deflection_over_twist(
+        pair.mass, pair.stiffness, pair.likeness, beam_flutter(pair, beam.chord, 0.33, AIR)
+    )
+    assert raw == pytest.approx(0.321, abs=1e-3)
+    assert exact == pytest.approx(0.482, abs=2e-3)  # 0.484 with all modes
+    assert raw * ratio == pytest.approx(0.4545, abs=1e-3)
+    static = section.twist_recovery / section.deflection_recovery
+    assert raw * static == pytest.approx(0.395, abs=1e-3)
 
 
 class TestBias:

@@ -161,7 +161,10 @@ def test_the_rigid_beam_carries_the_load_of_the_lifting_line():
     assert strips.weights @ circulatory == pytest.approx(steady.lift, rel=1e-9)
     columns = np.concatenate([states[0], deficits[0], [1.0]])
     np.testing.assert_allclose(
-        system.probe[0] @ columns, steady.effective_incidence, rtol=0, atol=1e-9
+        system.probe[0, : system.layout.strips] @ columns,
+        steady.effective_incidence,
+        rtol=0,
+        atol=1e-9,
     )
 
 

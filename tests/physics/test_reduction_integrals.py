@@ -86,8 +86,7 @@ def test_the_solid_plate_is_more_alike_than_the_beam():
 
 def test_warnings_speak_only_where_there_is_something_to_say():
     assert validity_warnings(analytic_integrals("clamped-free")) == ()
-    (fork,) = validity_warnings(analytic_integrals("one-fork"))
-    assert "cos(phi) = 0.849" in fork
+    assert validity_warnings(analytic_integrals("one-fork")) == ()  # its bias speaks, not cos(phi)
     odd = replace(analytic_integrals("clamped-free"), f_mean=np.zeros(4), g_mean=np.zeros(4))
     moment, lift = validity_warnings(odd)
     assert "moment" in moment

@@ -297,6 +297,28 @@ MALFORMED = [
     ),
     ({"steady": {"incidence_deg": [0, 1, 2, 95]}}, "steady.incidence_deg.3", "95", "below 90"),
     ({"flow": {"incidence_deg": 0}}, "flow.incidence_deg", "0", "nothing sets it in motion"),
+    ({"flow": {"incidence_deg": 0}}, "flow.incidence_deg", "0", "0 with unsteady.start.twist_deg"),
+    (
+        {"unsteady": {"start": {"twist_deg": 0.02}}},
+        "unsteady.start.twist_deg",
+        "0.02",
+        "0, or between 0.05 and 6 deg",
+    ),
+    ({"unsteady": {"start": {"twist_deg": -7}}}, "unsteady.start.twist_deg", "-7", "either way"),
+    ({"unsteady": {"start": {"heave_rate": 2}}}, "unsteady.start.heave_rate", "2", "below 1"),
+    (
+        {"unsteady": {"start": {"twist_deg": 0.5}}, "solver": "openfoam"},
+        "unsteady.start.twist_deg",
+        "0.5",
+        "'embedded' takes it",
+    ),
+    (
+        {"unsteady": {"start": {"heave_rate": 0.01}}, "solver": "openfoam"},
+        "unsteady.start.heave_rate",
+        "0.01",
+        "'embedded' takes it",
+    ),
+    ({"embedded": {"incidence_point": 0}}, "embedded.incidence_point", "0", "0.25"),
     (
         {"flow": {"incidence_deg": 0}, "embedded": {"symmetric": False}, "solver": "openfoam"},
         "flow.incidence_deg",

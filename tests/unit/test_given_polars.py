@@ -41,18 +41,26 @@ def test_a_broken_polar_of_the_beam_is_named_whatever_the_solver(tmp_path: Path)
 
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_a_polar_without_the_runs_incidence_is_refused(tmp_path: Path, symmetric: bool) -> None:
-    """Such as one in radians: each of its cases would fail."""
+    """Each of its cases would fail."""
+    text = re.sub(r"^[248],", lambda degrees: f"{int(degrees[0][0]) / 4:g},", GOOD, flags=re.M)
+    (tmp_path / "own.csv").write_text(text)
+    raw: dict[str, Any] = {"embedded": {"polars": {"coarse": "own.csv"}, "symmetric": symmetric}}
+    (line,) = lines_of(raw, tmp_path)
+    first = -2 if symmetric else 0
+    assert line == (
+        f"config: flow.incidence_deg: 2.5: allowed is {first:g} to 2 deg, what own.csv covers "
+        "(is it in degrees?)"
+    )
+
+
+def test_a_polar_in_radians_is_refused(tmp_path: Path) -> None:
     text = re.sub(
         r"^[248],", lambda degrees: f"{math.radians(int(degrees[0][0])):.3f},", GOOD, flags=re.M
     )
     (tmp_path / "own.csv").write_text(text)
-    raw: dict[str, Any] = {"embedded": {"polars": {"coarse": "own.csv"}, "symmetric": symmetric}}
-    (line,) = lines_of(raw, tmp_path)
-    first = -0.14 if symmetric else 0
-    assert line == (
-        f"config: flow.incidence_deg: 2.5: allowed is {first:g} to 0.14 deg, what own.csv covers "
-        "(is it in degrees?)"
-    )
+    (line,) = lines_of({"embedded": {"polars": {"coarse": "own.csv"}}}, tmp_path)
+    assert line.startswith("config: embedded.polars.coarse: 'own.csv': line 5: incidence_deg ends")
+    assert line.endswith("the angles look like radians: give them in degrees")
 
 
 def test_polars_of_another_solver_are_left_alone(tmp_path: Path) -> None:
@@ -137,11 +145,25 @@ def test_moments_that_may_be_about_the_quarter_chord_are_not_taken_silently(tmp_
     (tmp_path / "airfoil.csv").write_text(LEVEL)
     raw: dict[str, Any] = {"embedded": {"polars": {"coarse": "airfoil.csv"}}}
     (line,) = lines_of(raw, tmp_path)
-    assert line.startswith("config: embedded.polars.coarse: 'airfoil.csv': allowed is such a polar")
+    assert line.startswith("config: embedded.polars.coarse: 'airfoil.csv': its lift rises by 6")
     assert "its lift rises by 6 per rad and its moment by -0.057 only" in line
     for axis in (0.25, 0.5):
         raw["embedded"]["moment_axis"] = axis
         check_polars(load_config(raw), tmp_path)
+
+
+def test_polar_of_the_beam_has_its_moments_about_mid_chord(tmp_path: Path) -> None:
+    raw: dict[str, Any] = {**CFD, "steady": {"beam_polar": "beam.csv"}}
+    refusals = {
+        "": "config: steady.beam_polar: 'beam.csv': allowed are moments about mid-chord: its lift",
+        "# Valid for: moment_axis 0.25\n": "mid-chord: it says 0.25; write them",
+    }
+    for said, words in refusals.items():
+        (tmp_path / "beam.csv").write_text(said + LEVEL)
+        (line,) = lines_of(raw, tmp_path)
+        assert words in line
+    (tmp_path / "beam.csv").write_text("# Valid for: moment_axis 0.5\n" + LEVEL)
+    check_polars(load_config(raw), tmp_path)
 
 
 def test_moment_axis_is_that_of_the_polar_that_the_solver_reads(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ import pytest
 from tests.sample_cases import UNSTEADY
 
 from equisection.beam.section import Section
-from equisection.cases import UnsteadyCase, case_hash
+from equisection.cases import Start, UnsteadyCase, case_hash
 from equisection.cases.kinds import kind_named
 
 ROOT = Path(__file__).parents[2]
@@ -42,6 +42,15 @@ def test_there_are_cases_of_every_kind_and_dimension() -> None:
 def test_kept_case_has_its_hash(text: str, digest: str) -> None:
     case = json.loads(text)
     assert case_hash(kind_named(case["kind"]).case.model_validate(case)) == digest
+
+
+@pytest.mark.parametrize("start", [Start(twist_deg=0.1), Start(heave_rate=0.01)])
+def test_start_makes_another_case(start: Start) -> None:
+    assert "start" not in UNSTEADY.model_dump()
+    assert case_hash(UNSTEADY.model_copy(update={"start": Start()})) == case_hash(UNSTEADY)
+    case = UNSTEADY.model_copy(update={"start": start})
+    assert case_hash(case) != case_hash(UNSTEADY)
+    assert UnsteadyCase.model_validate_json(case.model_dump_json()) == case
 
 
 @pytest.mark.parametrize(

@@ -49,6 +49,8 @@ def test_whole_polar_is_taken_as_it_is(tmp_path: Path) -> None:
         ("# c\nincidence_deg,cl,Cd\n", r"line 2: no column cm; found incidence_deg, cl, cd"),
         ("alpha,lift\n", r"line 1: no column incidence_deg, cl, cm, cd; found alpha, lift"),
         ("incidence_deg;cl;cm;cd\n0;0,1;0;0\n", r"line 1: .*separated by commas, with a point"),
+        ("incidence_deg,cl,C_L,cm,cd\n" + POINTS, r"line 1: more than one column is cl; found "),
+        ("incidence_deg,cl,cm,cd,CD,cm\n" + POINTS, r"line 1: more than one column is cm, cd;"),
         (HEADER, r"0 points; 4 or more"),
         (HEADER + "0,0,0,0\n1,1,1,1\n2,1,1,1\n", r"line 4: .* 3 points; 4 or more"),
         (HEADER + "#\n" + POINTS + "3,.6,.1,.1\n", r"line 7: .* 3 is below the 4 of line 6"),
@@ -81,8 +83,8 @@ def test_the_file_tells_a_half_polar_by_its_first_angle(
     tmp_path: Path, points: str, mirrored: bool
 ) -> None:
     path = write(tmp_path, HEADER + points)
-    polar = Polar.read(path)
-    said = Polar.read(path, symmetric=mirrored)
+    polar = Polar.read(path, moment_axis=0.5)
+    said = Polar.read(path, symmetric=mirrored, moment_axis=0.5)
     np.testing.assert_array_equal(polar.incidence, said.incidence)
     np.testing.assert_array_equal(polar.moment, said.moment)
     assert (polar.incidence[0] == -polar.incidence[-1] and polar.lift[0] == -0.6) == mirrored
@@ -111,7 +113,30 @@ def test_moment_about_the_quarter_chord_of_a_thin_plate_is_none(tmp_path: Path) 
     path = write(tmp_path, HEADER + rows)
     np.testing.assert_allclose(Polar.read(path, moment_axis=0.25).moment, normal / 4, atol=1e-15)
     np.testing.assert_allclose(Polar.read(path, moment_axis=1.0).moment, -normal / 2, atol=1e-15)
-    assert not Polar.read(path).moment.any()
+    assert not Polar.read(path, moment_axis=0.5).moment.any()
+    with pytest.raises(PolarFileError, match=r"section\.csv: its lift rises by 6.* moment_axis"):
+        Polar.read(path)
+
+
+def test_moment_that_rises_with_the_lift_is_about_mid_chord(tmp_path: Path) -> None:
+    """And a section that does not lift, such as a square prism, may have none at all."""
+    for slope, moment in ((6.0, 0.06), (6.0, 0.31), (6.0, -0.31), (1.9, 0.0), (-4.7, 0.0)):
+        rows = "".join(
+            f"{a},{slope * np.radians(a):.9g},{moment * slope * np.radians(a):.9g},0.1\n"
+            for a in range(-4, 5, 2)
+        )
+        polar = Polar.read(write(tmp_path, HEADER + rows))
+        assert polar.moment_slope() == pytest.approx(moment * slope, rel=1e-6, abs=1e-9)
+
+
+@pytest.mark.parametrize("slope", [2 * np.pi, 3.0, -4.7, 10.0])
+def test_radians_in_the_place_of_degrees_are_refused(tmp_path: Path, slope: float) -> None:
+    alpha = np.linspace(-0.2, 0.2, 9)
+    rows = "".join(f"{a:.9g},{slope * a:.9g},{slope * a / 4:.9g},0.01\n" for a in alpha)
+    with pytest.raises(PolarFileError, match=r"line 10: .* ends at 0\.2, .* look like radians"):
+        Polar.read(write(tmp_path, HEADER + rows))
+    rows = "".join(f"{np.degrees(a):.9g},{slope * a:.9g},{slope * a / 4:.9g},0.01\n" for a in alpha)
+    assert Polar.read(write(tmp_path, HEADER + rows)).lift_slope() == pytest.approx(slope, rel=1e-6)
 
 
 @pytest.mark.parametrize("axis", [25, -0.25, float("nan")])

@@ -45,6 +45,7 @@ GATHERED = {
         "twist_recovery",
         "deflection_recovery",
         "cos_phi",
+        "oscillation_ratio",
         "mass_theta",
         "a_theta_w",
     },

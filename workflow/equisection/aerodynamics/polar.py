@@ -160,7 +160,8 @@ class Polar:
             refused.
         moment_axis
             x/c from the leading edge of the point that the file's moments are about. None: what
-            the format says (0.25 for XFOIL), else mid-chord, 0.5. From there the moment is
+            the format says (0.25 for XFOIL), else mid-chord, 0.5; but moments that look as if they
+            were about the quarter chord are refused. From there the moment is
             transferred to mid-chord,
 
                 c_m = c_m,axis - (x/c - 1/2) (c_l cos alpha + c_d sin alpha).
@@ -168,11 +169,12 @@ class Polar:
         Raises
         ------
         PolarFileError
-            The file cannot be used, or its format has its moments about another point.
+            The file cannot be used, or it is open or contradictory which point its moments are
+            about.
         """
         path = Path(path)
         points = read_rows(path, symmetric)
-        axis = points.format.axis_of(path, moment_axis)
+        axis = points.axis_of(path, moment_axis)
         incidence_deg, lift, moment, drag = np.array([row.values for row in points.rows]).T
         incidence = np.radians(incidence_deg)
         if axis != MID_CHORD:

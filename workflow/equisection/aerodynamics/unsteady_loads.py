@@ -2,18 +2,25 @@
 
 At each strip, with theta the twist, w the deflection in chords and ' = d/ds,
 
-    alpha_34 = theta_0 + theta + theta'/4 - w' - alpha_i          incidence at 3/4 chord
+    alpha_34 = theta_0 + theta + r theta' - w' - alpha_i          incidence at 3/4 chord, r = 1/4
     z_i'     = 2 b_i (alpha_34 - z_i),  i = 1, 2                   Wagner lag (``indicial``)
     alpha_E  = (1 - A_1 - A_2) alpha_34 + A_1 z_1 + A_2 z_2        effective incidence
-    alpha_S  = alpha_E - theta'/4                                  incidence of the leading edge
+    alpha_S  = alpha_E - r theta'                                  incidence of the leading edge
     tau_1 x' + x = alpha_S - tau_2 alpha_S'                        bubble (``separation``)
     tau_3 c' + c = a_l alpha_E - Delta_l(x)                        circulatory lift
-    c_l = c + (pi/2) (theta' - w'')
-    c_m = a_m alpha_S - Delta_m(x) - (pi/64) theta''
+    c_l = sqrt(1 + w_r'^2) (c - c_d(x) w_r') + (pi/2) (theta' - w'')
+    c_m = (1 + w_r'^2) (a_m alpha_S - Delta_m(x)) - (pi/64) theta'',    w_r' = w' - r theta'
 
 alpha_i is the incidence that the wake of a finite beam induces; zero for a section. The terms
 with pi are Theodorsen's apparent-mass terms about mid-chord (NACA Report 496 with a = 0), those of
-a thin plate in free air.
+a thin plate in free air. c_l is normal to the oncoming flow: the wind that a moving section meets
+is turned by arctan(w_r') (:mod:`equisection.aerodynamics.velocity_triangle`), so drag damps heave.
+Without any drag in the polar, as in thin-plate theory, the loads are linear in the motion: the
+wind is not turned, and w_r' above is 0.
+
+r is the distance of the *incidence point* behind mid-chord. A quarter of the chord, at 3/4 chord,
+is that of a thin plate, whose wake leaves at a sharp trailing edge. Of a bluff section the point is
+not known; quasi-steady theory takes one between mid-chord (r = 0) and there.
 
 The suction at the leading edge is proportional to alpha_S: (sqrt 2/2)(2 C Q - b theta') of
 Garrick (NACA Report 567), the first coefficient A_0 of thin-airfoil theory. This suction makes the
@@ -21,7 +28,8 @@ flow separate at the sharp edge, so alpha_S and not alpha_E drives the bubble (R
 J. Fluid Mech. 751, 2014). The moment of a thin plate about mid-chord is that of its leading edge:
 Theodorsen's (pi/2) alpha_E - (pi/8) theta' is (pi/2) alpha_S. Here the polar's slope a_m takes the
 place of pi/2.
-With a_l = 2 pi, a_m = pi/2, no deficit and no lag of the bubble this *is* Theodorsen's theory.
+With a_l = 2 pi, a_m = pi/2, no drag, no deficit and no lag of the bubble this *is* Theodorsen's
+theory.
 
 The derivative of alpha_S is not needed: with y' = (alpha_S - y)/tau_1,
 
@@ -43,6 +51,7 @@ from numpy.typing import NDArray
 from equisection.aerodynamics.indicial import IMMEDIATE_SHARE, JONES_AMPLITUDES, LAG_RATES
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, Branches, SeparationLags
+from equisection.aerodynamics.velocity_triangle import force_across, pressure_rise
 
 Floats = NDArray[np.float64]
 
@@ -54,23 +63,41 @@ APPARENT_INERTIA = math.pi / 64
 
 
 REAR_POINT = 0.25
-"""Chords from mid-chord back to the point whose incidence sets the circulation."""
-
-LEADING_EDGE_ARM = 0.25
-"""Incidence of the leading edge against pitch rate: alpha_S = alpha_E - theta'/4."""
+"""Chords r of a thin plate, from mid-chord back to the point whose incidence sets circulation."""
 
 
 @dataclass(frozen=True)
 class UnsteadyLoads:
-    """The unsteady loads of one polar: its branches and the lags of its bubble."""
+    """The unsteady loads of one polar.
+
+    Attributes
+    ----------
+    branches
+        Branches of the polar.
+    lags
+        Lags of its bubble.
+    rear_point
+        r, chords from mid-chord back to the point whose incidence sets the circulation.
+    """
 
     branches: Branches
     lags: SeparationLags
+    rear_point: float = REAR_POINT
 
     @classmethod
-    def from_polar(cls, polar: Polar, lags: SeparationLags = IDENTIFIED_LAGS) -> UnsteadyLoads:
+    def from_polar(
+        cls,
+        polar: Polar,
+        lags: SeparationLags = IDENTIFIED_LAGS,
+        rear_point: float = REAR_POINT,
+    ) -> UnsteadyLoads:
         """Take the polar's own slopes at zero lift as the attached branch."""
-        return cls(Branches.from_polar(polar), lags)
+        return cls(Branches.from_polar(polar), lags, rear_point)
+
+    @property
+    def has_drag(self) -> bool:
+        """Presence of drag in the polar, with which the wind is turned by the motion."""
+        return bool(self.branches.polar.drag.any())
 
 
 @dataclass(frozen=True)
@@ -128,17 +155,21 @@ def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads) -> LoadHistory:
     step = motion.time_step
     pitch_rate = np.gradient(motion.incidence, step)
     heave_rate = np.gradient(motion.deflection, step)
-    rear = motion.incidence + REAR_POINT * pitch_rate - heave_rate
+    rise = heave_rate - loads.rear_point * pitch_rate
+    rear = motion.incidence - rise
     effective = IMMEDIATE_SHARE * rear
     for amplitude, rate in zip(JONES_AMPLITUDES, LAG_RATES, strict=True):
         effective = effective + amplitude * follow(rear, rate, step)
     lags, branches = loads.lags, loads.branches
-    leading = effective - LEADING_EDGE_ARM * pitch_rate
+    leading = effective - loads.rear_point * pitch_rate
     bubble = adapted_incidence(leading, lags, step)
     lift = branches.lift_slope * effective - branches.lift_deficit(bubble)
     if lags.lift_lag > 0.0:
         lift = follow(lift, 1.0 / lags.lift_lag, step)
     moment = branches.moment_slope * leading - branches.moment_deficit(bubble)
+    if loads.has_drag:
+        lift = force_across(lift, branches.polar.drag_coefficient(bubble), rise)
+        moment = moment * (1.0 + pressure_rise(rise))
     lift = lift + APPARENT_MASS * (pitch_rate - np.gradient(heave_rate, step))
     moment = moment - APPARENT_INERTIA * np.gradient(pitch_rate, step)
     return LoadHistory(lift, moment, effective)

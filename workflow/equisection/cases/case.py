@@ -151,3 +151,13 @@ class EndCriteria(Block):
     growing_amplitude_deg: float
     steadiness: float
     periods: int
+
+
+class Start(Block):
+    """Start of a free motion: twist of the tip until the release (deg), and its heave rate then.
+
+    The beam has them in its first modes, the section by its recovery factors.
+    """
+
+    twist_deg: float = 0.0
+    heave_rate: float = 0.0  # over V, up

@@ -17,7 +17,7 @@ from typing import Any, Literal
 from pydantic import model_validator
 
 from equisection.beam.section import Section
-from equisection.cases.case import BeamModes, Case, EndCriteria
+from equisection.cases.case import BeamModes, Case, EndCriteria, Start
 from equisection.errors import CaseFileError
 
 
@@ -28,9 +28,9 @@ class SteadyCase(Case):
 
 
 class UnsteadyCase(Case):
-    """Free section (`2d`) or free beam (`3d`), released from the rigid steady state."""
+    """Free section (`2d`) or free beam (`3d`), released from a steady state."""
 
-    left_out = frozenset({"lift_factor", "moment_factor"})
+    left_out = frozenset({"lift_factor", "moment_factor", "start"})
 
     kind: Literal["unsteady"] = "unsteady"
     k_star: float  # structural, uncorrected
@@ -38,6 +38,7 @@ class UnsteadyCase(Case):
     lift_factor: float = 1.0  # of c_l, where the correction is of the loads and not of the section
     moment_factor: float = 1.0  # of c_m about mid-chord, the same
     beam: BeamModes | None = None
+    start: Start = Start()
     duration: float  # c/V
     time_step: float  # c/V
     output_interval: float  # c/V

@@ -2,8 +2,8 @@
 
 The format: lines that start with ``#`` and empty lines are skipped, the first other line is the
 header. Columns ``incidence_deg, cl, cm, cd`` (upper or lower case, also as c_l or C_L, in any
-order) are read, others are ignored. Angles in degrees, ascending; moment nose up, about mid-chord
-unless the reader is told otherwise.
+order) are read, each once, others are ignored. Angles in degrees, ascending; moment nose up, about
+mid-chord unless the reader is told otherwise.
 """
 
 from __future__ import annotations
@@ -35,6 +35,12 @@ def _read(path: Path, lines: Lines) -> list[Row]:
         )
     (header_line, header), *points = used
     names = [_column(name) for name in _fields(header)]
+    twice = [name for name in COLUMNS if names.count(name) > 1]
+    if twice:
+        raise PolarFileError(
+            f"{path}, line {header_line}: more than one column is {', '.join(twice)}; found "
+            f"{', '.join(_fields(header))}; delete or rename those that are not to be read"
+        )
     missing = [name for name in COLUMNS if name not in names]
     if missing:
         advice = "others are ignored"

@@ -19,6 +19,14 @@ COLUMNS = ("incidence_deg", "cl", "cm", "cd")
 FEWEST_POINTS = 4
 #: x/c from the leading edge of the point that every polar here has its moment about.
 MID_CHORD = 0.5
+#: Slope of the lift (1/rad) above which a section is a lifting one; 2 pi of a thin airfoil.
+LIFTING = 2.0
+#: Slope of the moment over that of the lift below which it may be about the quarter chord; about
+#: mid-chord it is 1/4 of a thin airfoil.
+LEVEL = 0.05
+#: Slope of the lift (1/rad) that no section has, and the angle (deg) below which those of a whole
+#: polar are radians with such a slope: a thin airfoil would have 360.
+STEEPEST, LARGEST_RADIANS = 30.0, 1.6
 
 #: Lines of a text file without blanks at their ends, each with its number from 1.
 Lines = Sequence[tuple[int, str]]
@@ -110,6 +118,33 @@ class PolarRows:
     rows: list[Row]
     half: bool
     format: PolarFormat
+
+    @property
+    def about_quarter_chord(self) -> str:
+        """Signs, in words, that its moments are about the quarter chord; empty without any."""
+        lift, moment = slopes(self.rows)
+        if lift <= LIFTING or abs(moment) >= LEVEL * lift:
+            return ""
+        return (
+            f"its lift rises by {lift:.2g} per rad and its moment by {moment:.2g} only, as about "
+            "the quarter chord"
+        )
+
+    def axis_of(self, path: Path, given: float | None) -> float:
+        """Return x/c of the point that the moments are about (:meth:`PolarFormat.axis_of`).
+
+        Raises
+        ------
+        PolarFileError
+            Also where nobody says so and the moments look as if it were the quarter chord.
+        """
+        axis = self.format.axis_of(path, given)
+        if given is None and self.format.moment_axis is None and self.about_quarter_chord:
+            raise PolarFileError(
+                f"{path}: {self.about_quarter_chord}; say where it is: moment_axis "
+                "(embedded.moment_axis) 0.25, or 0.5 if it is about mid-chord"
+            )
+        return axis
 
 
 def read_validity(path: Path) -> dict[str, float | bool]:
@@ -207,7 +242,19 @@ def check_points(path: Path, rows: Sequence[Row], symmetric: bool | None) -> boo
                 f"{before.incidence_deg:g} of line {before.line}; sort the angles upwards, each "
                 "once"
             )
+    _refuse_radians(path, rows)
     return symmetric
+
+
+def _refuse_radians(path: Path, rows: Sequence[Row]) -> None:
+    """Refuse angles that look like radians, by a lift that no section has per degree."""
+    largest, (lift, _) = max(abs(row.incidence_deg) for row in rows), slopes(rows)
+    if largest <= LARGEST_RADIANS and abs(lift) > STEEPEST:
+        raise PolarFileError(
+            f"{path}, line {rows[-1].line}: incidence_deg ends at {rows[-1].incidence_deg:g}, and "
+            f"cl changes by {math.radians(lift):.2g} a degree, where a thin airfoil has 0.11; the "
+            "angles look like radians: give them in degrees"
+        )
 
 
 def slopes(rows: Sequence[Row]) -> tuple[float, float]:

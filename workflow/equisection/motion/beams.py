@@ -1,4 +1,4 @@
-"""Beams of a few modes on strips of the span, released from the rigid steady state.
+"""Beams of a few modes on strips of the span, released from a steady state.
 
 Torsion and bending modes (``motion.strip_system``) carry the unsteady loads of the section polar
 on every strip, and the strips induce incidence on each other through the matrix D of
@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.motion.march import Failure, Monitor, Progress, Recording, march
-from equisection.motion.steady_states import rigid_state
+from equisection.motion.steady_states import release_state
 from equisection.motion.strip_system import StripStructure, StripSystem, assemble
 
 Floats = NDArray[np.float64]
@@ -199,20 +199,29 @@ def release_beams(
     incidence_rad: float | Floats,
     duration: float,
     *,
+    tip_twist: float = 0.0,
+    tip_heave_rate: float = 0.0,
     time_step: float = BEAM_TIME_STEP,
     output_interval: float = OUTPUT_INTERVAL,
     monitor: BeamMonitor | None = None,
     progress: Progress | None = None,
 ) -> BeamHistories:
-    """Release N beams, at rest and undeformed, from steady flow at theta_0 (rad).
+    """Release N beams from steady flow at theta_0 (rad), at rest and undeformed by default.
 
-    ``duration``, ``time_step`` and ``output_interval`` are convective times. A beam on which a
-    bubble leaves the polar ends there and is named in ``failures``; the others go on.
+    ``tip_twist`` (rad) is that of the first torsion mode in which the beams are held until then,
+    ``tip_heave_rate`` (over V, up) the rate of the first bending mode that they get, both at the
+    tip (:func:`equisection.motion.steady_states.release_state`). ``duration``, ``time_step`` and
+    ``output_interval`` are convective times. A beam on which a bubble leaves the polar ends there
+    and is named in ``failures``; the others go on.
     """
     system = beam_system(parameters, loads, incidence_rad)
     recording = march(
         system,
-        rigid_state(system),
+        release_state(
+            system,
+            tip_twist / parameters.torsion_at_tip[0],
+            tip_heave_rate / parameters.bending_at_tip[0],
+        ),
         _outputs(parameters, system),
         duration=duration,
         time_step=time_step,

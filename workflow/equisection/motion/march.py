@@ -8,7 +8,7 @@ Systems*, section 4.3), gives
 
 Structure, Wagner lags, bubble lags and apparent mass are therefore integrated exactly at any
 step: no mode is too stiff, and a linear polar has no time-step error at all. u_1 follows from
-x_1 = C Y_1 + E u_1 + g, a small fixed-point problem in the bubble incidences alone: started from
+x_1 = C Y_1 + E u_1 + g, a small fixed-point problem in the signals of the strips: started from
 the extrapolation of u and iterated twice, which is second order in h.
 
 Lanes never mix, so a lane that fails (its bubble leaves the polar: NaN) or is stopped leaves the
@@ -136,9 +136,9 @@ def march(
     system
         The assembled lanes.
     start
-        States (N, n) and deficits (N, 2 S) at s = 0.
+        States (N, n) and deficits (N, d S) at s = 0.
     outputs
-        Rows to record, shape (N, n_out, n + 2 S + 1).
+        Rows to record, shape (N, n_out, n + d S + 1).
     duration, time_step, output_interval
         Convective times; the step is shortened to divide the output interval.
     monitor, progress
@@ -224,7 +224,8 @@ class _Run:
                 continue
             lost = np.asarray(~np.isfinite(self.deficits).all(axis=1))
             for row in np.flatnonzero(lost):
-                worst = float(x[row][np.argmax(np.abs(x[row]))])
+                at = x[row, : self._system.layout.strips]
+                worst = float(at[np.argmax(np.abs(at))])
                 failures.append(Failure(int(self.active[row]), float(time + number * step), worst))
             self.keep(~lost)
 

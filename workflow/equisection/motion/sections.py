@@ -1,4 +1,4 @@
-"""Sections with two degrees of freedom, released from the rigid steady state.
+"""Sections with two degrees of freedom, released from a steady state.
 
     I* theta'' - S* (w/c)'' + c_theta* theta' + k* theta = c_m,ea
     m* (w/c)'' - S* theta'' + c_w* (w/c)'     + k_w* (w/c) = c_l
@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.motion.march import Failure, Monitor, Progress, Recording, march
-from equisection.motion.steady_states import rigid_state
+from equisection.motion.steady_states import release_state
 from equisection.motion.strip_system import StripStructure, StripSystem, assemble
 
 Floats = NDArray[np.float64]
@@ -130,16 +130,21 @@ def release_sections(
     duration: float,
     *,
     load_factors: Floats | None = None,
+    twist: float | Floats = 0.0,
+    heave_rate: float | Floats = 0.0,
     time_step: float = SECTION_TIME_STEP,
     output_interval: float = OUTPUT_INTERVAL,
     monitor: SectionMonitor | None = None,
     progress: Progress | None = None,
 ) -> SectionHistories:
-    """Release N sections, at rest and untwisted, from steady flow at theta_0 (rad).
+    """Release N sections from steady flow at theta_0 (rad), at rest and untwisted by default.
 
-    ``load_factors`` are those of :func:`section_system`; the loads of the histories are without
-    them. ``duration``, ``time_step`` and ``output_interval`` are convective times. A section whose
-    bubble leaves the polar ends there and is named in ``failures``; the others go on.
+    ``twist`` (rad) is that at which the sections are held until then, and ``heave_rate`` (over V,
+    up) the rate that they get (:func:`equisection.motion.steady_states.release_state`), one value
+    or one per section. ``load_factors`` are those of :func:`section_system`; the loads of the
+    histories are without them. ``duration``, ``time_step`` and ``output_interval`` are convective
+    times. A section whose bubble leaves the polar ends there and is named in ``failures``; the
+    others go on.
     """
     system = section_system(sections, loads, incidence_rad, load_factors)
     states = np.eye(4, system.rates.shape[2])[None].repeat(system.structure.lanes, axis=0)
@@ -149,7 +154,7 @@ def release_sections(
     outputs = np.concatenate([states, *loads_of_strip], axis=1)
     recording = march(
         system,
-        rigid_state(system),
+        release_state(system, twist, heave_rate),
         outputs,
         duration=duration,
         time_step=time_step,

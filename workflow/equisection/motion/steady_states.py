@@ -1,9 +1,9 @@
-"""Steady states of the strip system: held rigid, in aeroelastic equilibrium, and near them.
+"""Steady states of the strip system: held, in aeroelastic equilibrium, and near them.
 
 Equilibrium is found with Newton's method on the bubble incidences x alone: all other states
 follow linearly from the deficits. Linearised about equilibrium the system is Y' = J Y with
 
-    J = A + B F (1 - E F)^-1 C,    F = du/dx,
+    J = A + B F (1 - E F)^-1 C,    F = du/d(signals),
 
 whose eigenvalues are growth rate and frequency of the small oscillations.
 """
@@ -21,22 +21,63 @@ Floats = NDArray[np.float64]
 NEWTON_STEPS = 50
 NEWTON_TOLERANCE = 1e-12
 """Largest change of x (rad) in the last step of Newton's method."""
+DEFICIT_STEPS = 200
+"""Iterations for the deficits of given states."""
 SHORTEST_STEP = 1e-3
 """Part of a step of Newton's method, where whole steps find nothing."""
 
 
 def rigid_state(system: StripSystem) -> tuple[Floats, Floats]:
-    """States Y (N, n) and deficits u (N, 2 S) of the beam held rigid at theta_0.
+    """States Y (N, n) and deficits u (N, d S) of the beam held rigid at theta_0.
 
     The structure is undeformed and at rest, every lag in equilibrium with the incidence that
     the strip then has: the state from which a case is released.
     """
-    start = system.layout.structural
-    return _steady(system, np.arange(start, system.layout.size))
+    return _steady(system, np.arange(system.layout.structural, system.layout.size))
+
+
+def release_state(
+    system: StripSystem, twist: Floats | float = 0.0, heave_rate: Floats | float = 0.0
+) -> tuple[Floats, Floats]:
+    """States Y (N, n) and deficits u (N, d S) at a release from another twist or with a rate.
+
+    The first torsion mode is held at a twist until the flow is steady, and let go with the springs'
+    zero at theta_0; at that moment the first bending mode gets a rate.
+
+    Parameters
+    ----------
+    system
+        The assembled lanes.
+    twist
+        Theta_1 (rad), one value or one per lane.
+    heave_rate
+        W_1' (chords per c/V, that is over V), up, one value or one per lane.
+    """
+    layout = system.layout
+    held = np.zeros((system.rates.shape[0], layout.structural))
+    held[:, layout.twist.start] = twist
+    states, deficits = _steady(system, np.arange(layout.structural, layout.size), held)
+    if not np.any(heave_rate):
+        return states, deficits
+    states[:, layout.deflection_rate.start] += heave_rate
+    return states, _consistent_deficits(system, states, deficits)
+
+
+def _consistent_deficits(system: StripSystem, states: Floats, near: Floats) -> Floats:
+    """Deficits u of given states, by iteration from near ones; NaN where it does not end."""
+    one = np.ones((states.shape[0], 1))
+    u = near
+    for _ in range(DEFICIT_STEPS):
+        columns = np.concatenate([states, u, one], axis=1)
+        earlier, u = u, system.deficits(np.einsum("nij,nj->ni", system.probe, columns))
+        if not np.any(np.abs(u - earlier) > NEWTON_TOLERANCE):
+            return u
+    u[np.any(np.abs(u - earlier) > NEWTON_TOLERANCE, axis=1)] = np.nan
+    return u
 
 
 def equilibrium(system: StripSystem) -> tuple[Floats, Floats]:
-    """States Y (N, n) and deficits u (N, 2 S) of static aeroelastic equilibrium.
+    """States Y (N, n) and deficits u (N, d S) of static aeroelastic equilibrium.
 
     Lanes that have none inside the polar (or near which Newton's method does not converge)
     are NaN.
@@ -44,13 +85,20 @@ def equilibrium(system: StripSystem) -> tuple[Floats, Floats]:
     return _steady(system, np.arange(system.layout.size))
 
 
-def _steady(system: StripSystem, free: NDArray[np.intp]) -> tuple[Floats, Floats]:
-    """Steady state in which only the states ``free`` differ from zero."""
+def _steady(
+    system: StripSystem, free: NDArray[np.intp], held: Floats | None = None
+) -> tuple[Floats, Floats]:
+    """Steady state of the states ``free``; the first ones are ``held`` (N, m), others are zero."""
     n = system.layout.size
     matrix_a = system.rates[:, free[:, None], free]
-    others = system.rates[:, free, n:]
+    others = system.rates[:, free, n:].copy()
+    bubbles = system.probe[:, : system.layout.strips]
+    constant = bubbles[:, :, n:].copy()
+    if held is not None:
+        for rows, matrix in ((others, system.rates[:, free]), (constant, bubbles)):
+            rows[:, :, -1] += np.einsum("nij,nj->ni", matrix[:, :, : held.shape[1]], held)
     response = -np.linalg.solve(matrix_a, others)
-    probe = system.probe[:, :, n:] + system.probe[:, :, free] @ response
+    probe = constant + bubbles[:, :, free] @ response
     gain, offset = probe[:, :, :-1], probe[:, :, -1]
     start = offset.copy() if not np.any(gain) else np.zeros_like(offset)
     x = _newton(system, gain, offset, start)
@@ -60,6 +108,8 @@ def _steady(system: StripSystem, free: NDArray[np.intp]) -> tuple[Floats, Floats
         x[lost] = _newton(system.of(lost), *some, shortest=SHORTEST_STEP)
     u = system.deficits(x)
     states = np.zeros((x.shape[0], n))
+    if held is not None:
+        states[:, : held.shape[1]] = held
     states[:, free] = np.einsum("nij,nj->ni", response[:, :, :-1], u) + response[:, :, -1]
     states[np.isnan(u).any(axis=1)] = np.nan
     return states, u
@@ -103,9 +153,9 @@ def jacobian(system: StripSystem, states: Floats, deficits: Floats) -> Floats:
     """J of the linearised system about a steady state, shape (N, n, n)."""
     n = system.layout.size
     columns = np.concatenate([states, deficits, np.ones((states.shape[0], 1))], axis=1)
-    x = np.einsum("nij,nj->ni", system.probe, columns)
-    slopes = system.deficit_slopes(x)
-    closed = np.eye(x.shape[1]) - system.probe[:, :, n:-1] @ slopes
+    signals = np.einsum("nij,nj->ni", system.probe, columns)
+    slopes = system.deficit_slopes(signals)
+    closed = np.eye(signals.shape[1]) - system.probe[:, :, n:-1] @ slopes
     seen = np.linalg.solve(closed, system.probe[:, :, :n])
     return np.asarray(
         system.rates[:, :, :n] + system.rates[:, :, n:-1] @ slopes @ seen, dtype=np.float64

@@ -15,7 +15,7 @@ With one strip they are those of the section (:mod:`equisection.beam.section`).
 
 The elastic axis is x_ea chords behind mid-chord. w is its deflection, so that mid-chord moves by
 w + x_ea theta, and with this the formulas of :mod:`equisection.aerodynamics.unsteady_loads` stay:
-alpha_34 has (1/4 - x_ea) theta', the apparent lift (pi/2) (theta' - w'' - x_ea theta''). The moment
+alpha_34 has (r - x_ea) theta', the apparent lift (pi/2) (theta' - w'' - x_ea theta''). The moment
 c_m about mid-chord is transferred to the axis with the force normal to the chord,
 
     c_m,ea = c_m + x_ea (c_l + n(x)),    n(alpha) = c_l (cos alpha - 1) + c_d sin alpha,
@@ -24,7 +24,7 @@ where n is that of the steady polar and follows the bubble, as the drag of separ
 rest c_m,ea is therefore the polar's, and a section diverges where k* is the slope of
 c_m + x_ea (c_l cos alpha + c_d sin alpha): c_m' + x_ea (c_l' + c_d) at small incidence. With the
 slopes of a thin plate, no drag and no deficit this is Theodorsen's theory about x_ea (NACA Report
-496, a = 2 x_ea).
+496, a = 2 x_ea). The c_l of this transfer is the lift normal to the wind that the strip meets.
 
 The correction for the finite span multiplies c_l and n by one factor and c_m by another, before the
 transfer. The induced incidence is quasi-steady,
@@ -35,10 +35,15 @@ and is solved with the rest instead of lagging a step behind (docs/embedded.md o
 quasi-steady induced incidence leaves out).
 
 With the states Y = (Theta, Theta', W, W', z_1, z_2, y, c) and the deficits
-u = (Delta_l(x), Delta_m(x)) of all strips, with n(x) where an axis is off mid-chord, everything
+u = (Delta_l, Delta_m) of all strips, with n where an axis is off mid-chord, everything
 else is linear:
 
     Y' = A Y + B u + e,    x = C Y + E u + g.
+
+Where the polar has drag, the wind that a strip meets is turned by w_r' = w' - (r - x_ea) theta'
+(:mod:`equisection.aerodynamics.velocity_triangle`). Its lift then has one more deficit,
+c - c_y, and Delta_m and n are those of the higher dynamic pressure. They depend on (x, w_r', c,
+alpha_S), which take the place of x in the second equation: the *signals* of the strips.
 
 Apparent mass is moved to the left of the equations of motion and so is implicit.
 """
@@ -55,10 +60,9 @@ from equisection.aerodynamics.separation import SLOPE_HALF_STEP
 from equisection.aerodynamics.unsteady_loads import (
     APPARENT_INERTIA,
     APPARENT_MASS,
-    LEADING_EDGE_ARM,
-    REAR_POINT,
     UnsteadyLoads,
 )
+from equisection.aerodynamics.velocity_triangle import force_across, pressure_rise
 
 Floats = NDArray[np.float64]
 
@@ -108,11 +112,6 @@ class StripStructure:
     def is_offset(self) -> bool:
         """Presence of a lane with its elastic axis off mid-chord."""
         return bool(self.axis.any())
-
-    @property
-    def deficits_of_a_strip(self) -> int:
-        """Number d of deficits of a strip: Delta_l, Delta_m, and n off mid-chord."""
-        return 3 if self.is_offset else 2
 
     @property
     def lanes(self) -> int:
@@ -175,7 +174,8 @@ class StateLayout:
 class StripSystem:
     """The system Y' = A Y + B u + e of N lanes, with n states and columns [Y | u | 1].
 
-    A strip has d deficits (:attr:`StripStructure.deficits_of_a_strip`).
+    A strip has d deficits (:func:`deficits_of_a_strip`) and p signals: x, and with drag w_r', c and
+    alpha_S.
 
     Parameters
     ----------
@@ -188,7 +188,8 @@ class StripSystem:
     rates
         [A | B | e], shape (N, n, n + d S + 1).
     probe
-        [C | E | g], the incidences x of the bubbles, shape (N, S, n + d S + 1).
+        [C | E | g], the signals of the strips, first the incidences x of the bubbles, shape
+        (N, p S, n + d S + 1).
     strip_loads
         c_l and c_m of the strips, without a correction, shape (N, 2 S, n + d S + 1); c_m is about
         the moving mid-chord, wherever the axis is.
@@ -205,22 +206,46 @@ class StripSystem:
     strip_loads: Floats
     axis_moments: Floats
 
-    def deficits(self, x: Floats) -> Floats:
-        """Deficits u, shape (N, d S), at bubble incidences x (rad), shape (N, S)."""
-        strips = x.shape[1]
-        branches = self.loads.branches
-        u = np.empty((x.shape[0], self.structure.deficits_of_a_strip * strips))
-        u[:, :strips] = branches.lift_deficit(x)
-        u[:, strips : 2 * strips] = branches.moment_deficit(x)
-        if self.structure.is_offset:
-            u[:, 2 * strips :] = branches.polar.normal_rise(x)
-        return u
+    def deficits(self, signals: Floats) -> Floats:
+        """Deficits u, shape (N, d S), at the signals of the strips, shape (N, p S).
 
-    def deficit_slopes(self, x: Floats) -> Floats:
-        """Slopes du/dx (1/rad) at x, by central differences, shape (N, d S, S)."""
-        rise = self.deficits(x + SLOPE_HALF_STEP) - self.deficits(x - SLOPE_HALF_STEP)
-        own_strip = np.vstack([np.eye(x.shape[1])] * self.structure.deficits_of_a_strip)
-        return rise[:, :, None] / (2 * SLOPE_HALF_STEP) * own_strip
+        Of a system at rest the bubble incidences x (rad), shape (N, S), are enough.
+        """
+        strips = self.layout.strips
+        x = signals[:, :strips]
+        branches = self.loads.branches
+        deficits = [branches.lift_deficit(x), branches.moment_deficit(x)]
+        if self.structure.is_offset:
+            deficits.append(branches.polar.normal_rise(x))
+        if self.loads.has_drag:
+            moving = signals.shape[1] > strips
+            self._turn(deficits, x, signals[:, strips:] if moving else None)
+        return np.concatenate(deficits, axis=1)
+
+    def _turn(self, deficits: list[Floats], x: Floats, motion: Floats | None) -> None:
+        """Turn the wind by the motion w_r', c, alpha_S of the strips, which None has at rest."""
+        if motion is None:
+            deficits.append(np.zeros_like(x))
+            return
+        rate, circulatory, leading = np.split(motion, 3, axis=1)
+        branches, rise = self.loads.branches, pressure_rise(rate)
+        deficits[1] = deficits[1] - rise * (branches.moment_slope * leading - deficits[1])
+        if self.structure.is_offset:
+            deficits[2] = deficits[2] + rise * (circulatory + deficits[2])
+        drag = branches.polar.drag_coefficient(x)
+        deficits.append(circulatory - force_across(circulatory, drag, rate))
+
+    def deficit_slopes(self, signals: Floats) -> Floats:
+        """Slopes du/d(signals) by central differences, (N, d S, p S); of x alone (N, d S, S)."""
+        strips = self.layout.strips
+        own_strip = np.tile(np.eye(strips), (deficits_of_a_strip(self.structure, self.loads), 1))
+        slopes = []
+        for place in range(signals.shape[1] // strips):
+            step = np.zeros(signals.shape[1])
+            step[place * strips : (place + 1) * strips] = SLOPE_HALF_STEP
+            change = self.deficits(signals + step) - self.deficits(signals - step)
+            slopes.append(change[:, :, None] / (2 * SLOPE_HALF_STEP) * own_strip)
+        return np.concatenate(slopes, axis=2)
 
     def of(self, lanes: NDArray[np.bool_]) -> StripSystem:
         """Keep some of the lanes (their matrices only)."""
@@ -232,6 +257,11 @@ class StripSystem:
             strip_loads=self.strip_loads[lanes],
             axis_moments=self.axis_moments[lanes],
         )
+
+
+def deficits_of_a_strip(structure: StripStructure, loads: UnsteadyLoads) -> int:
+    """Return the number d of a strip: Delta_l, Delta_m, n if offset, c - c_y if drag."""
+    return 2 + structure.is_offset + loads.has_drag
 
 
 def assemble(
@@ -260,12 +290,13 @@ def assemble(
     rise = structure.torsion_shapes @ twist_acceleration
     heave = structure.bending_shapes @ deflection_acceleration
     axis = structure.axis[:, None, None]
-    strip_loads[:, :strips] = rows.lift - APPARENT_MASS * (heave + axis * rise)
+    apparent = APPARENT_MASS * (heave + axis * rise)
+    strip_loads[:, :strips] = rows.lift - rows.turn - apparent
     strip_loads[:, strips:] = rows.moment - APPARENT_INERTIA * rise
     axis_moments = structure.moment_factor[:, None, None] * strip_loads[:, strips:] + axis * (
-        structure.lift_factor[:, None, None] * (strip_loads[:, :strips] + rows.normal_rise)
+        structure.lift_factor[:, None, None] * (rows.lift - apparent + rows.normal_rise)
     )
-    probe = np.broadcast_to(rows.bubble, (lanes, *rows.bubble.shape[1:])).copy()
+    probe = np.broadcast_to(rows.signals, (lanes, *rows.signals.shape[1:])).copy()
     constant = np.broadcast_to(np.asarray(incidence_rad, dtype=np.float64), (lanes,))
     for matrix in (rates, probe, strip_loads, axis_moments):
         matrix[:, :, -1] *= constant[:, None]
@@ -277,38 +308,39 @@ class _StripRows:
     """Linear expressions in [Y | u | theta_0] at the strips.
 
     Each has the shape (N, S, columns), or (1, S, columns) where all lanes have one axis. ``rear``
-    is alpha_34, ``leading`` alpha_S, ``bubble`` x, ``target`` what the circulatory lift c follows;
-    ``lift`` and ``moment`` (about mid-chord) lack the terms with accelerations. ``normal_rise`` is
-    n(x), of shape (S, columns).
+    is alpha_34, ``leading`` alpha_S, ``target`` what the circulatory lift c follows;
+    ``lift`` (before the wind is turned) and ``moment`` (about mid-chord) lack the terms with
+    accelerations. ``normal_rise`` is n and ``turn`` c - c_y, of shape (S, columns). ``signals`` are
+    those of :class:`StripSystem`, first x, of shape (N or 1, p S, columns).
     """
 
     columns: int
     rear: Floats
     leading: Floats
-    bubble: Floats
     target: Floats
     lift: Floats
     moment: Floats
     normal_rise: Floats
+    turn: Floats
+    signals: Floats
 
 
 def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyLoads) -> _StripRows:
     strips = layout.strips
-    columns = layout.size + structure.deficits_of_a_strip * strips + 1
+    columns = layout.size + deficits_of_a_strip(structure, loads) * strips + 1
     unit = np.eye(columns)
-    lift_deficit = unit[layout.size : layout.size + strips]
-    moment_deficit = unit[layout.size + strips : layout.size + 2 * strips]
-    normal_rise = (
-        unit[layout.size + 2 * strips : -1] if structure.is_offset else np.zeros((strips, columns))
-    )
+    deficits = iter(unit[layout.size : -1].reshape(-1, strips, columns))
+    lift_deficit, moment_deficit = next(deficits), next(deficits)
+    none = np.zeros((strips, columns))
+    normal_rise = next(deficits) if structure.is_offset else none
+    turn = next(deficits) if loads.has_drag else none
     twist_rate = structure.torsion_shapes @ unit[layout.twist_rate]
     axes = structure.axis[:1] if np.ptp(structure.axis) == 0.0 else structure.axis
-    geometric = (
-        unit[-1]
-        + structure.torsion_shapes @ unit[layout.twist]
-        + (REAR_POINT - axes[:, None, None]) * twist_rate
-        - structure.bending_shapes @ unit[layout.deflection_rate]
+    rise = (
+        structure.bending_shapes @ unit[layout.deflection_rate]
+        - (loads.rear_point - axes[:, None, None]) * twist_rate
     )
+    geometric = unit[-1] + structure.torsion_shapes @ unit[layout.twist] - rise
     lagging = sum(
         (a * unit[layout.lag(i)] for i, a in enumerate(JONES_AMPLITUDES)),
         start=np.zeros((strips, columns)),
@@ -319,7 +351,7 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
         geometric - structure.induction @ (slope * lagging - lift_deficit),
     )
     effective = IMMEDIATE_SHARE * rear + lagging
-    leading = effective - LEADING_EDGE_ARM * twist_rate
+    leading = effective - loads.rear_point * twist_rate
     bubble = leading
     if lags.relaxation > 0.0:
         follower = unit[layout.lag(2)]
@@ -328,7 +360,10 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
     circulatory = unit[None, layout.lag(3)] if lags.lift_lag > 0.0 else target
     lift = circulatory + APPARENT_MASS * twist_rate
     moment = loads.branches.moment_slope * leading - moment_deficit
-    return _StripRows(columns, rear, leading, bubble, target, lift, moment, normal_rise)
+    kinds = [bubble, rise, circulatory, leading] if loads.has_drag else [bubble]
+    shape = np.broadcast_shapes(*(kind.shape for kind in kinds))
+    signals = np.concatenate([np.broadcast_to(kind, shape) for kind in kinds], axis=1)
+    return _StripRows(columns, rear, leading, target, lift, moment, normal_rise, turn, signals)
 
 
 def _accelerations(
@@ -360,7 +395,7 @@ def _accelerations(
         - structure.torsion_damping[:, :, None] * unit[layout.twist_rate]
     )
     force = (
-        weighted_g.T @ lift
+        weighted_g.T @ (lift - lift_factor * rows.turn)
         - structure.bending_stiffness[:, :, None] * unit[layout.deflection]
         - structure.bending_damping[:, :, None] * unit[layout.deflection_rate]
     )

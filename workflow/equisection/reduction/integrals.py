@@ -63,6 +63,16 @@ class Integrals:
         return float(self.a_theta_w[0, 0] / np.sqrt(a_tt * a_ww))
 
     @property
+    def oscillation_ratio(self) -> float:
+        """sqrt(A_theta,theta/A_w,w) (-): W/Theta of an oscillating tip over the section's w/theta.
+
+        In amplitudes that give both first modes the inertia of the section's rows, sqrt(A_w,w) W
+        and sqrt(A_theta,theta) Theta, the equations of motion of the two are those of the
+        section. Under static loads it is a/b instead, since no inertia is in them.
+        """
+        return float(np.sqrt(self.a_theta_theta[0, 0] / self.a_w_w[0, 0]))
+
+    @property
     def twist_participation(self) -> float:
         """F^2/A_theta,theta (-): share of a uniform moment's work taken by the first mode's."""
         return float(self.f_mean[0] ** 2 / self.a_theta_theta[0, 0])

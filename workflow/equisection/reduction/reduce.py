@@ -34,8 +34,7 @@ from equisection.structure.mode_set import ModeSet
 Reduction = Literal["paper", "consistent"]
 REDUCTIONS: tuple[Reduction, ...] = ("paper", "consistent")
 
-# Below these the section still has numbers but they stand for little; see `validity_warnings`.
-_LEAST_LIKENESS = 0.9
+# Below this the section still has numbers but they stand for little; see `validity_warnings`.
 _LEAST_PARTICIPATION = 0.3
 
 
@@ -154,13 +153,11 @@ def _require_restraint(beam: Beam, integrals: Integrals) -> None:
 
 
 def validity_warnings(integrals: Integrals) -> tuple[str, ...]:
-    """Return the reasons why a section represents its beam badly; empty if there are none."""
+    """Return the reasons why a section represents its beam's means badly; empty if there are none.
+
+    How it represents its flutter is said by :mod:`equisection.reduction.flutter_bias`.
+    """
     warnings = []
-    if integrals.cos_phi < _LEAST_LIKENESS:
-        warnings.append(
-            f"cos(phi) = {integrals.cos_phi:.3f} is below {_LEAST_LIKENESS}: twist and deflection "
-            "have unlike shapes, and the section misjudges how one loads the other"
-        )
     for name, share, load in (
         ("F^2/A_theta,theta", integrals.twist_participation, "moment"),
         ("G^2/A_w,w", integrals.deflection_participation, "lift"),

@@ -72,6 +72,11 @@ def equivalent_to_dataset(
         integrals.cos_phi,
         {"units": "1", "long_name": "likeness of the first shapes of twist and deflection"},
     )
+    variables["oscillation_ratio"] = (
+        (),
+        integrals.oscillation_ratio,
+        {"units": "1", "long_name": "W/Theta of an oscillating tip over w/theta of the section"},
+    )
     number = np.arange(1, integrals.f_mean.size + 1)
     return xr.Dataset(
         variables,

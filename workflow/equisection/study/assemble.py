@@ -17,6 +17,7 @@ from equisection.cases import (
     Geometry,
     Medium,
     SolverBlock,
+    Start,
     SteadyCase,
     UnsteadyCase,
 )
@@ -118,6 +119,7 @@ def unsteady_case(
         lift_factor=factors[0],
         moment_factor=factors[1],
         beam=beam,
+        start=Start(**unsteady.start.model_dump()),
         duration=unsteady.duration,
         time_step=unsteady.time_step,
         output_interval=unsteady.output_interval,

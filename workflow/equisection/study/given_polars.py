@@ -10,7 +10,7 @@ from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE
 from equisection.errors import ConfigError, PolarFileError
 from equisection.io.formats import read_rows
-from equisection.io.polar_rows import PolarRows, read_validity, slopes
+from equisection.io.polar_rows import MID_CHORD, read_validity
 from equisection.keys.checks import Problem
 from equisection.keys.shown import shown
 
@@ -18,11 +18,6 @@ from equisection.keys.shown import shown
 _SAME_BEAM = 0.01
 #: How many times the h/c of a polar's section another may have that it serves for.
 _LIKE_THICKNESS = 1.25
-#: Slope of the lift (1/rad) above which a section is a lifting one; 2 pi of a thin airfoil.
-LIFTING = 2.0
-#: Slope of the moment over that of the lift below which it may be about the quarter chord; about
-#: mid-chord it is 1/4 of a thin airfoil.
-LEVEL = 0.05
 
 
 def check_polars(config: Config, directory: Path | None = None) -> None:
@@ -52,7 +47,7 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
             continue
         try:
             points = read_rows(directory / path, config.embedded.symmetric)
-            points.format.axis_of(directory / path, config.embedded.moment_axis)
+            points.axis_of(directory / path, config.embedded.moment_axis)
             valid = read_validity(directory / path)
         except PolarFileError as error:
             yield _unreadable(f"embedded.polars.{name}", path, error)
@@ -60,7 +55,6 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
         if name == config.steady.resolution:
             yield from _of_another_section(config, name, path, valid)
         rows = points.rows
-        yield from _moment_left_open(config, name, path, points)
         last = max(row.incidence_deg for row in rows)
         first = -last if config.embedded.symmetric else min(row.incidence_deg for row in rows)
         incidence = config.flow.incidence_deg
@@ -70,21 +64,6 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
                 incidence,
                 f"allowed is {first:g} to {last:g} deg, what {path} covers (is it in degrees?)",
             )
-
-
-def _moment_left_open(config: Config, name: str, path: str, points: PolarRows) -> Iterator[Problem]:
-    """Refuse moments that look as if they were about the quarter chord, where nobody says so."""
-    if config.embedded.moment_axis is not None or points.format.moment_axis is not None:
-        return
-    lift, moment = slopes(points.rows)
-    if lift > LIFTING and abs(moment) < LEVEL * lift:
-        yield Problem(
-            f"embedded.polars.{name}",
-            path,
-            "allowed is such a polar with embedded.moment_axis: its lift rises by "
-            f"{lift:.2g} per rad and its moment by {moment:.2g} only, as about the quarter chord; "
-            "say embedded.moment_axis: 0.25, or 0.5 if it is about mid-chord",
-        )
 
 
 def _of_another_section(
@@ -105,10 +84,20 @@ def _of_beam(config: Config, directory: Path) -> Iterator[Problem]:
     """Refuse a polar of another rigid beam. What bends the beam is free: material and ends."""
     polar = config.steady.beam_polar
     try:
-        read_rows(directory / polar, symmetric=False)
+        points = read_rows(directory / polar, symmetric=False)
         valid = read_validity(directory / polar)
     except PolarFileError as error:
         yield _unreadable("steady.beam_polar", polar, error)
+        return
+    axis = valid.get("moment_axis", math.nan)
+    if axis != MID_CHORD and (points.about_quarter_chord or not math.isnan(axis)):
+        yield Problem(
+            "steady.beam_polar",
+            polar,
+            "allowed are moments about mid-chord: "
+            + (points.about_quarter_chord if math.isnan(axis) else f"it says {_short(axis)}")
+            + "; write them about mid-chord, and say so in the file: # Valid for: moment_axis 0.5",
+        )
         return
     here = _decides_rigid_polar(config)
     for name, value in valid.items():

@@ -11,7 +11,7 @@ from equisection.config.groups.solver_keys import SolverKeys
 from equisection.config.groups.steady import Steady
 from equisection.config.groups.structure import Elements, Structure
 from equisection.config.groups.sweep import ModelName, Range, Sweep
-from equisection.config.groups.unsteady import Unsteady, VerdictKeys
+from equisection.config.groups.unsteady import StartKeys, Unsteady, VerdictKeys
 from equisection.keys.group import KeyGroup
 
 __all__ = [
@@ -32,6 +32,7 @@ __all__ = [
     "Range",
     "Separation",
     "SolverKeys",
+    "StartKeys",
     "Steady",
     "Structure",
     "Sweep",

@@ -71,6 +71,12 @@ class Embedded(SolverKeys):
         "edge, 0.25 for the quarter chord). With null it is what a file's format says (0.25 for "
         "XFOIL), else mid-chord, 0.5.",
     )
+    incidence_point: Annotated[float, Field(ge=0.25, le=0.75, allow_inf_nan=False), NUMBER] = Field(
+        0.75,
+        description="Point of the chord whose incidence sets the circulation of a section that "
+        "moves (x/c from the leading edge): 0.75 of a thin section with a sharp trailing edge. Of "
+        "a bluff one it is not known; 0.5 is mid-chord.",
+    )
     separation: Separation = Field(Separation(), description="Lags of the separation bubble.")
     identification: Identification = Field(
         Identification(), description="Where the lags come from."

@@ -52,7 +52,7 @@ class Flow(KeyGroup):
     incidence_deg: Angle = Field(
         2.5,
         description="Rigid incidence theta_0 (deg), nose up; within `steady.incidence_deg`, and "
-        "not 0 for a symmetric section, which nothing would set in motion.",
+        "not 0 for a symmetric section, which nothing but `unsteady.start` would set in motion.",
     )
     root_on_wall: Truth = Field(
         True,

@@ -9,7 +9,7 @@ from pydantic import Field
 
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
-from equisection.keys.values import NUMBER, WHOLE, Positive
+from equisection.keys.values import NUMBER, WHOLE, Angle, Positive
 
 
 class VerdictKeys(KeyGroup):
@@ -29,8 +29,29 @@ class VerdictKeys(KeyGroup):
     )
 
 
+class StartKeys(KeyGroup):
+    """Start of the unsteady runs; both 0 is a release at rest and untwisted."""
+
+    twist_deg: Angle = Field(
+        0.0,
+        description="Twist of the tip (deg), nose up, in which section and beam (in its first "
+        "torsion mode) are held until the flow is steady. The springs' zero stays at "
+        "`flow.incidence_deg`.",
+    )
+    heave_rate: Annotated[float, Field(gt=-1, lt=1, allow_inf_nan=False), NUMBER] = Field(
+        0.0,
+        description="Rate of the tip's deflection at the release (over V), up, in the first "
+        "bending mode; for sections that gallop.",
+    )
+
+    @property
+    def is_given(self) -> bool:
+        """Presence of a start other than rest."""
+        return self.twist_deg != 0.0 or self.heave_rate != 0.0
+
+
 class Unsteady(KeyGroup):
-    """Runs of the free section and of the free beam, from the rigid steady state."""
+    """Runs of the free section and of the free beam, from a steady state."""
 
     duration: Positive = Field(
         400.0, description="The longest a run may take (c/V), ten output intervals or more."
@@ -39,7 +60,24 @@ class Unsteady(KeyGroup):
     output_interval: Positive = Field(
         0.1, description="Interval of the stored history (c/V), a multiple of the time step."
     )
+    start: StartKeys = Field(StartKeys(), description="What the runs start from.")
     verdict: VerdictKeys = Field(VerdictKeys(), description="How a run is judged.")
+
+
+@check(
+    "unsteady.start.twist_deg",
+    "unsteady.verdict.settled_amplitude_deg",
+    "unsteady.verdict.growing_amplitude_deg",
+)
+def _start_is_seen(twist: float, settled: float, growing: float) -> Iterator[Problem]:
+    """Refuse a start that is settled, or growing, before anything has moved."""
+    if twist != 0 and not settled < abs(twist) < growing:
+        yield Problem(
+            "unsteady.start.twist_deg",
+            twist,
+            f"allowed is 0, or between {settled:g} and {growing:g} deg either way: settled and "
+            "growing_amplitude_deg of unsteady.verdict",
+        )
 
 
 @check("unsteady.verdict.growing_amplitude_deg", "unsteady.verdict.settled_amplitude_deg")

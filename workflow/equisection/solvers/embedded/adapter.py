@@ -20,6 +20,7 @@ from equisection.aerodynamics.induction import SpanStrips, cosine_strips, induct
 from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
+from equisection.beam.beam import MID_CHORD
 from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE, Embedded
@@ -40,13 +41,16 @@ class Adapter:
     """The embedded solver on one section polar; fulfils the solver protocol."""
 
     name = "embedded"
-    version = "4"
+    version = "5"
     provides = frozenset({Capability.BATCH})
 
-    def __init__(self, polar: Polar, strips: int, lags: SeparationLags) -> None:
+    def __init__(
+        self, polar: Polar, strips: int, lags: SeparationLags, incidence_point: float
+    ) -> None:
         self._polar = polar
         self._strips = strips
         self._lags = lags
+        self._incidence_point = incidence_point
 
     @classmethod
     def from_config(cls, config: Config, resolution: str) -> Adapter:
@@ -60,7 +64,7 @@ class Adapter:
         section = config.embedded
         polar = read_section_polar(section, resolution)
         lags = SeparationLags(**section.separation.model_dump(), provenance="configuration")
-        return cls(polar, section.strips, lags)
+        return cls(polar, section.strips, lags, section.incidence_point)
 
     @classmethod
     def from_settings(
@@ -72,10 +76,11 @@ class Adapter:
         polar = Polar(
             np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
         )
-        return cls(polar, settings["strips"], SeparationLags(**settings["separation"]))
+        lags = SeparationLags(**settings["separation"])
+        return cls(polar, settings["strips"], lags, settings["incidence_point"])
 
     def settings(self, dimension: str) -> dict[str, Any]:
-        """Return the polar, the strips and the lags of the separation."""
+        """Return the polar, the strips, the lags of the separation and the incidence point."""
         del dimension
         lags = asdict(self._lags)
         del lags["provenance"]
@@ -89,6 +94,7 @@ class Adapter:
             },
             "strips": self._strips,
             "separation": lags,
+            "incidence_point": self._incidence_point,
         }
 
     def describe(self, dimension: str) -> str:
@@ -143,7 +149,8 @@ class Adapter:
             release_all_sections,
         )
 
-        loads = UnsteadyLoads.from_polar(self._polar, self._lags)
+        rear_point = self._incidence_point - MID_CHORD
+        loads = UnsteadyLoads.from_polar(self._polar, self._lags, rear_point)
         if cases[0].dimension == "2d":
             return release_all_sections(cases, loads, progress)
         strips, matrix = self._induction(cases[0].geometry)

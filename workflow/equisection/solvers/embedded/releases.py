@@ -25,9 +25,15 @@ Floats = NDArray[np.float64]
 
 
 class ReleaseSettings(TypedDict):
-    """Rigid incidence (rad), and times (c/V), that the sections or beams of one release share."""
+    """Settings that the sections or beams of one release share.
+
+    Rigid incidence (rad), twist (rad) and heave rate (over V) of the tip at the start, and times
+    (c/V).
+    """
 
     incidence_rad: float
+    tip_twist: float
+    tip_heave_rate: float
     duration: float
     time_step: float
     output_interval: float
@@ -64,8 +70,14 @@ def release_judged(
     histories = release_sections(
         sections,
         loads,
-        **settings,
+        settings["incidence_rad"],
+        settings["duration"],
+        time_step=settings["time_step"],
+        output_interval=settings["output_interval"],
         load_factors=load_factors,
+        twist=settings["tip_twist"] * np.array([each.twist_recovery for each in sections]),
+        heave_rate=settings["tip_heave_rate"]
+        * np.array([each.deflection_recovery for each in sections]),
         monitor=monitor_of(judges, tip_of),
         progress=progress,
     )
@@ -128,6 +140,8 @@ def release_all_beams(
 def _common_settings(case: UnsteadyCase) -> ReleaseSettings:
     return {
         "incidence_rad": math.radians(case.incidence_deg),
+        "tip_twist": math.radians(case.start.twist_deg),
+        "tip_heave_rate": case.start.heave_rate,
         "duration": case.duration,
         "time_step": case.time_step,
         "output_interval": case.output_interval,

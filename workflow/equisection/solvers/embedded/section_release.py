@@ -36,8 +36,13 @@ def release(
     density: float = STANDARD_AIR,
     lags: SeparationLags = IDENTIFIED_LAGS,
     duration: float = _DEFAULTS.duration,
+    start_twist_deg: float = 0.0,
+    start_heave_rate: float = 0.0,
 ) -> xr.Dataset:
-    """Motion of a section after its release, at rest and untwisted, in the steady flow around it.
+    """Motion of a section after its release in the steady flow around it.
+
+    It starts at rest and untwisted, unless a start says otherwise. A symmetric section at 0 deg
+    needs one: nothing else sets it in motion.
 
     The run ends when the verdict on it is in. Time step and criteria are those that the
     configuration has by default; of a pitch with fewer than 40 steps in a period the step is
@@ -59,6 +64,10 @@ def release(
         Lags of the separation bubble (:func:`equisection.motion.stability.stability`).
     duration
         The longest that the run may take (c/V).
+    start_twist_deg
+        Twist (deg) of the tip in which the section is held until the flow is steady.
+    start_heave_rate
+        Rate of the deflection (over V) of the tip at the release, up.
 
     Returns
     -------
@@ -73,7 +82,7 @@ def release(
     ArgumentError
         An argument is not a number that makes sense.
     IncidenceOutOfRangeError
-        The polar does not cover the rigid incidence.
+        The polar does not cover the rigid incidence, or that of the start.
     """
     for name, value, units in (
         ("speed", speed, "m/s"),
@@ -82,10 +91,15 @@ def release(
     ):
         if not (0.0 < value < math.inf):
             raise ArgumentError(f"{name} is {value!r}; wanted a number above 0 ({units})")
-    if not math.isfinite(incidence_deg):
-        raise ArgumentError(f"incidence_deg is {incidence_deg!r}; wanted a number (deg)")
+    for name, value, units in (
+        ("incidence_deg", incidence_deg, "deg"),
+        ("start_twist_deg", start_twist_deg, "deg"),
+        ("start_heave_rate", start_heave_rate, "over V"),
+    ):
+        if not math.isfinite(value):
+            raise ArgumentError(f"{name} is {value!r}; wanted a number ({units})")
     rigid = math.radians(incidence_deg)
-    polar.require(rigid)
+    polar.require([rigid, rigid + math.radians(start_twist_deg) * section.twist_recovery])
     flowing = section.in_flow(density, speed)
     judge = Judge.of_section(flowing, Criteria(**_DEFAULTS.verdict.model_dump()))
     step = min(_DEFAULTS.time_step, 1.0 / (STEPS_A_PERIOD * judge.natural_frequency))
@@ -96,7 +110,12 @@ def release(
             "samples of the history"
         )
     settings = ReleaseSettings(
-        incidence_rad=rigid, duration=duration, time_step=step, output_interval=interval
+        incidence_rad=rigid,
+        tip_twist=math.radians(start_twist_deg),
+        tip_heave_rate=start_heave_rate,
+        duration=duration,
+        time_step=step,
+        output_interval=interval,
     )
     loads = UnsteadyLoads.from_polar(polar, lags)
     result = release_judged([flowing], [judge], loads, settings)[0]
@@ -108,6 +127,8 @@ def release(
         convective_time=convective,
     ).assign_attrs(
         incidence_deg=incidence_deg,
+        start_twist_deg=start_twist_deg,
+        start_heave_rate=start_heave_rate,
         speed=speed,
         density=density,
         k_star=section.k_star(density, speed),
