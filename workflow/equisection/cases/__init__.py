@@ -1,6 +1,14 @@
 """Cases: all that decides a result, and nothing else, as a small canonical file with a hash."""
 
-from equisection.cases.case import BeamModes, Case, EndCriteria, Geometry, Medium, SolverBlock
+from equisection.cases.case import (
+    BeamModes,
+    Case,
+    EndCriteria,
+    FittedModes,
+    Geometry,
+    Medium,
+    SolverBlock,
+)
 from equisection.cases.case_file import (
     are_alike,
     canonical,
@@ -27,6 +35,7 @@ __all__ = [
     "BeamModes",
     "Case",
     "EndCriteria",
+    "FittedModes",
     "Geometry",
     "Kind",
     "Medium",

@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, ValidationInfo, model_validator
 
 from equisection.config.groups import (
+    BY_SUPPORTS,
     FREE_TIP,
     MID_CHORD,
     Beam,
@@ -15,10 +16,12 @@ from equisection.config.groups import (
     Embedded,
     Flow,
     KeyGroup,
+    Lump,
     OpenFoam,
     SolverKeys,
     Steady,
     Structure,
+    Support,
     Sweep,
     Unsteady,
 )
@@ -137,13 +140,34 @@ def _reduction_with_imbalance(
         )
 
 
-@check("beam.elastic_axis", "beam.mass_axis", "beam.damping", "solver")
+@check(
+    "beam.elastic_axis",
+    "beam.mass_axis",
+    "beam.damping",
+    "beam.supports",
+    "beam.lumps",
+    "beam.boundary",
+    "solver",
+)
 def _structure_of_the_solver(
-    elastic_axis: float, mass_axis: float, damping: Damping, solver: str
+    elastic_axis: float,
+    mass_axis: float,
+    damping: Damping,
+    supports: tuple[Support, ...],
+    lumps: tuple[Lump, ...],
+    boundary: str,
+    solver: str,
 ) -> Iterator[Problem]:
     """Refuse what OpenFOAM's bodies do not have, before anything is run."""
     if solver != "openfoam":
         return
+    if supports or lumps or boundary == BY_SUPPORTS:
+        yield Problem(
+            "solver",
+            solver,
+            "allowed with beam.supports, beam.lumps or boundary 'supports' is 'embedded': "
+            "OpenFOAM's bodies do not have them",
+        )
     for key, value, default in (
         ("beam.elastic_axis", elastic_axis, MID_CHORD),
         ("beam.mass_axis", mass_axis, MID_CHORD),

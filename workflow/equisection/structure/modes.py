@@ -53,6 +53,11 @@ def compute_modes(
     """
     if count < 1:
         raise ModesError(f"count is {count}; ask for at least one mode")
+    if method in ("solid", "analytic") and beam.has_fittings:
+        raise ModesError(
+            f"method is {method!r}, which holds a beam at its ends alone, and the beam has supports "
+            "or lumps along its span; use method 'beam'"
+        )
     if method == "solid":
         solid = solid_modes(beam, elements, count)
         sorted_out = classify(solid.chord_position, solid.span, solid.displacement)
@@ -62,6 +67,8 @@ def compute_modes(
     along_span = elements[1]
     span = np.linspace(0.0, 1.0, 2 * along_span + 1)
     if method == "beam":
+        if beam.has_fittings:
+            span = beam_elements.stations(beam, along_span)
         bending = beam_elements.bending_modes(beam, along_span, count)
         torsion = beam_elements.torsion_modes(beam, along_span, count)
     elif method == "analytic":
