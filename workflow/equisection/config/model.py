@@ -144,30 +144,17 @@ def _reduction_with_imbalance(
     "beam.elastic_axis",
     "beam.mass_axis",
     "beam.damping",
-    "beam.supports",
-    "beam.lumps",
-    "beam.boundary",
     "solver",
 )
 def _structure_of_the_solver(
     elastic_axis: float,
     mass_axis: float,
     damping: Damping,
-    supports: tuple[Support, ...],
-    lumps: tuple[Lump, ...],
-    boundary: str,
     solver: str,
 ) -> Iterator[Problem]:
     """Refuse what OpenFOAM's bodies do not have, before anything is run."""
     if solver != "openfoam":
         return
-    if supports or lumps or boundary == BY_SUPPORTS:
-        yield Problem(
-            "solver",
-            solver,
-            "allowed with beam.supports, beam.lumps or boundary 'supports' is 'embedded': "
-            "OpenFOAM's bodies do not have them",
-        )
     for key, value, default in (
         ("beam.elastic_axis", elastic_axis, MID_CHORD),
         ("beam.mass_axis", mass_axis, MID_CHORD),
@@ -178,6 +165,19 @@ def _structure_of_the_solver(
             yield Problem(
                 key, value, f"allowed with solver 'openfoam' is {default:g}; 'embedded' takes it"
             )
+
+
+@check("beam.supports", "beam.lumps", "beam.boundary", "solver")
+def _fittings_of_the_solver(
+    supports: tuple[Support, ...], lumps: tuple[Lump, ...], boundary: str, solver: str
+) -> Iterator[Problem]:
+    if solver == "openfoam" and (supports or lumps or boundary == BY_SUPPORTS):
+        yield Problem(
+            "solver",
+            solver,
+            "allowed with beam.supports, beam.lumps or boundary 'supports' is 'embedded': "
+            "OpenFOAM's bodies do not have them",
+        )
 
 
 @check("steady.resolution", "steady.study", "embedded.polars", "openfoam.meshes", "solver")

@@ -59,8 +59,8 @@ def reduce(
     """
     if method != "beam" and beam.has_fittings:
         raise ModesError(
-            f"method is {method!r}, which holds a beam at its ends alone, and the beam has supports "
-            "or lumps along its span; give method='beam'"
+            f"method is {method!r}, which holds a beam at its ends alone, and the beam has "
+            "supports or lumps along its span; give method='beam'"
         )
     if method == "solid" and beam.cross_section is not None:
         raise ModesError(

@@ -141,8 +141,8 @@ def flutter_bias(section: Section, beam: Beam, modes: ModeSet, density: float) -
         return beam_flutter(of, beam.chord, beam.elastic_axis, density)
 
     chosen, bending_mode = modes.section_pair()
-    first = matrices.pair(bending_mode, 1)
-    others = [matrices.pair(n, n) for n in range(2, min(*numbers, _PAIRS) + 1)]
+    first = matrices.pair(1, bending_mode)
+    others = [matrices.pair(n) for n in range(2, min(*numbers, _PAIRS) + 1)]
     pairs = [onset(each) for each in (first, *others)]
     speeds = {n: each.speed for n, each in enumerate(pairs, start=1) if not math.isnan(each.speed)}
     return FlutterBias(
@@ -157,7 +157,7 @@ def flutter_bias(section: Section, beam: Beam, modes: ModeSet, density: float) -
 
 
 def unlike(likeness: float, damping_ratio: float) -> str:
-    """Return why a pair of modes has no section, of that cos phi and damping; empty where it has."""
+    """Return why a pair of that cos phi and damping has no section; empty where it has."""
     if likeness < LEAST_LIKENESS:
         return (
             f"the first torsion mode and the bending mode most like it have cos(phi) = "
@@ -167,8 +167,8 @@ def unlike(likeness: float, damping_ratio: float) -> str:
     if damping_ratio > DAMPING_REFUSED:
         return (
             f"dashpots of beam.supports give its modes a damping ratio of {damping_ratio:.3f} "
-            f"(allowed is {DAMPING_REFUSED:g} or less): so strong a damper holds its place, and the "
-            "shapes are others; give a weaker one, or fix the support"
+            f"(allowed is {DAMPING_REFUSED:g} or less): so strong a damper holds its place, and "
+            "the shapes are others; give a weaker one, or fix the support"
         )
     return ""
 

@@ -18,8 +18,8 @@ then the beam's. In the consistent form it is S cos(phi). Dampers are those of t
 the first modes, and dashpots of supports as those modes feel them. Neither changes k*.
 
 The pair is the first torsion mode and the bending mode most like it, which is the first where a
-beam is held at its ends (:meth:`equisection.structure.mode_set.ModeSet.section_pair`). Lumped masses
-are in M and not in A: m_2D is then not m, and S_2D is M_theta,w / sqrt(D_w D_theta) with theirs.
+beam is held at its ends (:meth:`equisection.structure.mode_set.ModeSet.section_pair`). Lumped
+masses are in M and not in A: m_2D is then not m, and S_2D has theirs too.
 """
 
 from __future__ import annotations

@@ -35,27 +35,27 @@ def lumped(span: Floats, first: Floats, second: Floats, places: Places) -> Float
 
 
 def masses(beam: Beam) -> Places:
-    """Masses over the beam's own (-)."""
+    """Return masses over the beam's own (-)."""
     whole = beam.mass_per_length * beam.length
     return [(lump.at, lump.mass / whole) for lump in beam.lumps]
 
 
 def inertias(beam: Beam) -> Places:
-    """Inertias about the elastic axis over the beam's own (-)."""
+    """Return inertias about the elastic axis over the beam's own (-)."""
     whole = beam.inertia_per_length * beam.length
     return [(lump.at, lump.inertia_about_axis / whole) for lump in beam.lumps]
 
 
 def imbalances(beam: Beam) -> Places:
-    """Static imbalances per unit span (kg)."""
+    """Return static imbalances per unit span (kg)."""
     return [(lump.at, lump.imbalance / beam.length) for lump in beam.lumps]
 
 
 def deflection_dashpots(beam: Beam) -> Places:
-    """Dashpots of the deflection per unit span (N s/m per m)."""
+    """Return dashpots of the deflection per unit span (N s/m per m)."""
     return [(s.at, s.deflection_damping / beam.length) for s in beam.supports]
 
 
 def twist_dashpots(beam: Beam) -> Places:
-    """Dashpots of the twist per unit span (N m s/rad per m)."""
+    """Return dashpots of the twist per unit span (N m s/rad per m)."""
     return [(s.at, s.twist_damping / beam.length) for s in beam.supports]

@@ -65,9 +65,13 @@ class ModalMatrices:
         mass, damping, stiffness = map(np.diag, (self.mass, self.damping, self.stiffness))
         return np.asarray(damping / (2.0 * np.sqrt(stiffness * mass)), dtype=np.float64)
 
-    def pair(self, bending: int, torsion: int) -> ModalMatrices:
-        """Matrices of one bending and one torsion mode alone, by number; the first is 1."""
-        chosen = np.ix_(*[[bending - 1, self.bending + torsion - 1]] * 2)
+    def pair(self, torsion: int, bending: int | None = None) -> ModalMatrices:
+        """Matrices of one torsion and one bending mode alone, by number; the first is number 1.
+
+        Without another number of the bending mode it is that of the torsion mode.
+        """
+        number = torsion if bending is None else bending
+        chosen = np.ix_(*[[number - 1, self.bending + torsion - 1]] * 2)
         return ModalMatrices(
             self.mass[chosen],
             self.damping[chosen],
