@@ -154,13 +154,14 @@ class TestFlutter:
         pair = matrices_of(beam).pair(1)
         assert section.natural_frequencies == pytest.approx(pair.natural_frequencies, rel=1e-6)
 
-    @pytest.mark.parametrize("beam", [tip_store(), sprung()], ids=["store", "spring"])
-    def test_strips_flutter_where_the_linear_theory_does(self, beam):
-        """Thin-plate strips without induction; Jones' states are within 1 % of the exact lag."""
-        exact = beam_flutter(matrices_of(beam, 4), CHORD, 0.33, AIR).speed
-        assert strip_growth(beam, 0.98 * exact) < 0 < strip_growth(beam, 1.02 * exact)
-        onset = brentq(lambda v: strip_growth(beam, v), 0.98 * exact, 1.02 * exact, rtol=1e-5)
-        assert onset == pytest.approx(exact, rel=0.01)
+    @pytest.mark.parametrize(
+        ("beam", "speed"), [(tip_store(), 134.017), (sprung(), 100.802)], ids=["store", "spring"]
+    )
+    def test_strips_flutter_where_jones_states_do(self, beam, speed):
+        """Thin-plate strips without induction; speeds of the independent code with Jones' lag."""
+        assert strip_growth(beam, 0.98 * speed) < 0 < strip_growth(beam, 1.02 * speed)
+        onset = brentq(lambda v: strip_growth(beam, v), 0.98 * speed, 1.02 * speed, rtol=1e-5)
+        assert onset == pytest.approx(speed, rel=2e-3)
 
 
 def strip_growth(beam: Beam, speed: float, number: int = 4) -> float:
