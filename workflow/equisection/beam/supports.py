@@ -22,12 +22,17 @@ Hold = Literal["free", "fixed"]
 _ONE_PLACE = 1e-6
 
 
-class Support(KeyGroup):
-    """One support along the span."""
+class Fitting(KeyGroup):
+    """Place along the span."""
 
     at: Number = Field(
         description="Place as a part of the span z/L (-): 0 at the root, 1 at the tip."
     )
+
+
+class Support(Fitting):
+    """One support along the span."""
+
     deflection: Hold = Field(
         "free", description="`fixed` holds the deflection of the elastic axis."
     )
@@ -56,12 +61,9 @@ class Support(KeyGroup):
         return self.twist == "fixed" or self.twist_stiffness > 0.0
 
 
-class Lump(KeyGroup):
+class Lump(Fitting):
     """One lumped mass: a motor, a tip store, a joint."""
 
-    at: Number = Field(
-        description="Place as a part of the span z/L (-): 0 at the root, 1 at the tip."
-    )
     mass: Positive = Field(description="Mass M (kg).")
     inertia_about_centre: _NotNegative = Field(
         0.0, description="Moment of inertia about its own centre of mass, of the twist (kg m2)."
@@ -83,7 +85,7 @@ class Lump(KeyGroup):
         return self.mass * self.behind_axis
 
 
-def _places(key: str, given: tuple[Support, ...] | tuple[Lump, ...]) -> Iterator[Problem]:
+def _places(key: str, given: tuple[Fitting, ...]) -> Iterator[Problem]:
     """Refuse places beyond the span, and two at one place."""
     for number, one in enumerate(given):
         name = f"{key}.{number}.at"

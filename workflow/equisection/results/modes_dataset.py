@@ -51,10 +51,10 @@ def mesh_study_to_dataset(study: MeshStudy, analytic: ModeSet | None) -> xr.Data
     A beam with supports or lumped masses along its span has no closed form: there they are NaN.
     """
     closed_form = []
-    left = {
-        kind: list(analytic.frequency[[k == kind for k in analytic.kind]])
-        for kind in (set(analytic.kind) if analytic else ())
-    }
+    left: dict[str, list[float]] = {}
+    if analytic is not None:
+        for kind, frequency in zip(analytic.kind, analytic.frequency, strict=True):
+            left.setdefault(kind, []).append(float(frequency))
     for kind in study.kind:
         closed_form.append(left[kind].pop(0) if left.get(kind) else float("nan"))
     count = [chord * span * thickness for chord, span, thickness in study.elements]

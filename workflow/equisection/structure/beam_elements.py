@@ -26,6 +26,7 @@ from skfem import Basis, BilinearForm, ElementLineHermite, ElementLineP2, MeshLi
 from skfem.helpers import dd, ddot, dot, grad
 
 from equisection.beam.beam import Beam
+from equisection.beam.supports import Fitting
 
 Floats = NDArray[np.float64]
 
@@ -52,7 +53,8 @@ def _product(u: Any, v: Any, _: Any) -> Any:
 def nodes_along_span(beam: Beam, elements: int) -> Floats:
     """z/L of the nodes, equally spaced but for one at each support and lumped mass."""
     even = np.linspace(0.0, 1.0, elements + 1)
-    places = np.unique([one.at for one in (*beam.supports, *beam.lumps)])
+    fittings: tuple[Fitting, ...] = (*beam.supports, *beam.lumps)
+    places = np.unique([fitting.at for fitting in fittings])
     if places.size == 0:
         return even
     distance = np.abs(even[:, None] - places).min(axis=1)
