@@ -1,10 +1,13 @@
-"""Onset of each model, classical linear theory, and the sections against the beam."""
+"""Onset and critical speed of each model, linear theory, and the sections against the beam."""
 
+import logging
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
+from equisection.analysis import critical_speeds
 from equisection.analysis.deviations import deviations
 from equisection.analysis.linear_theory import (
     linear_onset,
@@ -13,10 +16,15 @@ from equisection.analysis.linear_theory import (
     with_linear_theory,
 )
 from equisection.analysis.onset import onset_table, with_speeds
+from equisection.config import load_config
 from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
-from equisection.results.section_dataset import nominal_k_star
+from equisection.results.section_dataset import nominal_k_star, section_from_dataset
 from equisection.run.script import logged
+from equisection.solvers.protocol import HasSectionLoads
+from equisection.solvers.registry import solver_from_config
+from equisection.study import plan
+from equisection.study.axes import INCIDENCE, SPEED, onset_axis, varied
 
 
 def main(
@@ -39,9 +47,59 @@ def main(
     _write(with_speeds(table, nominal_k_star(sections), speed), output)
 
 
-def growth_by_linear_theory(equivalent: Path, k_star: Sequence[float], output: Path) -> None:
-    """Write growth and frequency of both motions of both reductions at each k*."""
-    _write(linear_theory(read_dataset(equivalent), k_star), output)
+def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: Path) -> None:
+    """Write the critical speed of each model, and tell it."""
+    config, data = load_config(raw_config), read_dataset(equivalent)
+    flow, given, table = config.flow, nominal_k_star(data), pd.read_csv(summary)
+    solver = solver_from_config(config, config.steady.resolution)
+    found = [
+        critical_speeds.from_runs(
+            table,
+            k_star_given=given,
+            speed=flow.speed,
+            chord=config.beam.chord,
+            incidence_deg=flow.incidence_deg,
+            basis=critical_speeds.TIME
+            if isinstance(solver, HasSectionLoads)
+            else critical_speeds.CFD,
+        )
+    ]
+    models = [plan.model(name, config.reduction) for name in config.sweep.models]
+    sections = {
+        model.name: section_from_dataset(data, model.reduction)
+        for model in models
+        if model.dimension == "2d" and not model.corrected
+    }
+    if isinstance(solver, HasSectionLoads) and sections:
+        values = critical_speeds.speeds_of(
+            config.sweep.values(), onset_axis(varied(config)), given, flow.speed
+        )
+        reach = config.sweep.onset_reach
+        polar, lags = solver.section_loads
+        found.append(
+            critical_speeds.from_eigenvalues(
+                sections,
+                polar,
+                lags,
+                incidence_deg=sorted(varied(config).get(INCIDENCE, (flow.incidence_deg,))),
+                speed=(min(values) / reach, max(values) * reach),
+                density=flow.density,
+            )
+        )
+    critical = critical_speeds.with_margin(found, flow.design_speed)
+    for line in critical_speeds.in_words(critical):
+        logging.getLogger(__name__).info("%s", line)
+    _write(critical, output)
+
+
+def growth_by_linear_theory(
+    equivalent: Path, values: Sequence[float], along: str, speed: float, output: Path
+) -> None:
+    """Write growth and frequency of both motions of both reductions at each k*, or speed."""
+    sections = read_dataset(equivalent)
+    given = nominal_k_star(sections)
+    k_star = [given * (speed / one) ** 2 for one in values] if along == SPEED.name else values
+    _write(linear_theory(sections, k_star, speed), output)
 
 
 def sections_against_beam(summary: Path, output: Path) -> None:
@@ -68,7 +126,17 @@ if __name__ == "__main__":
             output=Path(snakemake.output.onset),
         )
         growth_by_linear_theory(
-            equivalent, list(snakemake.params.k_star), Path(snakemake.output.linear_theory)
+            equivalent,
+            list(snakemake.params.values),
+            snakemake.params.along,
+            snakemake.params.speed,
+            Path(snakemake.output.linear_theory),
+        )
+        speeds(
+            summary,
+            equivalent,
+            snakemake.params.config,
+            Path(snakemake.output.critical_speed),
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

@@ -3,17 +3,25 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.analysis.summary import summary_of
+from equisection.analysis.summary import summary_of, with_both
 from equisection.files import written_whole
+from equisection.results.netcdf import read_dataset
+from equisection.results.section_dataset import nominal_k_star
 from equisection.run.script import logged
 
 
-def main(indices: Sequence[Path], output: Path) -> None:
+def main(indices: Sequence[Path], output: Path, equivalent: Path, speed: float) -> None:
     """Summarise the verdicts; the folder of an index is named after its model."""
+    summary = with_both(summary_of(indices), nominal_k_star(read_dataset(equivalent)), speed)
     with written_whole(output) as aside:
-        summary_of(indices).to_csv(aside, index=False)
+        summary.to_csv(aside, index=False)
 
 
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
-        main([Path(path) for path in snakemake.input.indices], Path(snakemake.output[0]))
+        main(
+            [Path(path) for path in snakemake.input.indices],
+            Path(snakemake.output[0]),
+            Path(snakemake.input.equivalent),
+            snakemake.params.speed,
+        )

@@ -2,12 +2,13 @@
 
     python -m tests.benchmarks.energy [result.nc ...]
 
-Section (Eq. 18: pitch and heave) and plate (its modes) are coordinates q of inertia M and stiffness
-K under loads Q, M q'' + K q = Q, so that
+Section (Eq. 18: pitch and heave) and plate (its modes) are coordinates q of mass M, damping C and
+stiffness K under loads Q, M q'' + C q' + K q = Q, so that
 
-    d/ds sum 1/2 (M q'^2 + K q^2) = sum Q q'
+    d/ds 1/2 (q' M q' + q K q) = Q q' - q' C q'
 
-with lengths in chords, s = tV/c and moments about the moving centre. The rates are those of cubic
+with lengths in chords, s = tV/c and moments about the moving elastic axis. What the dampers take is
+counted as work of the air that does not arrive. The rates are those of cubic
 splines through the samples. Without results the kept ones of the section on OpenFOAM at k* = 5 and
 10 are taken.
 """
@@ -27,7 +28,7 @@ from scipy.interpolate import CubicSpline
 from equisection.beam.section import Section
 from equisection.cases import BeamModes, UnsteadyCase
 from equisection.results.netcdf import read_dataset
-from equisection.structure.span import integrate
+from equisection.structure.span import gram, integrate
 from tests.benchmarks.early_verdict import KEPT, case_of
 
 Floats = NDArray[np.float64]
@@ -35,10 +36,11 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Swing:
-    """Coordinates under loads: inertia and stiffness (n,), motion and loads (samples, n)."""
+    """Coordinates under loads: M, C, K (n, n), motion and loads (samples, n)."""
 
     time: Floats
-    inertia: Floats
+    mass: Floats
+    damping: Floats
     stiffness: Floats
     motion: Floats
     loads: Floats
@@ -46,29 +48,44 @@ class Swing:
 
 def section_swing(section: Section, history: xr.Dataset) -> Swing:
     """Return pitch and heave of the section."""
+    moment = history["cm_axis"] if "cm_axis" in history else history["cm"]
+    pitch_first = np.ix_([1, 0], [1, 0])
     return Swing(
         time=history["time"].values,
-        inertia=np.array([section.inertia, section.mass]),
-        stiffness=np.array([section.torsional_stiffness, section.flexural_stiffness]),
+        mass=section.mass_matrix[pitch_first],
+        damping=section.damping_matrix[pitch_first],
+        stiffness=section.stiffness_matrix[pitch_first],
         motion=np.stack(
             [history["twist"].values, history["deflection"].values / history.attrs["chord"]], axis=1
         ),
-        loads=np.stack([history["cm"].values, history["cl"].values], axis=1),
+        loads=np.stack([moment.values, history["cl"].values], axis=1),
     )
 
 
 def plate_swing(modes: BeamModes, history: xr.Dataset) -> Swing:
     """Return the modes of the plate, torsion before bending."""
     frequency = np.array([*modes.torsion_frequency, *modes.bending_frequency])
-    squares = (
-        modes.inertia * integrate(np.array(modes.span), np.array(modes.torsion_shape) ** 2),
-        modes.mass * integrate(np.array(modes.span), np.array(modes.bending_shape) ** 2),
+    span, torsion = np.array(modes.span), np.array(modes.torsion_shape)
+    bending = np.array(modes.bending_shape)
+    inertia = np.concatenate(
+        [modes.inertia * integrate(span, torsion**2), modes.mass * integrate(span, bending**2)]
     )
-    inertia = np.concatenate(squares)
+    ratio = np.repeat([modes.torsion_damping, modes.bending_damping], [len(torsion), len(bending)])
+    mass = np.diag(inertia)
+    across = -modes.imbalance * gram(span, torsion, bending)
+    mass[: len(torsion), len(torsion) :] = across
+    mass[len(torsion) :, : len(torsion)] = across.T
     names = ("torsion", "bending")
     motion = np.concatenate([history[f"{name}_amplitude"].values for name in names]).T
     loads = np.concatenate([history[f"{name}_load"].values for name in names]).T
-    return Swing(history["time"].values, inertia, inertia * frequency**2, motion, inertia * loads)
+    return Swing(
+        time=history["time"].values,
+        mass=mass,
+        damping=np.diag(2.0 * ratio * frequency * inertia),
+        stiffness=np.diag(inertia * frequency**2),
+        motion=motion,
+        loads=inertia * loads,
+    )
 
 
 def swing_of(case: UnsteadyCase, history: xr.Dataset) -> Swing:
@@ -88,7 +105,8 @@ class Cycle:
     start, period
         c/V.
     work, change
-        Of the air, and of the energy of what swings (of the section rho V^2 c^2/2 per unit span).
+        Of the air less what the dampers take, and of the energy of what swings (of the section
+        rho V^2 c^2/2 per unit span).
     swing
         Mean energy of the motion about its mean position, by which a small work is judged.
     """
@@ -108,15 +126,20 @@ class Cycle:
         return (self.change - self.work) / max(abs(self.work), 0.01 * self.swing)
 
 
+def _form(matrix: Floats, rows: Floats) -> Floats:
+    """Return x A x of each row x."""
+    return np.asarray((rows @ matrix * rows).sum(axis=-1))
+
+
 def cycles(swing: Swing) -> list[Cycle]:
     """Return the balance of each whole cycle of the twist; the first, from rest, is left out."""
     motion = CubicSpline(swing.time, swing.motion)
-    power = (swing.loads * motion(swing.time, 1)).sum(axis=1)
+    rates = motion(swing.time, 1)
+    power = (swing.loads * rates).sum(axis=1) - _form(swing.damping, rates)
     work = CubicSpline(swing.time, power).antiderivative()
 
     def energy(s: Floats | float, mean: Floats | float = 0.0) -> Floats:
-        squares = swing.inertia * motion(s, 1) ** 2 + swing.stiffness * (motion(s) - mean) ** 2
-        return np.asarray(squares.sum(axis=-1) / 2)
+        return (_form(swing.mass, motion(s, 1)) + _form(swing.stiffness, motion(s) - mean)) / 2
 
     twist = CubicSpline(swing.time, swing.motion[:, 0])
     turns = twist.derivative().roots(extrapolate=False)

@@ -53,6 +53,79 @@ def test_linear_load_is_followed_exactly_at_any_step() -> None:
     assert [*state.position, *state.velocity] == pytest.approx(list(expected[:2]))
 
 
+DAMPED = np.array([0.01, 0.05, 0.15])
+
+
+def test_damped_mode_decays_as_its_ratio_says() -> None:
+    """exp(-zeta omega s), at a step that is no small part of the period."""
+    step = ModalStep(FREQUENCY, 0.3, DAMPED)
+    state = ModalState(0.0, np.ones(3), np.zeros(3), np.zeros(3), np.zeros(3))
+    for _ in range(40):
+        state = step.advanced(state, np.zeros(3))
+    pole = FREQUENCY * (-DAMPED + 1j * np.sqrt(1 - DAMPED**2))
+    expected = ((pole.conj() * np.exp(pole * 12.0)).imag) / pole.conj().imag
+    np.testing.assert_allclose(state.position, expected, rtol=1e-9)
+
+
+def test_one_mode_by_matrix_exponential_is_duhamels_integral() -> None:
+    """The closed form in the module's own words."""
+    omega, h, q, v, p, rise = 1.3, 0.7, 0.2, -0.1, 0.5, 0.3
+    c, s = np.cos(omega * h), np.sin(omega * h)
+    start = ModalState(0.0, *(np.array([value]) for value in (q, v, p, p)))
+    state = ModalStep(np.array([omega]), h).advanced(start, np.array([p + rise]))
+    one, both = (1 - c) / omega**2, 1 / omega**2 - s / (omega**3 * h)
+    assert state.position[0] == pytest.approx(c * q + s / omega * v + one * p + both * rise)
+    rate = -omega * s * q + c * v + s / omega * p + one / h * rise
+    assert state.velocity[0] == pytest.approx(rate)
+
+
+COUPLED = ModalStep(
+    np.array([1.3, 0.9]), 0.05, np.array([0.03, 0.01]), np.array([[1.0, -2.0], [-0.08, 1.0]])
+)
+#: Generalised inertia of its modes, whose rows are over it: M = diag(1, 25) mu is symmetric.
+INERTIA = np.array([1.0, 25.0])
+
+
+def test_imbalance_shifts_both_frequencies_to_those_of_the_coupled_modes() -> None:
+    """(1 - eps) x^2 - (w1^2 + w2^2) x + w1^2 w2^2 = 0 of x = omega^2, eps = mu_12 mu_21."""
+    undamped = ModalStep(COUPLED.frequency, COUPLED.step, None, COUPLED.mass)
+    ones, twos = COUPLED.frequency**2
+    exact = np.sqrt(np.sort(np.roots([1 - 0.16, -(ones + twos), ones * twos])))
+    at_rest = ModalState(0.0, np.array([1.0, 0.3]), *np.zeros((3, 2)))
+    moved = np.array([state.position for state in march(undamped, at_rest, 4000)])
+    time = 0.05 * np.arange(1, 4001)
+    waves = [wave(omega * time) for omega in exact for wave in (np.cos, np.sin)]
+    _, left, _, _ = np.linalg.lstsq(np.stack(waves, axis=1), moved, rcond=None)
+    assert left.max() < 1e-12
+
+
+def march(step: ModalStep, state: ModalState, count: int) -> list[ModalState]:
+    """Return the states of modes without loads after each of some steps."""
+    found = []
+    for _ in range(count):
+        state = step.advanced(state, np.zeros(step.frequency.size))
+        found.append(state)
+    return found
+
+
+def test_dampers_take_what_the_coupled_modes_lose() -> None:
+    """1/2 q' M q' + 1/2 q K q falls by the integral of q' C q', and by nothing without dampers."""
+    assert COUPLED.mass is not None
+    mass = INERTIA[:, None] * COUPLED.mass
+    np.testing.assert_allclose(mass, mass.T)
+    start = ModalState(0.0, np.array([1.0, -0.3]), *np.zeros((3, 2)))
+    for ratio in (np.zeros(2), COUPLED.damping_ratio):
+        assert ratio is not None
+        states = march(ModalStep(COUPLED.frequency, 0.01, ratio, COUPLED.mass), start, 2000)
+        rates = np.array([state.velocity for state in states])
+        places = np.array([state.position for state in states])
+        energy = 0.5 * np.einsum("ti,ij,tj->t", rates, mass, rates)
+        energy += 0.5 * (INERTIA * COUPLED.frequency**2 * places**2).sum(axis=1)
+        power = (2 * ratio * COUPLED.frequency * INERTIA * rates**2).sum(axis=1)
+        lost = 0.005 * (power[1:] + power[:-1]).sum()
+        assert energy[0] - energy[-1] == pytest.approx(lost, rel=1e-4, abs=1e-10)
+
+
 def flow_of(time: float, position: Floats, rate: Floats) -> Floats:
     """Return the loads of a flow with added mass left out: stiffness, damping, and a gust."""
     return -0.1 * position - 0.05 * rate + np.sin(0.7 * time)

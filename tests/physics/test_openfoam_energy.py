@@ -13,6 +13,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import xarray as xr
+from scipy.interpolate import CubicSpline
 from tests.benchmarks.early_verdict import KEPT, case_of
 from tests.benchmarks.energy import cycles, section_swing, swing_of
 
@@ -62,6 +63,45 @@ def test_damped_swing_loses_what_the_moment_takes() -> None:
             -cycle.swing * 0.2 / SECTION.inertia * cycle.period, rel=0.02
         )
         assert abs(cycle.imbalance) < 1e-4
+
+
+def test_what_dampers_take_is_no_work_that_is_missing() -> None:
+    """The same swing, braked by the section's own damper in the place of the air."""
+    damped = Section(**{**dict(SECTION), "torsional_damping": 0.2})
+    found = cycles(section_swing(damped, history(damping=0.2, lost=1.0)))
+    assert len(found) > 5
+    for cycle in found:
+        assert abs(cycle.imbalance) < 1e-4
+        assert cycle.change < -0.01 * cycle.swing
+    without = cycles(section_swing(SECTION, history(damping=0.2, lost=1.0)))
+    assert all(abs(cycle.imbalance) > 0.5 for cycle in without)
+
+
+def test_free_swing_of_a_section_with_imbalance_keeps_its_energy() -> None:
+    """One of its coupled modes alone: without the imbalance energy would come and go."""
+    section = Section(**{**dict(SECTION), "static_imbalance": 8.0})
+    squares, shapes = np.linalg.eig(np.linalg.solve(section.mass_matrix, section.stiffness_matrix))
+    fast = int(squares.argmax())
+    time = np.arange(0.0, 40.0, 0.05)
+    wave = 0.1 * np.cos(math.sqrt(squares[fast]) * time)
+    deflection, twist = shapes[:, fast, None] / shapes[1, fast] * wave
+    free = history(damping=0.0).isel(time=slice(0)).drop_dims("time")
+    variables = {"twist": twist, "deflection": 0.1 * deflection, "cm": 0 * time, "cl": 0 * time}
+    free = free.assign({k: ("time", v) for k, v in variables.items()}).assign_coords(time=time)
+    found = cycles(section_swing(section, free))
+    assert len(found) > 5
+    for cycle in found:
+        middle = cycle.start + 0.5 * cycle.period
+        assert abs(energy_at(section, free, cycle.start + 0.25 * cycle.period)) == pytest.approx(
+            energy_at(section, free, middle), rel=1e-3
+        )
+
+
+def energy_at(section: Section, free: xr.Dataset, time: float) -> float:
+    swing = section_swing(section, free)
+    motion = CubicSpline(swing.time, swing.motion)
+    rate, place = motion(time, 1), motion(time)
+    return float(rate @ swing.mass @ rate + place @ swing.stiffness @ place)
 
 
 def test_work_that_is_missing_is_seen() -> None:

@@ -316,6 +316,24 @@ def test_onset_of_the_damped_plate(ratio, k_star):
     assert float(onset["k_star"]) == pytest.approx(k_star, abs=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("ratio", "known"),
+    [
+        (0.005, [2.39, 3.36, 5.48, 7.68, 7.82, 9.61, 10.05, 8.47]),
+        (0.01, [2.37, 3.30, 5.34, 7.00, 7.12, 8.68, 8.97, 7.62]),
+        (0.02, [2.33, 3.20, 5.13, 6.10, 6.19, 7.46, 7.58, 6.52]),
+    ],
+)
+def test_onset_of_the_damped_plate_over_incidence(ratio, known):
+    """By the same independent assembly, to the digits that it was written down with."""
+    angles = [0.0, 1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0]
+    onset = critical_speed(
+        damped(PLATE, ratio), POLAR, incidence_deg=angles, speed=(10.0, 80.0), density=DENSITY
+    )
+    np.testing.assert_allclose(onset["k_star"], known, atol=0.0075)
+    assert set(onset["mechanism"].values) == {"flutter"}
+
+
 def test_damped_deck_flutters_a_little_later():
     """77.24 m/s at 0.3 per cent by Theodorsen's function, 76.679 with Jones's two states."""
     onset = critical_speed(

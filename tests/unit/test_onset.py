@@ -9,10 +9,11 @@ from equisection.analysis.onset import (
     next_points,
     onset_bracket,
     onset_table,
+    points_beyond,
     refinement_points,
     with_speeds,
 )
-from equisection.analysis.summary import columns, summarise
+from equisection.analysis.summary import columns, summarise, with_both
 from equisection.study.axes import INCIDENCE, K_STAR, SPEED, Axis
 
 S, L, G, F = "settled", "limit-cycle", "growing", "failed"
@@ -170,3 +171,50 @@ def test_each_incidence_has_a_bracket_and_points_of_its_own():
     brackets = table[["incidence_deg", "k_star_unstable", "k_star_stable"]].to_numpy().tolist()
     assert brackets == [[2.5, 5.0, 6.0], [5.0, 6.0, 8.0]]
     assert [point.name for point in next_points(summary, 0.01, 1)] == ["a2.5_k5.5", "a5_k7"]
+
+
+class TestBeyondTheEnds:
+    """Values beyond a sweep that is stable, or unstable, throughout."""
+
+    def test_a_stable_sweep_is_followed_to_lower_k_star_and_to_higher_speeds(self):
+        stable = onset_bracket([5, 6], [S, S])
+        found = points_beyond(stable, [5, 6], (5, 6), 2.0, 3)
+        assert found == pytest.approx([5 / 1.26**3, 5 / 1.26**2, 5 / 1.26], rel=5e-4)
+        fast = onset_bracket([10, 12], [S, S], axis=SPEED)
+        found = points_beyond(fast, [10, 12], (10, 12), 2.0, 3, axis=SPEED)
+        assert found == [15.12, 19.05, 24.0]
+
+    def test_an_unstable_sweep_is_followed_the_other_way(self):
+        unstable = onset_bracket([5, 6], [G, G])
+        assert points_beyond(unstable, [5, 6], (5, 6), 2.0, 1) == [7.56]
+
+    def test_it_ends_at_the_reach_and_at_the_highest_speed(self):
+        stable = onset_bracket([2.5, 5, 6], [S, S, S])
+        assert points_beyond(stable, [2.5, 5, 6], (5, 6), 2.0, 3) == []
+        fast = onset_bracket([10, 12], [S, S], axis=SPEED)
+        found = points_beyond(fast, [10, 12], (10, 12), 2.0, 3, axis=SPEED, highest=16.0)
+        assert found == [15.12]
+
+    @pytest.mark.parametrize("regimes", [[F, F], [G, S]])
+    def test_nothing_to_follow(self, regimes):
+        assert points_beyond(onset_bracket([5, 6], regimes), [5, 6], (5, 6), 2.0, 3) == []
+
+
+def test_summary_over_speed_has_k_star_beside_and_stays_a_study_of_speed():
+    rows = [
+        ("2d", {"speed": v, "k_star": math.nan, "regime": r}) for v, r in ((20.0, S), (40.0, G))
+    ]
+    known = dict.fromkeys(columns((SPEED,)), math.nan) | {"mean_known": 1}
+    summary = with_both(summarise(((m, known | f) for m, f in rows), (SPEED,)), 8.0, 20.0)
+    assert summary["k_star"].tolist() == pytest.approx([8.0, 2.0])  # a quarter at twice the speed
+    assert list(summary.columns)[1] == "speed"
+    table = onset_table(summary)
+    assert table[["speed_stable", "speed_unstable"]].values.tolist() == [[20.0, 40.0]]
+
+
+def test_summary_over_k_star_has_the_speed_beside():
+    rows = [("2d", {"k_star": k, "regime": r}) for k, r in ((2.0, G), (8.0, S))]
+    known = dict.fromkeys(columns(), math.nan) | {"mean_known": 1}
+    summary = with_both(summarise((m, known | f) for m, f in rows), 8.0, 20.0)
+    assert summary["speed"].tolist() == pytest.approx([40.0, 20.0])
+    assert onset_table(summary)["k_star_stable"].tolist() == [8.0]

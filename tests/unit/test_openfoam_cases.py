@@ -1,19 +1,22 @@
 """What is written into an OpenFOAM case, and what a kill may leave of one."""
 
+import hashlib
 import math
+import re
 import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
 from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY
+from tests.watching import nothing
 
-from equisection.beam.section import MORE_THAN_SPRINGS, Section
+from equisection.beam.section import Section
 from equisection.config import Config, load_config
-from equisection.errors import ConfigError, EquisectionError, SolverError
+from equisection.errors import ConfigError, SolverError
 from equisection.figures.catalogue import figures
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.case_folder import (
@@ -27,6 +30,8 @@ from equisection.solvers.openfoam.flow_setup import (
     unsteady_solution,
     write_flow,
 )
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.section.body_axes import BodyAxes
 from equisection.solvers.openfoam.section.rigid_section import mesh_of, require_sound_mesh
 from equisection.solvers.openfoam.section.section_history import read_section
 from equisection.solvers.openfoam.section.section_motion import write_motion
@@ -82,21 +87,78 @@ def test_wall_velocity_follows_the_mesh_from_the_steady_run_on(tmp_path: Path) -
     assert "noSlip" not in velocity
 
 
+def body_of(section: Section, folder: Path, incidence: float = 0.0) -> dict[str, str]:
+    """Return what is written of a section, by the last words of its lines."""
+    write_motion(folder, section, incidence, 4.0)
+    text = (folder / "constant" / "dynamicMeshDict").read_text()
+    return dict(re.findall(r"(\w+) (.+);", text[text.index("mass ") :]))
+
+
+def numbers(written: str) -> list[float]:
+    return [float(word) for word in written.strip("()").split()]
+
+
 def test_section_has_half_of_each_reduced_quantity(tmp_path: Path) -> None:
     assert UNSTEADY.section is not None
-    write_motion(tmp_path, UNSTEADY.section, 4.0)
+    write_motion(tmp_path, UNSTEADY.section, 0.1, 4.0)
     text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
     for line in ("mass 40;", "momentOfInertia (1 1 3.35);", "stiffness 0.45;", "stiffness 3.22;"):
         assert line in text
 
 
-@pytest.mark.parametrize("member", sorted(MORE_THAN_SPRINGS))
-def test_section_that_its_rigid_body_has_no_place_for_is_refused(
-    member: str, tmp_path: Path
+def test_section_without_dampers_and_offset_is_written_as_it_always_was(tmp_path: Path) -> None:
+    """So that a run that was begun before goes on, whatever its incidence."""
+    assert UNSTEADY.section is not None
+    write_motion(tmp_path, UNSTEADY.section, math.radians(2.5), 4.0)
+    text = (tmp_path / "constant" / "dynamicMeshDict").read_bytes()
+    assert hashlib.sha256(text).hexdigest()[:16] == "1f399325f7e89ea1"
+
+
+def test_section_has_half_of_each_reduced_damping(tmp_path: Path) -> None:
+    damped = Section(
+        **{**dict(UNSTEADY.section or {}), "flexural_damping": 0.6, "torsional_damping": 0.2}
+    )
+    write_motion(tmp_path, damped, 0.1, 4.0)
+    text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
+    assert [float(found) for found in re.findall(r"damping (.+);", text)] == [0.3, 0.1]
+
+
+def test_body_turns_about_its_centre_of_mass_and_hangs_on_its_elastic_axis(tmp_path: Path) -> None:
+    """m = 80, S = 8: the centre of mass is 0.1 c behind the axis, and I_cg = 6.7 - 64/80."""
+    incidence = math.radians(10.0)
+    offset = Section(
+        **{**dict(UNSTEADY.section or {}), "static_imbalance": 8.0, "elastic_axis": 0.3}
+    )
+    written = body_of(offset, tmp_path, incidence)
+    axis = np.array([-0.2 * math.cos(incidence), 0.2 * math.sin(incidence), 0.0])
+    np.testing.assert_allclose(numbers(written["refAttachmentPt"]), axis, atol=1e-8)
+    centre = axis + np.array([0.1, 0.0, 0.0])
+    np.testing.assert_allclose(numbers(written["centreOfMass"]), centre, atol=1e-12)
+    assert written["centreOfRotation"] == written["centreOfMass"]
+    np.testing.assert_allclose(numbers(written["momentOfInertia"]), [1, 1, 5.9 / 2])
+
+
+def test_spring_of_the_bending_is_slack_and_upright_where_it_is_long(tmp_path: Path) -> None:
+    """Slack to the last digit: of a heavy section a stretch by 1e-9 c would be a load."""
+    for axis in (0.0, 0.3, 0.9999):
+        offset = Section(**{**dict(UNSTEADY.section or {}), "elastic_axis": axis})
+        written = body_of(offset, tmp_path, math.radians(7.3))
+        top, foot = (numbers(written[name]) for name in ("refAttachmentPt", "anchor"))
+        assert top[0] == foot[0]
+        assert top[1] - foot[1] == pytest.approx(float(written["restLength"]), abs=1e-12)
+
+
+@pytest.mark.parametrize("factors", [(1.2, 1.0), (1.0, 0.9)])
+def test_section_whose_loads_have_factors_is_refused_before_its_flow_is_made(
+    tmp_path: Path, factors: tuple[float, float]
 ) -> None:
-    section = Section(**{**dict(UNSTEADY.section or {}), member: 0.3})
-    with pytest.raises(EquisectionError, match=f"OpenFOAM takes no section with {member} 0.3"):
-        write_motion(tmp_path, section, 4.0)
+    lift, moment = factors
+    case = UNSTEADY.model_copy(update={"lift_factor": lift, "moment_factor": moment})
+    solver = solver_from_config(load_config(openfoam()), "coarse")
+    assert isinstance(solver, Adapter)
+    with pytest.raises(SolverError, match=r"have the factors .* solver 'embedded'"):
+        solver._free_section(cast(Installation, None), case, tmp_path, nothing)
+    assert not list(tmp_path.iterdir())
 
 
 def test_loads_are_written_at_each_step_in_time_and_iterations() -> None:
@@ -105,20 +167,52 @@ def test_loads_are_written_at_each_step_in_time_and_iterations() -> None:
         assert (loads["writeControl"], loads["writeInterval"]) == ("timeStep", 1)
 
 
-def test_moment_is_about_the_moving_centre(tmp_path: Path) -> None:
-    loads = tmp_path / "postProcessing" / "loads" / "0" / "coefficient.dat"
-    motion = tmp_path / "postProcessing" / "motion" / "0" / "sixDoFRigidBodyState.dat"
-    for path, text in (
-        (loads, "# Time Cd Cl CmPitch\n1 0.1 0.4 0.07\n2 0.1 0.4 0.07\n"),
-        (motion, "# Time centreOfRotation rotation\n1 (0 0.3 0) (0 0 -0.01)\n"),
+def write_histories(folder: Path, loads: str, motion: str) -> None:
+    """Write rows of time, c_d, c_l, c_m, and of time, centre and rotation."""
+    for name, text in (
+        ("loads/0/coefficient.dat", f"# Time Cd Cl CmPitch\n{loads}"),
+        ("motion/0/sixDoFRigidBodyState.dat", f"# Time centreOfRotation rotation\n{motion}"),
     ):
+        path = folder / "postProcessing" / name
         path.parent.mkdir(parents=True)
         path.write_text(text)
-    history = read_section(tmp_path)
+
+
+def test_moment_is_about_the_moving_centre(tmp_path: Path) -> None:
+    write_histories(tmp_path, "1 0.1 0.4 0.07\n2 0.1 0.4 0.07\n", "1 (0 0.3 0) (0 0 -0.01)\n")
+    history = read_section(tmp_path, BodyAxes(0.0))
     # drag above the centre at rest turns the nose up about it, by 0.3 x 0.1
     np.testing.assert_allclose(history.moment, [0.04])
+    np.testing.assert_allclose(history.axis_moment, [0.04])
     np.testing.assert_allclose(history.twist, [0.01])
     np.testing.assert_allclose(history.deflection, [0.3])
+
+
+def test_moments_of_a_section_with_offset_are_about_where_its_axes_have_moved(
+    tmp_path: Path,
+) -> None:
+    """The body turns about its centre of mass, 0.1 c behind an axis at a quarter of the chord."""
+    axes, twist, deflection = BodyAxes(math.radians(5.0), -0.25, 0.1), 0.2, 0.3
+    force = np.array([0.1, 0.4])  # drag and lift
+    turned = np.array([[math.cos(twist), math.sin(twist)], [-math.sin(twist), math.cos(twist)]])
+    centre = np.array(axes.centre_of_mass)
+    axis = centre + turned @ (np.array(axes.elastic_axis) - centre)
+    centre[1] += deflection - (axis - axes.elastic_axis)[1]
+    axis = centre + turned @ (np.array(axes.elastic_axis) - axes.centre_of_mass)
+    middle = centre + turned @ -np.array(axes.centre_of_mass)
+    write_histories(
+        tmp_path,
+        f"1 {force[0]} {force[1]} 0.07\n2 0.1 0.4 0.07\n",
+        f"1 ({centre[0]} {centre[1]} 0) (0 0 {-twist})\n",
+    )
+    history = read_section(tmp_path, axes)
+    np.testing.assert_allclose(history.deflection, [deflection])
+    np.testing.assert_allclose(history.moment, [0.07 + middle[0] * 0.4 - middle[1] * 0.1])
+    np.testing.assert_allclose(history.axis_moment, [0.07 + axis[0] * 0.4 - axis[1] * 0.1])
+    # from mid-chord to the axis: the relative wind is that of the tunnel, alpha = theta_0 + theta
+    alpha = axes.incidence + twist
+    transferred = history.moment - 0.25 * (0.4 * math.cos(alpha) + 0.1 * math.sin(alpha))
+    np.testing.assert_allclose(history.axis_moment, transferred)
 
 
 def test_settings_decide_results_and_know_no_machine() -> None:

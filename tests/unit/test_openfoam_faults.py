@@ -27,6 +27,7 @@ from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from equisection.errors import SolverError
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.openfoam.adapter import Adapter
+from equisection.solvers.openfoam.section.body_axes import BodyAxes
 from equisection.solvers.openfoam.section.section_history import read_section
 from equisection.store.job import run_cases
 
@@ -186,7 +187,7 @@ def test_steps_that_are_missing_in_a_history_are_not_passed_over(tmp_path: Path)
     rows = loads.read_text().splitlines(keepends=True)
     loads.write_text("".join(rows[:500] + rows[520:]))
     with pytest.raises(SolverError, match=r"steps are missing between 9\.96 and 10\.38 c/V"):
-        read_section(folder)
+        read_section(folder, BodyAxes(0.0))
 
 
 JOB = [sys.executable, str(ROOT / "tests" / "run_one_job.py")]

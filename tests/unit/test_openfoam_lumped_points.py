@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from tests.sample_cases import beam_modes
 
+from equisection.cases import BeamModes
+from equisection.errors import EquisectionError
 from equisection.solvers.openfoam.beam.lumped_points import Handed, LumpedPoints
 
 EDGES = np.linspace(0.0, 3.7, 75)
@@ -104,14 +106,20 @@ def test_other_forms_are_told_apart() -> None:
 
 def test_drag_above_the_place_of_reference_turns_the_nose_up() -> None:
     """About a point that is higher by w the same drag turns less nose up, by w F_x."""
-    loads = Handed.read(MESSAGE).about(np.array([0.5, 0.0]))
+    loads = Handed.read(MESSAGE).about((np.zeros(2), np.array([0.5, 0.0])))
     np.testing.assert_allclose(loads.moments[:, 2], [0.03 + 0.05, -0.5])
+
+
+def test_lift_ahead_of_the_place_of_reference_turns_the_nose_up() -> None:
+    """About a point that is further back by x the same lift turns more nose up, by x F_y."""
+    loads = Handed.read(MESSAGE).about((np.array([0.5, 0.0]), np.zeros(2)))
+    np.testing.assert_allclose(loads.moments[:, 2], [0.03 - 0.5 * 0.2, -0.5])
 
 
 def test_mesh_that_asks_twice_is_told_apart_from_another_iteration() -> None:
     """The second time the moments are about the points' new places; the forces are the same."""
     first = Handed.read(MESSAGE)
-    again = first.about(np.array([0.1, 0.2]))
+    again = first.about((np.zeros(2), np.array([0.1, 0.2])))
     assert again.is_again(first)
     assert not first.is_again(None)
     assert not Handed(first.time + 0.02, first.forces, first.moments).is_again(first)
@@ -133,3 +141,89 @@ def test_loads_do_their_work_on_the_surface_as_it_moves() -> None:
     shapes = np.concatenate([POINTS.torsion, POINTS.bending])
     at_edges = np.array([np.interp(EDGES, POINTS.locations, shape) for shape in shapes])
     assert work == pytest.approx(0.5 * np.trapezoid(at_edges, EDGES, axis=1))
+
+
+INCIDENCE, AXIS = np.radians(5.0), -0.2
+OFFSET = LumpedPoints.of(
+    beam_modes().model_copy(update={"imbalance": 3.0, "elastic_axis": 0.5 + AXIS}), EDGES, INCIDENCE
+)
+PLACE = np.array([0.1, -0.04, 0.3, 0.02])
+
+
+def test_points_of_a_beam_with_its_axis_off_mid_chord_turn_about_the_axis() -> None:
+    """Each is as far from the axis as at rest, and is turned by the twist."""
+    rows = np.array([row.split() for row in OFFSET.message(PLACE).splitlines()[1:]], dtype=float)
+    axis = AXIS * np.array([np.cos(INCIDENCE), -np.sin(INCIDENCE)])
+    arm = rows[:, :2] - axis
+    arm[:, 1] -= OFFSET.deflection(PLACE)
+    np.testing.assert_allclose(np.hypot(*arm.T), abs(AXIS))
+    turned = np.arctan2(*arm.T[::-1]) - np.arctan2(*-axis[::-1])
+    np.testing.assert_allclose(turned, rows[:, 3], atol=1e-9)
+    np.testing.assert_allclose(rows[:, 3], -OFFSET.twist(PLACE), atol=1e-9)
+
+
+def test_loads_of_an_offset_beam_do_the_work_of_its_points() -> None:
+    """Virtual work of forces and moments on the points, by differences of where they go."""
+    generator = np.random.default_rng(3)
+    forces, moments = generator.normal(size=(2, EDGES.size + 1, 3))
+    forces[[0, -1]] = moments[[0, -1]] = 0.0
+    loads = OFFSET.modal_loads(forces, OFFSET.about_axis(forces, moments, PLACE)) * OFFSET.inertia
+    for mode, load in enumerate(loads):
+        small = 1e-5 * np.eye(4)[mode]
+        (x_less, y_less), (x_more, y_more) = (
+            OFFSET.axes.mid_chord_places(*motion_at_loads(OFFSET, PLACE + sign * small, PLACE))
+            for sign in (-1, 1)
+        )
+        shifts = np.stack([x_more - x_less, y_more - y_less], axis=1) / 2e-5
+        twist = OFFSET.torsion_at_loads[mode] if mode < 2 else np.zeros(EDGES.size + 1)
+        work = (forces[:, :2] * shifts).sum() - moments[:, 2] @ twist
+        assert load == pytest.approx(work, rel=1e-6)
+
+
+def motion_at_loads(
+    points: LumpedPoints, position: np.ndarray, about: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return twist and deflection near a position, as the shapes at the loads say."""
+    change = position - about
+    return (
+        points.twist(about) + change[:2] @ points.torsion_at_loads,
+        points.deflection(about) + change[2:] @ points.bending_at_loads,
+    )
+
+
+def test_moment_about_mid_chord_is_that_about_an_axis_there() -> None:
+    forces, moments = handed(np.array(0.3), np.array(0.06))
+    np.testing.assert_array_equal(POINTS.about_axis(forces, moments, PLACE), moments)
+    about = OFFSET.about_axis(forces, moments, np.zeros(4))
+    _, moment = OFFSET.coefficients(forces, about)
+    assert moment == pytest.approx(0.06 + AXIS * 0.3 * np.cos(INCIDENCE))
+
+
+def test_mass_of_the_modes_is_that_of_a_beam_with_imbalance() -> None:
+    """M of the uniform beam: I int f f, m int g g, -S int f g, by sums over many stations."""
+    modes = beam_modes()
+    span = np.array(modes.span)
+    shapes = np.array([*modes.torsion_shape, *modes.bending_shape])
+    per_length = np.full((4, 4), -3.0)
+    per_length[:2, :2], per_length[2:, 2:] = modes.inertia, modes.mass
+    products = shapes[:, None] * shapes[None, :]
+    exact = 0.5 * 3.7 * per_length * np.trapezoid(products, span, axis=-1)
+    own = OFFSET.inertia[:, None] * OFFSET.mass
+    np.testing.assert_allclose(own, exact, rtol=2e-3, atol=2e-3 * np.abs(np.diag(exact)).min())
+    np.testing.assert_allclose(own, own.T, rtol=1e-12)
+    assert np.linalg.eigvalsh(own).min() > 0.0
+    np.testing.assert_array_equal(POINTS.mass, np.eye(4))
+
+
+def test_coupled_beam_refuses_a_field_that_it_does_not_have() -> None:
+    """A beam of a later kind is refused by name until its physics is here."""
+
+    class LaterModes(BeamModes):
+        left_out = frozenset({*BeamModes.left_out, "chordwise"})
+        chordwise: float = 0.0
+
+    plain = LaterModes(**dict(beam_modes()))
+    assert LumpedPoints.of(plain, EDGES).span == 3.7
+    later = LaterModes(**dict(beam_modes()), chordwise=0.3)
+    with pytest.raises(EquisectionError, match=r"takes no beam with chordwise 0\.3 \(allowed is 0"):
+        LumpedPoints.of(later, EDGES)

@@ -115,7 +115,7 @@ def test_motion_is_that_of_the_last_iteration_of_a_step(tmp_path: Path) -> None:
     log(tmp_path, (0.02, 0.1), (0.04, 0.2))
     motion = read_motion(tmp_path)
     np.testing.assert_allclose(motion.time, [0.02, 0.04])
-    np.testing.assert_allclose(motion.deflection, [0.1, 0.2])
+    np.testing.assert_allclose(motion.height, [0.1, 0.2])
     # turned by asin(0.6) about -z, which is nose up
     np.testing.assert_allclose(motion.twist, math.asin(0.6))
 
@@ -124,7 +124,7 @@ def test_steps_that_a_resumption_repeats_count_once(tmp_path: Path) -> None:
     log(tmp_path, (1.98, 0.1), (2.0, 0.2), (2.02, 0.3), (2.04, 0.4), (2.02, 0.31))
     motion = read_motion(tmp_path)
     np.testing.assert_allclose(motion.time, [1.98, 2.0, 2.02])
-    np.testing.assert_allclose(motion.deflection, [0.1, 0.2, 0.31])
+    np.testing.assert_allclose(motion.height, [0.1, 0.2, 0.31])
 
 
 def test_log_that_is_missing_or_without_motion_is_refused(tmp_path: Path) -> None:

@@ -1,3 +1,4 @@
+import math
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -7,10 +8,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from equisection.analysis.onset import OnsetBracket, refinement_points
+from equisection.analysis.onset import (
+    OnsetBracket,
+    onset_bracket,
+    points_beyond,
+    refinement_points,
+)
 from equisection.config import Config, load_config
 from equisection.study import plan
-from equisection.study.axes import K_STAR, RIGID_PATTERN, SWEEP_PATTERN, Point
+from equisection.study.axes import K_STAR, RIGID_PATTERN, SWEEP_PATTERN, Point, sweep_points
 
 k_stars = st.floats(min_value=1e-3, max_value=1e6).map(lambda value: float(f"{value:.6g}"))
 angles = st.floats(min_value=-89, max_value=89).map(lambda value: float(f"{value:.6g}"))
@@ -99,7 +105,7 @@ def test_no_refinement_has_the_sweep_alone() -> None:
 
 
 def test_a_sweep_that_is_narrow_enough_takes_no_round() -> None:
-    assert plan.refinement_rounds(config(k_star=[7.0, 7.05], onset="refine")) == 0
+    assert plan.refinement_rounds(config(k_star=[7.0, 7.05], onset="refine", onset_reach=1)) == 0
 
 
 def test_batches_before_a_round_are_all_that_it_can_know() -> None:
@@ -150,3 +156,44 @@ def test_plan_needs_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> 
     for function in asked:
         assert function(load_config({}))
     assert list(tmp_path.iterdir()) == []
+
+
+@given(
+    at=st.floats(1.01, 3.9),
+    towards=st.sampled_from(["lower", "higher"]),
+    points=st.integers(1, 6),
+    tolerance=st.floats(0.02, 0.5),
+)
+def test_planned_rounds_find_an_onset_beyond_the_ends(
+    at: float, towards: str, points: int, tolerance: float
+) -> None:
+    """Whatever is within the reach is found, and its bracket as narrow as was asked for."""
+    given_ends, reach = (5.0, 6.0), 4.0
+    onset = given_ends[0] / at if towards == "lower" else given_ends[1] * at
+    runs = list(given_ends)
+    planned = plan.refinement_rounds(
+        config(
+            k_star=list(given_ends),
+            onset="refine",
+            onset_reach=reach,
+            onset_tolerance=tolerance,
+            onset_points=points,
+        )
+    )
+
+    def bracket() -> OnsetBracket:
+        return onset_bracket(runs, ["settled" if run > onset else "growing" for run in runs])
+
+    for _ in range(planned):
+        runs += refinement_points(bracket(), tolerance, points) or points_beyond(
+            bracket(), runs, given_ends, reach, points
+        )
+    assert bracket().closed
+    assert bracket().relative_width <= tolerance * 1.02 + 2e-3
+
+
+def test_speeds_are_the_axis_of_a_study_in_the_place_of_k_star() -> None:
+    over = config(k_star=None, speed=[30.0, 20.0])
+    assert [point.name for point in sweep_points(over)] == ["v20", "v30"]
+    assert plan.highest_of_sweep(over) == pytest.approx(0.3 * 340.0)
+    assert math.isinf(plan.highest_of_sweep(config(k_star=[5.0, 6.0])))

@@ -16,6 +16,7 @@ from rich.console import Console
 from tests.conftest import ROOT
 from tests.sample_cases import STEADY, STEADY_PLATE
 
+from equisection.analysis.critical_speeds import COLUMNS
 from equisection.analysis.onset import onset_table
 from equisection.analysis.summary import summary_of
 from equisection.cases import SteadyCase, case_hash, read_cases, write_cases
@@ -26,6 +27,7 @@ from equisection.figures.response import draw, read_response
 from equisection.figures.style import drawing_style
 from equisection.results.netcdf import read_dataset
 from equisection.results.plate_grid import PlateGrid
+from equisection.results.section_dataset import nominal_k_star
 from equisection.results.section_mesh import SectionMesh
 from equisection.run.listing import cases_of_run
 from equisection.run.script import logged
@@ -112,9 +114,14 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         index = folder / "unsteady" / model / "sweep.json"
         run.main(cases, index, folder / "store", folder / "progress.json")
     indices = [folder / "unsteady" / model / "sweep.json" for model in ("2d-corrected", "3d")]
-    load_script("summary").main(indices, folder / "summary.csv")
+    load_script("summary").main(
+        indices, folder / "summary.csv", folder / "equivalent.nc", config.flow.speed
+    )
     load_script("onset").growth_by_linear_theory(
-        folder / "equivalent.nc", [9.0, 21.0], folder / "linear_theory.csv"
+        folder / "equivalent.nc", [9.0, 21.0], "k_star", 20.0, folder / "linear_theory.csv"
+    )
+    load_script("onset").speeds(
+        folder / "summary.csv", folder / "equivalent.nc", raw, folder / "critical_speed.csv"
     )
     load_script("onset").main(
         folder / "summary.csv",
@@ -138,6 +145,26 @@ def test_chain_of_scripts_ends_in_a_line_for_each_run(chain: Path) -> None:
         ("3d", 21.0),
     ]
     assert pd.read_csv(chain / "onset.csv")["model"].tolist() == ["2d-corrected", "3d"]
+    critical = pd.read_csv(chain / "critical_speed.csv")
+    assert tuple(critical.columns) == COLUMNS
+    by_basis = {basis: list(rows["model"]) for basis, rows in critical.groupby("basis")}
+    assert by_basis == {"eigenvalue": ["2d", "2d-paper"], "time": ["2d-corrected", "3d"]}
+    pd.testing.assert_series_equal(
+        summary["speed"] ** 2 * summary["k_star"],
+        pd.Series([20.0**2 * nominal_k_star(read_dataset(chain / "equivalent.nc"))] * 4),
+        check_names=False,
+    )
+
+
+def test_linear_theory_over_speed_is_that_at_their_k_star(
+    chain: Path, load_script: LoadScript, tmp_path: Path
+) -> None:
+    growth = load_script("onset").growth_by_linear_theory
+    over_k = pd.read_csv(chain / "linear_theory.csv")
+    speeds = sorted(set(over_k["speed"]))
+    growth(chain / "equivalent.nc", speeds, "speed", 20.0, tmp_path / "linear_theory.csv")
+    over_speed = pd.read_csv(tmp_path / "linear_theory.csv")
+    pd.testing.assert_frame_equal(over_k, over_speed, rtol=2e-5, check_dtype=False)
 
 
 def test_modes_feel_less_of_the_beams_lift_than_its_mean(chain: Path) -> None:
@@ -168,7 +195,9 @@ def test_study_over_other_axes_runs_by_the_names_of_its_cases(
     assert [listed.name for listed in cases_of_run(tmp_path)] == names
     points = [Point.named(name) for name in names]
     axes, along = points[0].axes, onset_axis(points[0].axes)
-    load_script("summary").main([index], tmp_path / "summary.csv")
+    load_script("summary").main(
+        [index], tmp_path / "summary.csv", chain / "equivalent.nc", raw["flow"]["speed"]
+    )
     summary = pd.read_csv(tmp_path / "summary.csv")
     columns = [axis.name for axis in axes]
     assert list(summary.columns[: len(columns) + 1]) == ["model", *columns]

@@ -11,7 +11,7 @@ from equisection.config.groups import FLAT_PLATE
 from equisection.provenance import command_line, config_hash
 from equisection.run.source_digest import source_digest
 from equisection.store.mend import mend
-from equisection.study.axes import RIGID_PATTERN, SWEEP_PATTERN
+from equisection.study.axes import RIGID_PATTERN, SWEEP_PATTERN, onset_axis, varied
 from equisection.study.result_files import index_of_beam, indices_of_sweep
 from equisection.solvers.registry import SOLVERS, Capability
 
@@ -225,7 +225,7 @@ def sections_against_beam():
 
 def comparison_files():
     """Return the tables that compare the models with each other."""
-    tables = ("summary", "onset", "linear_theory")
+    tables = ("summary", "onset", "critical_speed", "linear_theory")
     missing = () if CONFIG.compute else ("missing",)
     return [
         *(f"{RESULTS}/comparison/{name}.csv" for name in (*tables, *missing)),

@@ -23,6 +23,7 @@ rule summary:
     """One line for each run of each model."""
     input:
         indices=indices_of_sweep(CONFIG, RESULTS),
+        equivalent=f"{RESULTS}/structure/equivalent.nc",
     output:
         report(
             f"{RESULTS}/comparison/summary.csv",
@@ -39,6 +40,7 @@ rule summary:
     params:
         code=code("summary"),
         models=list(CONFIG.sweep.shown),
+        speed=CONFIG.flow.speed,
     message:
         "summary"
     script:
@@ -89,6 +91,15 @@ rule onset:
                 "shows": "what Theodorsen's theory sees",
             },
         ),
+        critical_speed=report(
+            f"{RESULTS}/comparison/critical_speed.csv",
+            caption="../report/critical_speed.rst",
+            category="Tables",
+            labels={
+                "table": "critical speed",
+                "shows": "speed of the onset of each model, in m/s",
+            },
+        ),
         section_and_beam=[
             report(
                 path,
@@ -113,7 +124,9 @@ rule onset:
         incidence_deg=CONFIG.flow.incidence_deg,
         speed=CONFIG.flow.speed,
         reduction=CONFIG.reduction,
-        k_star=list(CONFIG.sweep.values()),
+        values=list(CONFIG.sweep.values()),
+        along=onset_axis(varied(CONFIG)).name,
+        config=RESOLVED,
     message:
         "onset of the instability"
     script:

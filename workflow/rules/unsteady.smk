@@ -101,6 +101,9 @@ checkpoint refine_onset:
         code=code("refine_onset"),
         tolerance=CONFIG.sweep.onset_tolerance,
         points=CONFIG.sweep.onset_points,
+        given=(min(CONFIG.sweep.values()), max(CONFIG.sweep.values())),
+        reach=CONFIG.sweep.onset_reach,
+        highest=plan.highest_of_sweep(CONFIG),
     message:
         "onset of {wildcards.model}, {wildcards.batch}"
     script:

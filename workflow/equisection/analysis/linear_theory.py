@@ -30,7 +30,7 @@ from equisection.results.section_dataset import nominal_k_star, section_in_flow
 from equisection.study.plan import Model, model
 
 #: Columns of ``comparison/linear_theory.csv``, in order.
-COLUMNS = ("reduction", "motion", "k_star", "growth_rate", "frequency_strouhal")
+COLUMNS = ("reduction", "motion", "k_star", "growth_rate", "frequency_strouhal", "speed")
 #: Columns that the theory adds to ``comparison/onset.csv``.
 ONSET_COLUMNS = ("linear_flutter", "linear_divergence", "divergence_by_polar")
 #: Name of the beam among the reductions.
@@ -41,7 +41,9 @@ _MID_CHORD = 0.5
 _MOTIONS = ("heave", "pitch")
 
 
-def linear_theory(equivalent: xr.Dataset, k_star: Sequence[float]) -> pd.DataFrame:
+def linear_theory(
+    equivalent: xr.Dataset, k_star: Sequence[float], speed: float = math.nan
+) -> pd.DataFrame:
     """Return ``comparison/linear_theory.csv``: growth and frequency of both motions over k*.
 
     Parameters
@@ -50,15 +52,18 @@ def linear_theory(equivalent: xr.Dataset, k_star: Sequence[float]) -> pd.DataFra
         ``structure/equivalent.nc``.
     k_star
         Values of k* (-), in any order.
+    speed
+        V (m/s) at which the beam as given has its k*; with it come the speeds of the others.
     """
-    rows = []
+    rows, given = [], nominal_k_star(equivalent)
     ascending = sorted(k_star)
     for reduction in (str(name) for name in equivalent["reduction"].values):
         section = section_in_flow(equivalent, reduction)
-        p = _growth_and_frequency(section, np.array(ascending) / nominal_k_star(equivalent))
+        p = _growth_and_frequency(section, np.array(ascending) / given)
         for column, motion in enumerate(_MOTIONS):
             for value, root in zip(ascending, p[:, column], strict=True):
-                rows.append((reduction, motion, value, root.real, root.imag / (2 * math.pi)))
+                there = speed * math.sqrt(given / value)
+                rows.append((reduction, motion, value, root.real, root.imag / math.tau, there))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
 

@@ -27,6 +27,7 @@ import numpy as np
 import pandas as pd
 
 from equisection.study.axes import K_STAR, Axis, Point, axes_among, onset_axis, onset_axis_among
+from equisection.study.plan import STRIDE
 
 _SIGNIFICANT_DIGITS = 4
 
@@ -165,6 +166,57 @@ def refinement_points(bracket: OnsetBracket, tolerance: float, count: int = 1) -
     return []
 
 
+def points_beyond(
+    bracket: OnsetBracket,
+    values: Sequence[float],
+    given: tuple[float, float],
+    reach: float,
+    count: int = 1,
+    *,
+    axis: Axis = K_STAR,
+    highest: float = math.inf,
+) -> list[float]:
+    """Give the values to run next beyond the ends of a sweep without an onset inside.
+
+    Parameters
+    ----------
+    bracket : OnsetBracket
+        An open one; of one that is closed, or of a sweep in which all failed, nothing is given.
+    values : sequence of float
+        Values run so far.
+    given : tuple of float
+        Lowest and highest value of the sweep as it was given.
+    reach : float
+        Factor on these that bounds the search (-).
+    count : int
+        Number of runs at a time.
+    axis : Axis
+        Axis, with the side of the onset on which a beam is stable.
+    highest : float
+        Value above which nothing may be run.
+
+    Returns
+    -------
+    list of float
+        Rising values of four significant digits; empty at the end of the search.
+    """
+    if math.isnan(bracket.stable) == math.isnan(bracket.unstable):
+        return []
+    towards = "stable" if math.isnan(bracket.stable) else "unstable"
+    upwards = (towards == "stable") == (axis.stable == "above")
+    stride = STRIDE if upwards else 1.0 / STRIDE
+    last = max(values) if upwards else min(values)
+    bound = min(given[1] * reach, highest) if upwards else given[0] / reach
+    found = []
+    for _ in range(count):
+        last = _rounded(last * stride)
+        # four digits of a value, and strides of 1.26 for a third of a factor of two, differ so far
+        if (last > bound * 1.002) if upwards else (last < bound / 1.002):
+            break
+        found.append(last)
+    return sorted(found)
+
+
 def _rounded(value: float) -> float:
     """Round to the digits that a case's name carries."""
     return float(f"{value:.{_SIGNIFICANT_DIGITS}g}")
@@ -181,8 +233,18 @@ def bracket_of(summary: pd.DataFrame) -> OnsetBracket:
     )
 
 
-def next_points(summary: pd.DataFrame, tolerance: float, count: int) -> list[Point]:
-    """Return the points to run next of the one model of a summary, inside each bracket.
+def next_points(
+    summary: pd.DataFrame,
+    tolerance: float,
+    count: int,
+    *,
+    given: tuple[float, float] = (math.nan, math.nan),
+    reach: float = 1.0,
+    highest: float = math.inf,
+) -> list[Point]:
+    """Return the points to run next of the one model of a summary.
+
+    They are inside each bracket, or beyond the ends of a sweep without one.
 
     Parameters
     ----------
@@ -190,13 +252,19 @@ def next_points(summary: pd.DataFrame, tolerance: float, count: int) -> list[Poi
         ``comparison/summary.csv``.
     tolerance, count
         As of :func:`refinement_points`.
+    given, reach, highest
+        As of :func:`points_beyond`.
     """
     axis = onset_axis_among(summary.columns)
-    return [
-        Point.at({**fixed, axis: value})
-        for _, fixed, runs in _sweeps(summary)
-        for value in refinement_points(bracket_of(runs), tolerance, count)
-    ]
+    points = []
+    for _, fixed, runs in sweeps(summary):
+        bracket, values = bracket_of(runs), runs[axis.name].tolist()
+        points += [
+            Point.at({**fixed, axis: value})
+            for value in refinement_points(bracket, tolerance, count)
+            or points_beyond(bracket, values, given, reach, count, axis=axis, highest=highest)
+        ]
+    return points
 
 
 def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
@@ -208,7 +276,7 @@ def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
     axes = axes_among(summary.columns)
     axis = onset_axis(axes)
     rows = []
-    for model, fixed, runs in _sweeps(summary):
+    for model, fixed, runs in sweeps(summary):
         bracket = bracket_of(runs)
         rows.append(
             {
@@ -226,7 +294,7 @@ def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=names)
 
 
-def _sweeps(summary: pd.DataFrame) -> Iterator[tuple[str, dict[Axis, float], pd.DataFrame]]:
+def sweeps(summary: pd.DataFrame) -> Iterator[tuple[str, dict[Axis, float], pd.DataFrame]]:
     """Give model, values on the further axes, and runs of each sweep along the onset's axis."""
     axes = axes_among(summary.columns)
     further = [axis for axis in axes if axis is not onset_axis(axes)]

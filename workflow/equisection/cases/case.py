@@ -6,6 +6,7 @@ an edit of code around the solver asks for no new one.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any, ClassVar, Literal
 
 from pydantic import BaseModel, ConfigDict, SerializerFunctionWrapHandler, model_serializer
@@ -130,23 +131,26 @@ class BeamModes(Block):
     elastic_axis: float = 0.5  # x/c from the leading edge
     fittings: FittedModes | None = None
 
-    def require_defaults(self, model: str) -> None:
-        """Refuse a beam with imbalance, dampers or an axis off mid-chord.
+    def require_defaults(self, model: str, *, but: Iterable[str] = ()) -> None:
+        """Refuse a beam that has more than a model can represent.
 
         Parameters
         ----------
         model
-            The model without a place for them, as the message names it.
+            Name of the model in the message.
+        but
+            Fields of ``left_out`` that the model has; a field that is added later is refused until
+            the model names it.
 
         Raises
         ------
         EquisectionError
-            One of them is not at its default.
+            Another of them is not at its default.
         """
         fields = type(self).model_fields
         more = [
-            f"{name} {getattr(self, name):g} (allowed is {fields[name].default:g})"
-            for name in sorted(self.left_out - {"fittings"})
+            f"{name} {getattr(self, name)} (allowed is {fields[name].default})"
+            for name in sorted(self.left_out.difference(but, {"fittings"}))
             if getattr(self, name) != fields[name].default
         ]
         if self.fittings:

@@ -12,7 +12,6 @@ from equisection.config.groups import (
     FREE_TIP,
     MID_CHORD,
     Beam,
-    Damping,
     Embedded,
     Flow,
     KeyGroup,
@@ -25,6 +24,8 @@ from equisection.config.groups import (
     Sweep,
     Unsteady,
 )
+from equisection.config.groups.flow import LARGEST_MACH
+from equisection.config.groups.sweep import Range
 from equisection.keys.checks import DisagreementError, Problem, check, disagreements
 from equisection.keys.values import EMPTY, Name
 
@@ -88,6 +89,21 @@ class Config(KeyGroup):
         return section
 
 
+@check("sweep.speed", "flow.sound_speed")
+def _incompressible_sweep(
+    speed: tuple[float, ...] | Range | None, sound_speed: float
+) -> Iterator[Problem]:
+    values = speed.values() if isinstance(speed, Range) else speed or ()
+    fastest = max(values, default=0.0)
+    if fastest > LARGEST_MACH * sound_speed:
+        yield Problem(
+            "sweep.speed",
+            fastest,
+            f"allowed is up to {LARGEST_MACH * sound_speed:g} m/s, Mach {LARGEST_MACH:g} "
+            "(incompressible flow)",
+        )
+
+
 @check("correction", "steady.beam_polar")
 def _loads_along_the_span(correction: str, beam_polar: str) -> Iterator[Problem]:
     if correction == "modal" and beam_polar:
@@ -140,31 +156,20 @@ def _reduction_with_imbalance(
         )
 
 
-@check(
-    "beam.elastic_axis",
-    "beam.mass_axis",
-    "beam.damping",
-    "solver",
-)
-def _structure_of_the_solver(
-    elastic_axis: float,
-    mass_axis: float,
-    damping: Damping,
-    solver: str,
+@check("sweep.models", "beam.elastic_axis", "beam.mass_axis", "solver")
+def _factors_of_the_loads(
+    models: tuple[str, ...], elastic_axis: float, mass_axis: float, solver: str
 ) -> Iterator[Problem]:
-    """Refuse what OpenFOAM's bodies do not have, before anything is run."""
-    if solver != "openfoam":
-        return
-    for key, value, default in (
-        ("beam.elastic_axis", elastic_axis, MID_CHORD),
-        ("beam.mass_axis", mass_axis, MID_CHORD),
-        ("beam.damping.bending", damping.bending, 0.0),
-        ("beam.damping.torsion", damping.torsion, 0.0),
-    ):
-        if value != default:
-            yield Problem(
-                key, value, f"allowed with solver 'openfoam' is {default:g}; 'embedded' takes it"
-            )
+    """Refuse factors of the loads on OpenFOAM, whose flow moves its body as it is."""
+    corrected = [name for name in models if "corrected" in name]
+    if solver == "openfoam" and corrected and {elastic_axis, mass_axis} != {MID_CHORD}:
+        yield Problem(
+            "sweep.models",
+            list(models),
+            f"allowed with solver 'openfoam' are models without {', '.join(corrected)} where "
+            "beam.elastic_axis or beam.mass_axis is off mid-chord: the correction is then a factor "
+            "of the loads, and OpenFOAM's body moves under those of its flow; 'embedded' takes it",
+        )
 
 
 @check("beam.supports", "beam.lumps", "beam.boundary", "solver")

@@ -1,11 +1,14 @@
 r"""Modes of a structure under loads from a flow solver, one step at a time.
 
-Undamped modes of unit shape,
+Modes q_i of generalised inertia M_ii, each row over it,
 
-    q_i'' + omega_i^2 q_i = p_i(s),
+    sum_j mu_ij q_j'' + 2 zeta_i omega_i q_i' + omega_i^2 q_i = p_i(s),    mu_ii = 1,
 
-are uncoupled but for their loads. Where p goes linearly from p_0 to p_1 over a step h, the motion
-is known in closed form (Duhamel's integral; c = cos omega h, s = sin omega h):
+with viscous damping zeta (of critical) and, between bending and torsion, the inertial coupling
+mu_ij = M_ij/M_ii of a static imbalance. Where p goes linearly from p_0 to p_1 over a step h, the
+motion is known exactly: state, load and its rise obey one linear system of constant coefficients,
+and its matrix exponential takes them over the step (Van Loan, IEEE Trans. Autom. Control 23, 1978).
+Of an undamped mode alone that is Duhamel's integral (c = cos omega h, s = sin omega h):
 
     q_1  = c q_0 + s/omega v_0 + (1 - c)/omega^2 p_0 + (1/omega^2 - s/(omega^3 h)) (p_1 - p_0)
     v_1  = -omega s q_0 + c v_0 + s/omega p_0 + (1 - c)/(omega^2 h) (p_1 - p_0)
@@ -21,8 +24,10 @@ where loads are smooth: both sides together are of second order in the time step
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
@@ -51,29 +56,49 @@ class ModalState:
 
 @dataclass(frozen=True)
 class ModalStep:
-    """A step h of modes of circular frequencies omega (rad per unit of time), shape (n,)."""
+    """A step h of modes, rows over their generalised inertia.
+
+    Attributes
+    ----------
+    frequency
+        omega (rad per unit of time), shape (n,).
+    step
+        h.
+    damping_ratio
+        zeta, of critical, shape (n,); None for none.
+    mass
+        mu, 1 on the diagonal, shape (n, n); None for modes that are not coupled.
+    """
 
     frequency: Floats
     step: float
+    damping_ratio: Floats | None = None
+    mass: Floats | None = None
+
+    @cached_property
+    def _over_a_step(self) -> Floats:
+        """Matrix from (q, v, p, rise of p) to (q, v) a step later, shape (2 n, 4 n)."""
+        count = self.frequency.size
+        one, none = np.eye(count), np.zeros((count, count))
+        ratio = np.zeros(count) if self.damping_ratio is None else self.damping_ratio
+        inverse = one if self.mass is None else np.linalg.inv(self.mass)
+        stiffness = inverse * self.frequency**2
+        damping = inverse * (2.0 * ratio * self.frequency)
+        rates = np.block(
+            [
+                [none, one, none, none],
+                [-stiffness, -damping, inverse, none],
+                [none, none, none, one / self.step],
+                [none, none, none, none],
+            ]
+        )
+        return np.asarray(scipy.linalg.expm(rates * self.step)[: 2 * count], dtype=np.float64)
 
     def advanced(self, state: ModalState, load: Floats) -> ModalState:
         """Return the state a step later, where the load is ``load``."""
-        omega, step = self.frequency, self.step
-        cosine, sine = np.cos(omega * step), np.sin(omega * step)
-        rise = load - state.load
-        position = (
-            cosine * state.position
-            + sine / omega * state.velocity
-            + (1.0 - cosine) / omega**2 * state.load
-            + (1.0 - sine / (omega * step)) / omega**2 * rise
-        )
-        velocity = (
-            -omega * sine * state.position
-            + cosine * state.velocity
-            + sine / omega * state.load
-            + (1.0 - cosine) / (omega**2 * step) * rise
-        )
-        return ModalState(state.time + step, position, velocity, load, state.load)
+        before = [state.position, state.velocity, state.load, load - state.load]
+        position, velocity = np.split(self._over_a_step @ np.concatenate(before), 2)
+        return ModalState(state.time + self.step, position, velocity, load, state.load)
 
 
 class Staggered:

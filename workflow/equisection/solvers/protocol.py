@@ -6,9 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 
 if TYPE_CHECKING:  # the graph is built from what solvers provide, without numerics
+    from equisection.aerodynamics.polar import Polar
+    from equisection.aerodynamics.separation import SeparationLags
     from equisection.cases import SteadyCase, UnsteadyCase
     from equisection.results.plate_grid import PlateGrid
     from equisection.results.section_mesh import SectionMesh
@@ -128,4 +130,14 @@ class MeshingSolver(Solver, Protocol):
         SolverError
             The mesh is not sound, or the solver could not run.
         """
+        ...
+
+
+@runtime_checkable
+class HasSectionLoads(Protocol):
+    """Solver whose loads of the section are equations, so that eigenvalues tell its stability."""
+
+    @property
+    def section_loads(self) -> tuple[Polar, SeparationLags]:
+        """Polar of the section, and lags of its separation."""
         ...

@@ -199,7 +199,7 @@ def _axis_of(piece: str, among: Iterable[Axis]) -> Axis | None:
 
 def varied(config: Config) -> dict[Axis, tuple[float, ...]]:
     """Return the axes that the sweep of a configuration varies, with their values, ascending."""
-    return {K_STAR: config.sweep.values()}
+    return {K_STAR if config.sweep.speed is None else SPEED: config.sweep.values()}
 
 
 def sweep_points(config: Config) -> list[Point]:
@@ -213,9 +213,16 @@ def sweep_points(config: Config) -> list[Point]:
 
 
 def axes_among(names: Iterable[str]) -> tuple[Axis, ...]:
-    """Return the axes among the names of columns or attributes, in order."""
-    there = set(names)
-    return tuple(axis for axis in AXES if axis.name in there)
+    """Return the axes among the names of columns or attributes, in order.
+
+    Of k* and speed, which say the same of a beam, the one named first is the study's.
+    """
+    there, onset = set(), False
+    for axis in (axis for name in names for axis in AXES if axis.name == name):
+        if not (axis.stable and onset):
+            there.add(axis)
+        onset = onset or bool(axis.stable)
+    return tuple(axis for axis in AXES if axis in there)
 
 
 def axes_of(points: Iterable[Point]) -> tuple[Axis, ...]:

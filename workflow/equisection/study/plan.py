@@ -15,10 +15,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from equisection.cases import FREE, STEADY, Kind
+from equisection.config.groups.flow import LARGEST_MACH
 from equisection.files import require_plain_names, write_text
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
-from equisection.study.axes import INCIDENCE, Point, onset_axis, sweep_points, varied
+from equisection.study.axes import INCIDENCE, SPEED, Point, onset_axis, sweep_points, varied
 
 if TYPE_CHECKING:  # jobs need not build the models of the configuration
     from equisection.config import Config
@@ -30,6 +31,9 @@ DIMENSION_PATTERN = r"[23]d"
 #: refinement of the onset.
 BATCH_PATTERN = r"sweep|round[1-9][0-9]*"
 SWEEP_BATCH = "sweep"
+#: Ratio of one value to the next where an onset is looked for beyond the ends of a sweep (-): a
+#: factor of two in three strides.
+STRIDE = 1.26
 
 
 @dataclass(frozen=True)
@@ -96,19 +100,41 @@ def resolutions(config: Config) -> tuple[str, ...]:
 
 
 def refinement_rounds(config: Config) -> int:
-    """Return the number of rounds that narrow the widest bracket of the sweep to the tolerance.
+    """Return the number of rounds that find a bracket and narrow it to the tolerance.
 
-    Each round of n points leaves at most one of n + 1 equal parts.
+    Each round of n points leaves at most one of n + 1 equal parts of the widest bracket of the
+    sweep. Where the onset is beyond its ends, :func:`rounds_beyond` come before, and leave a
+    bracket of their own width.
     """
     if config.sweep.onset != "refine":
         return 0
     values = varied(config)
     along = values[onset_axis(values)]
     widest = max(((b - a) / a for a, b in itertools.pairwise(along)), default=0.0)
-    if widest <= config.sweep.onset_tolerance:
+    beyond = rounds_beyond(config)
+    within = _rounds_to_narrow(config, widest)
+    return max(within, beyond + _rounds_to_narrow(config, STRIDE - 1.0) if beyond else 0)
+
+
+def highest_of_sweep(config: Config) -> float:
+    """Return the value above which no run of the sweep may be: the speed of Mach 0.3 (m/s)."""
+    if SPEED not in varied(config):
+        return math.inf
+    return LARGEST_MACH * config.flow.sound_speed
+
+
+def rounds_beyond(config: Config) -> int:
+    """Return the number of rounds that look beyond the ends of the sweep, in strides."""
+    strides = math.log(config.sweep.onset_reach) / math.log(STRIDE)
+    return math.ceil(strides / config.sweep.onset_points - 1e-9)
+
+
+def _rounds_to_narrow(config: Config, width: float) -> int:
+    """Return the number of rounds that narrow a bracket of a relative width to the tolerance."""
+    if width <= config.sweep.onset_tolerance:
         return 0
     parts = config.sweep.onset_points + 1
-    return math.ceil(math.log(widest / config.sweep.onset_tolerance) / math.log(parts) - 1e-9)
+    return math.ceil(math.log(width / config.sweep.onset_tolerance) / math.log(parts) - 1e-9)
 
 
 def batches(config: Config) -> list[str]:

@@ -39,6 +39,11 @@ class Flow(KeyGroup):
     """The fluid, its speed, the rigid incidence and the channel."""
 
     speed: Positive = Field(20.0, description="Speed V (m/s), up to Mach 0.3.")
+    design_speed: Annotated[Positive | None, NULLABLE] = Field(
+        None,
+        description="Speed (m/s) that the beam has to withstand; the margin to it stands in "
+        "`comparison/critical_speed.csv`. `null`: none is given.",
+    )
     density: Positive = Field(1.18, description="Density rho (kg/m3).")
     dynamic_viscosity: Positive = Field(1.86e-5, description="Dynamic viscosity mu (Pa s).")
     sound_speed: Positive = Field(

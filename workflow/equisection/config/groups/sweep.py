@@ -1,16 +1,16 @@
-"""Section ``sweep``: the values of k*, the models, and the search for the onset."""
+"""Section ``sweep``: the values of k* or speed, the models, and the search for the onset."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
-from equisection.keys.values import WHOLE, Positive
+from equisection.keys.values import NULLABLE, NUMBER, WHOLE, Positive
 
 ModelName = Literal[
     "2d",
@@ -26,8 +26,8 @@ ModelName = Literal[
 class Range(KeyGroup):
     """Evenly spaced values, including both ends."""
 
-    start: Positive = Field(description="First value (-).")
-    stop: Positive = Field(description="Last value (-), above the first.")
+    start: Positive = Field(description="First value.")
+    stop: Positive = Field(description="Last value, above the first.")
     number: Annotated[int, Field(ge=2, le=20000), WHOLE] = Field(description="How many values (-).")
 
     def values(self) -> tuple[float, ...]:
@@ -36,24 +36,33 @@ class Range(KeyGroup):
         return tuple(self.start + step * place for place in range(self.number))
 
 
-def _shape_of_k_star(value: object) -> str:
+def _shape_of_values(value: object) -> str:
+    if value is None:
+        return "nothing"
     return "range" if isinstance(value, dict | Range) else "list"
 
 
-KStar = Annotated[
+Values = Annotated[
     Annotated[tuple[Positive, ...], Field(min_length=1), Tag("list")]
-    | Annotated[Range, Tag("range")],
-    Discriminator(_shape_of_k_star),
+    | Annotated[Range, Tag("range")]
+    | Annotated[None, Tag("nothing")],
+    Discriminator(_shape_of_values),
+    NULLABLE,
 ]
 
 
 class Sweep(KeyGroup):
-    """The sweep over the non-dimensional torsional stiffness k*."""
+    """The sweep over the non-dimensional torsional stiffness k*, or over the speed."""
 
-    k_star: KStar = Field(
+    k_star: Values = Field(
         (4.0, 4.5, 5.0, 5.5, 6.0, 6.44, 7.0, 8.0, 9.0, 10.0, 12.0, 15.0, 18.0, 21.0),
         description="Values of k* = k_theta/(q c^2) (-), different in their first six digits: a "
-        "list, or `start`, `stop` and `number` of evenly spaced ones.",
+        "list, or `start`, `stop` and `number` of evenly spaced ones. `null` with `speed`.",
+    )
+    speed: Values = Field(
+        None,
+        description="Speeds V (m/s) in the place of `k_star`, in the same forms: the beam as it is "
+        "given, in a flow of each speed, up to Mach 0.3. Rigid polars are those at `flow.speed`.",
     )
     models: Annotated[tuple[ModelName, ...], Field(min_length=1)] = Field(
         ("2d", "2d-corrected", "3d", "2d-paper", "2d-corrected-paper"),
@@ -62,14 +71,20 @@ class Sweep(KeyGroup):
     )
     onset: Literal["sweep", "refine"] = Field(
         "sweep",
-        description="`refine` runs further k* inside the bracket of the onset of each model "
-        "until it is narrower than `onset_tolerance`.",
+        description="`refine` runs further values inside the bracket of the onset of each model "
+        "until it is narrower than `onset_tolerance`; where all values are stable, or all "
+        "unstable, it looks beyond their end first.",
     )
     onset_tolerance: Positive = Field(
-        0.02, description="Width of the onset's bracket, relative to its unstable k* (-)."
+        0.02, description="Width of the onset's bracket, relative to its unstable side (-)."
     )
     onset_points: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
-        3, description="Values of k* that one round of refinement runs at once (-)."
+        3, description="Values that one round of refinement runs at once (-)."
+    )
+    onset_reach: Annotated[float, Field(ge=1, le=100, allow_inf_nan=False), NUMBER] = Field(
+        2.0,
+        description="How far `refine` looks beyond the ends of the values that are given, as a "
+        "factor on k* or speed (-). 1: not at all.",
     )
 
     taken: dict[ModelName, str] = Field(
@@ -78,58 +93,96 @@ class Sweep(KeyGroup):
         "index of them (`results/<run>/unsteady/<model>/sweep.json`) by the model's name.",
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def _speed_in_the_place_of_k_star(cls, data: Any) -> Any:
+        """Leave the default k* out where speeds are given."""
+        if isinstance(data, dict) and data.get("speed") is not None and "k_star" not in data:
+            return {**data, "k_star": None}
+        return data
+
     @property
     def shown(self) -> tuple[str, ...]:
         """The models that are compared: those run, then those taken."""
         return (*self.models, *self.taken)
 
     def values(self) -> tuple[float, ...]:
-        """Return the values of k*, ascending."""
-        return (
-            self.k_star.values() if isinstance(self.k_star, Range) else tuple(sorted(self.k_star))
-        )
+        """Return the values of k*, or of the speed (m/s), ascending."""
+        given = self.k_star if self.speed is None else self.speed
+        if given is None:  # the check below refuses it
+            return ()
+        return given.values() if isinstance(given, Range) else tuple(sorted(given))
 
 
 @check("sweep.k_star")
-def _distinct(k_star: tuple[float, ...] | Range) -> Iterator[Problem]:
-    if isinstance(k_star, Range):
-        yield from _distinct_in_range(k_star)
+def _distinct_k_star(k_star: tuple[float, ...] | Range | None) -> Iterator[Problem]:
+    yield from _distinct("sweep.k_star", "k*", k_star)
+
+
+@check("sweep.speed")
+def _distinct_speeds(speed: tuple[float, ...] | Range | None) -> Iterator[Problem]:
+    yield from _distinct("sweep.speed", "speed", speed)
+
+
+def _distinct(key: str, word: str, given: tuple[float, ...] | Range | None) -> Iterator[Problem]:
+    if isinstance(given, Range):
+        yield from _distinct_in_range(key, given)
         return
     names: set[str] = set()
-    for place, value in enumerate(k_star):
+    for place, value in enumerate(given or ()):
         name = f"{value:.6g}"
         if name in names:
             yield Problem(
-                f"sweep.k_star.{place}",
+                f"{key}.{place}",
                 value,
-                f"allowed is each k* once; {name} stands before it, and the first six digits "
+                f"allowed is each {word} once; {name} stands before it, and the first six digits "
                 "name the files of a case",
             )
         names.add(name)
 
 
-def _distinct_in_range(k_star: Range) -> Iterator[Problem]:
-    if not k_star.stop > k_star.start:
+def _distinct_in_range(key: str, given: Range) -> Iterator[Problem]:
+    if not given.stop > given.start:
         yield Problem(
-            "sweep.k_star.stop", k_star.stop, f"allowed is a number above start, {k_star.start:g}"
+            f"{key}.stop", given.stop, f"allowed is a number above start, {given.start:g}"
         )
-    elif len({f"{value:.6g}" for value in k_star.values()}) < k_star.number:
+    elif len({f"{value:.6g}" for value in given.values()}) < given.number:
         yield Problem(
-            "sweep.k_star.number",
-            k_star.number,
-            f"allowed are fewer values, so that those between {k_star.start:g} and "
-            f"{k_star.stop:g} differ in the first six digits, which name the files of a case",
+            f"{key}.number",
+            given.number,
+            f"allowed are fewer values, so that those between {given.start:g} and "
+            f"{given.stop:g} differ in the first six digits, which name the files of a case",
         )
 
 
-@check("sweep.k_star", "sweep.onset")
-def _two_to_refine(k_star: tuple[float, ...] | Range, onset: str) -> Iterator[Problem]:
-    if onset == "refine" and not isinstance(k_star, Range) and len(k_star) < 2:
+@check("sweep.k_star", "sweep.speed")
+def _one_of_both(
+    k_star: tuple[float, ...] | Range | None, speed: tuple[float, ...] | Range | None
+) -> Iterator[Problem]:
+    if k_star is None and speed is None:
+        yield Problem("sweep.k_star", None, "allowed is null with sweep.speed alone")
+    elif k_star is not None and speed is not None:
         yield Problem(
-            "sweep.k_star",
-            list(k_star),
-            "allowed with sweep.onset 'refine' are two k* or more, with the onset between them",
+            "sweep.speed",
+            list(speed) if isinstance(speed, tuple) else speed.model_dump(),
+            "allowed is one of sweep.k_star and sweep.speed; sweep.k_star: null takes away the "
+            "one of another file",
         )
+
+
+@check("sweep.k_star", "sweep.speed", "sweep.onset")
+def _two_to_refine(
+    k_star: tuple[float, ...] | Range | None,
+    speed: tuple[float, ...] | Range | None,
+    onset: str,
+) -> Iterator[Problem]:
+    for key, word, given in (("k_star", "k*", k_star), ("speed", "speeds", speed)):
+        if onset == "refine" and isinstance(given, tuple) and len(given) < 2:
+            yield Problem(
+                f"sweep.{key}",
+                list(given),
+                f"allowed with sweep.onset 'refine' are two {word} or more",
+            )
 
 
 @check("sweep.models", "sweep.taken")

@@ -96,6 +96,11 @@ class Adapter:
         del dimension
         return f"embedded solver, polar {self._polar.label}"
 
+    @property
+    def section_loads(self) -> tuple[Polar, SeparationLags]:
+        """Polar of the section, and lags of its separation."""
+        return self._polar, self._lags
+
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
     ) -> list[SteadyResult]:

@@ -17,6 +17,7 @@ import numpy as np
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups.openfoam_keys import MORPH
+from equisection.errors import SolverError
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady_result import SteadyResult
@@ -172,14 +173,14 @@ class Adapter:
         from equisection.solvers.openfoam.section.free_section import SectionRun  # noqa: PLC0415
         from equisection.solvers.openfoam.section.overset_section import OversetRun  # noqa: PLC0415
         from equisection.solvers.openfoam.section.rigid_section import mesh_of  # noqa: PLC0415
-        from equisection.solvers.openfoam.section.section_motion import MOVER  # noqa: PLC0415
 
-        if case.section is not None:  # before the steady flow, which takes long
-            case.section.require_defaults(MOVER)
+        _require_own_loads(case)  # before the steady flow, which takes long
         preset = PRESETS[self._settings.mesh]
         mesh = mesh_of(case, preset.refinement, preset.spacing)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
-        return kind(installation, case, mesh, self._settings.coupling, place).run(tell)
+        run = kind(installation, case, mesh, self._settings.coupling, place)
+        _ = run.axes  # refuses what it does not have, the same
+        return run.run(tell)
 
     def _free_plate(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
@@ -188,11 +189,28 @@ class Adapter:
         from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
-        if case.beam is not None:  # before the steady flow, which takes long
-            case.beam.require_defaults("the coupled beam of OpenFOAM")
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         coupling, ranks = self._settings.coupling, self._ranks
-        return PlateRun(installation, case, mesh, coupling, place, ranks).run(tell)
+        run = PlateRun(installation, case, mesh, coupling, place, ranks)
+        _ = run.points  # refuses what it does not have before the steady flow, which takes long
+        return run.run(tell)
+
+
+def _require_own_loads(case: UnsteadyCase) -> None:
+    """Refuse a section whose loads are to be multiplied before they move it.
+
+    Raises
+    ------
+    SolverError
+        The loads of the case have factors.
+    """
+    if (case.lift_factor, case.moment_factor) != (1.0, 1.0):
+        raise SolverError(
+            f"the loads of this section have the factors {case.lift_factor:.4g} and "
+            f"{case.moment_factor:.4g} (Eq. 20 of a section with offset axes), and the rigid body "
+            "of OpenFOAM moves under the loads of its flow as they are; leave the corrected "
+            "models out of sweep.models, or run them with solver 'embedded'"
+        )
 
 
 _NOTHING = np.empty(0)

@@ -1,7 +1,8 @@
 """History of the structure of a coupled run, a row for each time step in a text file.
 
 A row holds the whole state of the modes, so that the run can be taken up after any step, and the
-loads on the plate. It is in the file before OpenFOAM goes on to the next step.
+loads on the plate. Its last number, where the elastic axis is off mid-chord, is the moment about
+that. It is in the file before OpenFOAM goes on to the next step.
 """
 
 from __future__ import annotations
@@ -34,6 +35,8 @@ class PlateHistory:
         and a step before.
     lift, moment
         C_L, and C_M about the moving mid-chords, shape (n,).
+    axis_moment
+        C_M about the moving elastic axis, shape (n,); NaN in a row without it.
     """
 
     time: Floats
@@ -43,6 +46,7 @@ class PlateHistory:
     earlier_load: Floats
     lift: Floats
     moment: Floats
+    axis_moment: Floats
 
     def sampled(self, step: float, interval: float, end: float = math.inf) -> PlateHistory:
         """Return the samples up to an end at multiples of an interval, which is one of the step."""
@@ -67,10 +71,13 @@ def read_plate(path: Path, modes: int) -> PlateHistory:
     """Return the history so far; a last row that is not whole is left out."""
     text = path.read_text(encoding="ascii") if path.exists() else ""
     rows = [line.split() for line in text.splitlines(keepends=True) if line.endswith("\n")]
-    values = np.array(rows, dtype=float).reshape(len(rows), 3 + 4 * modes)
-    position, velocity, load, earlier = np.split(values[:, 3:], 4, axis=1)
+    state = 3 + 4 * modes
+    has_axis = bool(rows) and len(rows[0]) == state + 1
+    values = np.array(rows, dtype=float).reshape(len(rows), state + has_axis)
+    position, velocity, load, earlier = np.split(values[:, 3:state], 4, axis=1)
     time, lift, moment = values[:, :3].T
-    return PlateHistory(time, position, velocity, load, earlier, lift, moment)
+    about_axis = values[:, state] if has_axis else np.full(len(rows), math.nan)
+    return PlateHistory(time, position, velocity, load, earlier, lift, moment, about_axis)
 
 
 def keep_until(path: Path, time: float, modes: int) -> PlateHistory:
@@ -108,9 +115,16 @@ def require_state(state: ModalState | None, start: float, step: float, folder: P
         )
 
 
-def add_row(stream: IO[str], state: ModalState, lift: float, moment: float) -> None:
-    """Add a row, and have it written."""
+def add_row(
+    stream: IO[str],
+    state: ModalState,
+    lift: float,
+    moment: float,
+    axis_moment: float | None = None,
+) -> None:
+    """Add a row, and have it written; ``axis_moment`` is None for an axis at mid-chord."""
     vectors = (state.position, state.velocity, state.load, state.earlier_load)
-    row = np.concatenate([[state.time, lift, moment], *vectors])
+    last = [] if axis_moment is None else [axis_moment]
+    row = np.concatenate([[state.time, lift, moment], *vectors, last])
     stream.write(" ".join(f"{value:.17g}" for value in row) + "\n")
     stream.flush()

@@ -18,7 +18,7 @@ from typing import IO
 import numpy as np
 
 from equisection.errors import SolverError
-from equisection.motion.modal_response import ModalStep, Staggered
+from equisection.motion.modal_response import Staggered
 from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.openfoam import flow_setup as flow
@@ -103,7 +103,7 @@ class PlateRun(FreeRun[PlateMesh]):
     def points(self) -> LumpedPoints:
         """The plate's modes at its lumped points."""
         assert self.case.beam is not None
-        return LumpedPoints.of(self.case.beam, self.mesh.edges())
+        return LumpedPoints.of(self.case.beam, self.mesh.edges(), self.mesh.section.incidence)
 
     def history(self) -> PlateHistory:
         """Return the history so far."""
@@ -195,7 +195,7 @@ class PlateRun(FreeRun[PlateMesh]):
         state = keep_until(self.history_file, before, self.points.frequency.size).state()
         if start:
             require_state(state, start, self.case.time_step, self.folder)
-        structure = Staggered(ModalStep(self.points.frequency, self.case.time_step), state)
+        structure = Staggered(self.points.modes(self.case.time_step), state)
         pipes = Pipes(self.folder, SILENCE)
         try:
             run_beside(
@@ -247,8 +247,8 @@ class PlateRun(FreeRun[PlateMesh]):
         position = history.position[np.abs(history.time - time).argmin()]
         points, edges = self.points, self.mesh.edges()  # the mesh's points stand at the edges
         at_edges = (
-            np.interp(edges, points.locations, motion(position))
-            for motion in (points.twist, points.deflection)
+            np.interp(edges, points.locations, motion)
+            for motion in (points.twist(position), points.mid_chord(position)[1])
         )
         twist, deflection = points.tip(position)
         state = (
@@ -279,6 +279,7 @@ class PlateRun(FreeRun[PlateMesh]):
             tip_deflection=tip.deflection,
             lift=history.lift,
             moment=history.moment,
+            axis_moment=history.axis_moment if self.points.axes.behind_mid_chord else np.empty(0),
             incidence=math.radians(case.incidence_deg) + tip.twist,
             verdict=judge(case, tip, failure),
             torsion_amplitudes=history.position[:, :torsion].T,
@@ -318,15 +319,27 @@ class _Exchange:
         coefficients = points.coefficients(handed.forces, handed.moments)
         if not max(map(abs, coefficients)) < BEYOND_REASON:
             raise BlowUpError(f"C_L {coefficients[0]:.3g}, C_M {coefficients[1]:.3g}")
+        about_axis = points.about_axis(handed.forces, handed.moments, self._place())
         is_new_step = structure.is_new_step(handed.time)
-        place = structure.turn(handed.time, points.modal_loads(handed.forces, handed.moments))
+        place = structure.turn(handed.time, points.modal_loads(handed.forces, about_axis))
         if is_new_step:
             assert structure.state is not None
-            add_row(stream, structure.state, *coefficients)
+            more = points.coefficients(handed.forces, about_axis)[1:]
+            add_row(
+                stream,
+                structure.state,
+                *coefficients,
+                *(more if points.axes.behind_mid_chord else ()),
+            )
             if self._is_over(structure.state.time):
                 end()
         self._require_room(place, handed.time)
         return points.message(place)
+
+    def _place(self) -> np.ndarray:
+        """Return the position of the modes that the flow was solved around."""
+        place = self._structure.proposed_position
+        return np.zeros_like(self._run.points.frequency) if place is None else place
 
     def _handed(self, message: str) -> Handed:
         try:
@@ -337,13 +350,15 @@ class _Exchange:
                 f"form: {message[:200]!r}"
             ) from None
         if self._resumed is not None:
-            handed = handed.about(self._run.points.deflection(self._resumed))
+            handed = handed.about(self._run.points.mid_chord(self._resumed))
             self._resumed = None
         return handed
 
     def _require_room(self, place: np.ndarray, time: float) -> None:
-        twist, deflection = self._run.points.tip(place)
-        room = 0.5 * self._run.mesh.section.channel.height - abs(float(deflection))
+        points = self._run.points
+        twist, deflection = points.tip(place)
+        _, height = points.axes.mid_chord_places(twist, deflection)
+        room = 0.5 * self._run.mesh.section.channel.height - abs(float(height))
         room -= 0.5 * abs(math.sin(self._run.mesh.section.incidence + float(twist)))
         if room < _ROOM:
             raise BlowUpError(

@@ -9,6 +9,10 @@ moves, so a mode's load takes the mean of the shape over each layer. Loads are t
 pressure: ``lumpedPointMovement`` leaves out friction, which has next to no lift and no moment
 about mid-chord.
 
+The points are at mid-chord, whatever the elastic axis is: they are told where mid-chord goes as the
+section turns about its axis, and the moments that they give, about where they are, are taken to the
+axis (:mod:`~equisection.solvers.openfoam.section.body_axes`).
+
 Angles are Euler angles (z, x, z) in radians, and a rotation about +z is nose *down*.
 """
 
@@ -23,16 +27,21 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from equisection.beam.beam import MID_CHORD
 from equisection.cases import BeamModes
 from equisection.files import write_text
+from equisection.motion.modal_response import ModalStep
 from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
 from equisection.solvers.openfoam.mesh.beam_mesh import SIDE_WALLS
 from equisection.solvers.openfoam.ranks import parts
+from equisection.solvers.openfoam.section.body_axes import BodyAxes, Places
 from equisection.solvers.openfoam.section.section_motion import displacement
-from equisection.structure.span import integrate
+from equisection.structure.span import gram, integrate
 
 Floats = NDArray[np.float64]
 
+#: Fields of the modes with a default that the coupled beam has.
+_OF_BEAM = ("imbalance", "bending_damping", "torsion_damping", "elastic_axis")
 #: Iterations of the mesh's displacement in each motion.
 _ITERATIONS = 4
 #: A shape that is less than this at the tip, relative to its largest, is held there.
@@ -58,6 +67,13 @@ class LumpedPoints:
         rho c^5 and rho c^3), shape (n_t + n_b,).
     frequency
         omega c/V, shape (n_t + n_b,).
+    damping_ratio
+        Of critical, shape (n_t + n_b,).
+    mass
+        Mass matrix of the modes, each row over its generalised inertia: 1 on the diagonal, and
+        -S int f_i g_j over it between torsion and bending, shape (n_t + n_b, n_t + n_b).
+    axes
+        Rigid incidence and elastic axis.
     torsion_at_tip, bending_at_tip
         Shapes at the place where the first of each kind is largest, shape (n_t,) and (n_b,).
     """
@@ -70,20 +86,35 @@ class LumpedPoints:
     bending_at_loads: Floats
     inertia: Floats
     frequency: Floats
+    damping_ratio: Floats
+    mass: Floats
+    axes: BodyAxes
     torsion_at_tip: Floats
     bending_at_tip: Floats
 
     @classmethod
-    def of(cls, modes: BeamModes, edges: Floats) -> LumpedPoints:
-        """Place the points of a plate whose layers of cells begin and end at ``edges`` (z/c)."""
+    def of(cls, modes: BeamModes, edges: Floats, incidence: float = 0.0) -> LumpedPoints:
+        """Place the points of a plate whose layers of cells begin and end at ``edges`` (z/c).
+
+        ``incidence`` is the rigid one (rad), on which only an axis off mid-chord depends.
+
+        Raises
+        ------
+        EquisectionError
+            The beam has more than the coupled beam of OpenFOAM has.
+        """
+        modes.require_defaults("the coupled beam of OpenFOAM", but=_OF_BEAM)
         span = float(edges[-1])
         locations = _points(edges)
         stations = np.array(modes.span)
         torsion, bending = np.array(modes.torsion_shape), np.array(modes.bending_shape)
-        inertia = [
-            0.5 * modes.inertia * span * integrate(stations, torsion**2),
-            0.5 * modes.mass * span * integrate(stations, bending**2),
-        ]
+        inertia = np.concatenate(
+            [
+                0.5 * modes.inertia * span * integrate(stations, torsion**2),
+                0.5 * modes.mass * span * integrate(stations, bending**2),
+            ]
+        )
+        across = -0.5 * modes.imbalance * span * gram(stations, torsion, bending)
         twisting = _followed(
             scipy.interpolate.CubicSpline(stations, torsion, axis=1)(locations / span), edges
         )
@@ -97,8 +128,13 @@ class LumpedPoints:
             bending=heaving,
             torsion_at_loads=_mean_of_layers(twisting, edges),
             bending_at_loads=_mean_of_layers(heaving, edges),
-            inertia=np.concatenate(inertia),
+            inertia=inertia,
             frequency=np.array([*modes.torsion_frequency, *modes.bending_frequency]),
+            damping_ratio=np.repeat(
+                [modes.torsion_damping, modes.bending_damping], [len(torsion), len(bending)]
+            ),
+            mass=_coupled(across) / inertia[:, None] + np.eye(inertia.size),
+            axes=BodyAxes(incidence, modes.elastic_axis - MID_CHORD),
             torsion_at_tip=torsion[:, np.abs(torsion[0]).argmax()],
             bending_at_tip=bending[:, np.abs(bending[0]).argmax()],
         )
@@ -108,13 +144,18 @@ class LumpedPoints:
         """Number n_t of torsion modes."""
         return int(self.torsion.shape[0])
 
+    def modes(self, step: float) -> ModalStep:
+        """Return a time step (c/V) of the modes."""
+        return ModalStep(self.frequency, step, self.damping_ratio, self.mass)
+
     def modal_loads(self, forces: Floats, moments: Floats) -> Floats:
         """Return the loads of the modes over their inertia.
 
         Parameters
         ----------
         forces, moments
-            Force (rho V^2 c^2) and moment (rho V^2 c^3) on each point, about it, shape (P, 3).
+            Force (rho V^2 c^2) and moment about the elastic axis (rho V^2 c^3) of each point, shape
+            (P, 3).
         """
         loads = np.concatenate(
             [-self.torsion_at_loads @ moments[:, 2], self.bending_at_loads @ forces[:, 1]]
@@ -135,19 +176,50 @@ class LumpedPoints:
         deflection = position[..., self.torsion_modes :] @ self.bending_at_tip
         return np.asarray(twist), np.asarray(deflection)
 
+    def mid_chord(self, position: Floats) -> Places:
+        """Return the shift (x, y) of mid-chord from where it is at rest, at each point (chords)."""
+        return self.axes.mid_chord_places(self.twist(position), self.deflection(position))
+
+    def about_axis(self, forces: Floats, moments: Floats, position: Floats) -> Floats:
+        """Return moments about the moving elastic axis from those about the moving mid-chords.
+
+        Parameters
+        ----------
+        forces, moments
+            Force and moment on each point, shape (P, 3).
+        position
+            Position of the modes around which the flow was solved.
+        """
+        incidence = self.axes.incidence + self.twist(position)
+        normal = np.cos(incidence) * forces[:, 1] + np.sin(incidence) * forces[:, 0]
+        about = moments.copy()
+        about[:, 2] -= self.axes.behind_mid_chord * normal
+        return about
+
     def coefficients(self, forces: Floats, moments: Floats) -> tuple[float, float]:
-        """Return C_L, and C_M about the moving mid-chords (Eq. 22)."""
+        """Return C_L, and C_M (Eq. 22) about what the moments are about."""
         area = 0.5 * self.span
         return float(forces[:, 1].sum()) / area, float(-moments[:, 2].sum()) / area
 
     def message(self, position: Floats) -> str:
         """Return places and angles of the points as ``lumpedPointMovement`` reads them."""
-        angles, heights = -self.twist(position), self.deflection(position)
+        angles, (along, up) = -self.twist(position), self.mid_chord(position)
         rows = [
-            f"0 {height:.12g} {z:.12g} {angle:.12g} 0 0"
-            for height, z, angle in zip(heights, self.locations, angles, strict=True)
+            f"{x:.12g} {y:.12g} {z:.12g} {angle:.12g} 0 0"
+            for x, y, z, angle in zip(along, up, self.locations, angles, strict=True)
         ]
         return "\n".join([str(len(rows)), *rows, ""])
+
+
+def _coupled(across: Floats) -> Floats:
+    """Return the part of the mass matrix between torsion and bending, of shape (n_t, n_b)."""
+    torsion, bending = across.shape
+    return np.block(
+        [
+            [np.zeros((torsion, torsion)), across],
+            [across.T, np.zeros((bending, bending))],
+        ]
+    )
 
 
 def _points(edges: Floats) -> Floats:
@@ -215,13 +287,14 @@ class Handed:
             self.time == last.time and np.array_equal(self.forces, last.forces)
         )
 
-    def about(self, deflection: Floats) -> Handed:
-        """Return the loads with moments about points that are higher by ``deflection`` (chords).
+    def about(self, places: Places) -> Handed:
+        """Return the loads with moments about points that have moved by ``places`` (chords).
 
         A run that starts anew takes its first moments about the points at rest.
         """
+        along, up = places
         moments = self.moments.copy()
-        moments[:, 2] += deflection * self.forces[:, 0]
+        moments[:, 2] += up * self.forces[:, 0] - along * self.forces[:, 1]
         return Handed(self.time, self.forces, moments)
 
 

@@ -75,7 +75,7 @@ class MorphingMesh:
         entries = {**control("pimpleFoam", 1.0, 1.0 / steps, 1.0 / steps), "purgeWrite": 0}
         entries["functions"] = {}
         write_system(place, entries, flow.schemes(steady=False), flow.unsteady_solution())
-        moving = morphing(_COASTING, self.channel_height)
+        moving = morphing(_COASTING, 0.0, self.channel_height)
         cosine, sine = math.cos(twist), math.sin(twist)
         moving["sixDoFRigidBodyMotionCoeffs"] |= {
             "test": True,  # no flow and no loads

@@ -41,6 +41,7 @@ from equisection.solvers.openfoam.reading.loads import (
     require_reasonable,
 )
 from equisection.solvers.openfoam.rigid_flow import WINDOW, Tell
+from equisection.solvers.openfoam.section.body_axes import BodyAxes, moment_about
 from equisection.solvers.openfoam.section.rigid_section import run_steady
 from equisection.solvers.openfoam.section.section_history import SectionHistory, read_section
 from equisection.solvers.openfoam.section.section_motion import motion_output, write_motion
@@ -68,6 +69,12 @@ _AT_RELEASE = "release.json"
 class SectionRun(FreeRun[Mesh]):
     """The run of one case of the section."""
 
+    @property
+    def axes(self) -> BodyAxes:
+        """Axes of the section."""
+        assert self.case.section is not None
+        return BodyAxes.of(self.case.section, self.mesh.incidence)
+
     def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
         """Make the rigid steady flow, as :func:`~.section_rigid.run_steady` does."""
         return run_steady(self.installation, self.case, self.mesh, self.work, tell)
@@ -75,7 +82,7 @@ class SectionRun(FreeRun[Mesh]):
     def write_motion(self, folder: Path) -> None:
         """Write the dictionaries that move section and mesh."""
         assert self.case.section is not None
-        write_motion(folder, self.case.section, self.mesh.channel.height)
+        write_motion(folder, self.case.section, self.mesh.incidence, self.mesh.channel.height)
 
     def write_system(self, folder: Path) -> None:
         """Write the control of the run, whose end may differ from that of an earlier start."""
@@ -89,7 +96,7 @@ class SectionRun(FreeRun[Mesh]):
 
     def history(self, loads: Loads | None = None) -> SectionHistory:
         """Return the history so far, with loads that are read already; see :func:`read_section`."""
-        return read_section(self.folder, loads)
+        return read_section(self.folder, self.axes, loads)
 
     def run(self, tell: Tell) -> UnsteadyResult:
         """Release the section and follow it until its verdict is in.
@@ -141,18 +148,19 @@ class SectionRun(FreeRun[Mesh]):
             f"after {so_far.time[-1]:g} c/V, at a twist of {math.degrees(twist):.3g} deg and a "
             f"deflection of {deflection:.3g} c"
         )
+        _, height = self.axes.mid_chord_places(so_far.twist[-1], so_far.deflection[-1])
         try:
-            fault = self.mesh_fault(twist, deflection)
+            fault = self.mesh_fault(twist, float(height))
         except SolverError as error:
             # the run has its result, whatever becomes of the search for its cause
             logger.warning("the mesh at its end was not checked: %s", error)
             return where
         return f"{where}, where {fault}" if fault else where
 
-    def mesh_fault(self, twist: float, deflection: float) -> str:
-        """Return the fault of the mesh at a twist (rad) and a deflection (chords), else ''."""
+    def mesh_fault(self, twist: float, height: float) -> str:
+        """Return the fault of the mesh at a twist (rad) and height (chords) of mid-chord, or ''."""
         mesh = MorphingMesh(self.installation, self.folder, self.mesh.channel.height)
-        quality = mesh.along(twist, deflection, 1, self.work / "moved")[-1]
+        quality = mesh.along(twist, height, 1, self.work / "moved")[-1]
         faults = quality.faults
         if not faults and quality.non_orthogonality_deg > _OBLIQUE:
             faults = f"a face is {quality.non_orthogonality_deg:.0f} deg oblique"
@@ -184,8 +192,10 @@ class SectionRun(FreeRun[Mesh]):
         folder = emptied(self.folder)
         copy_flow(source, folder)
         self.write_motion(folder)
-        _, lift, moment = loads.last(WINDOW // 3).means()
-        write_text(folder / _AT_RELEASE, json.dumps({"lift": lift, "moment": moment}))
+        drag, lift, moment = loads.last(WINDOW // 3).means()
+        about_axis = float(moment_about(self.axes.elastic_axis, moment, lift, drag))
+        known = {"lift": lift, "moment": moment, "axis_moment": about_axis}
+        write_text(folder / _AT_RELEASE, json.dumps(known))
         mark_ready(folder)
 
 
@@ -210,6 +220,7 @@ def _from_release(
         np.concatenate([[0.0], sampled.deflection]),
         np.concatenate([[loads["lift"]], sampled.lift]),
         np.concatenate([[loads["moment"]], sampled.moment]),
+        np.concatenate([[loads.get("axis_moment", loads["moment"])], sampled.axis_moment]),
     )
 
 
@@ -221,6 +232,8 @@ def _result(
     if math.isfinite(end):
         history = _from_release(folder, so_far, case, end)
     tip = _tip(case.section, history)
+    assert case.section is not None
+    is_offset = case.section.axis_behind_mid_chord != 0.0
     return UnsteadyResult(
         time=history.time,
         twist=history.twist,
@@ -229,6 +242,7 @@ def _result(
         tip_deflection=tip.deflection,
         lift=history.lift,
         moment=history.moment,
+        axis_moment=history.axis_moment if is_offset else np.empty(0),
         incidence=math.radians(case.incidence_deg) + history.twist,
         verdict=judge(case, tip, failure),
         loads_zigzag=zigzag_of(so_far.time, so_far.lift, so_far.moment),

@@ -91,7 +91,7 @@ class OversetRun(SectionRun):
     def write_motion(self, folder: Path) -> None:
         """Write the dictionary that moves the section and its mesh."""
         assert self.case.section is not None
-        body = rigid_body(self.case.section, _EVERYWHERE, 2 * _EVERYWHERE)
+        body = rigid_body(self.case.section, self.mesh.incidence, _EVERYWHERE, 2 * _EVERYWHERE)
         body["report"] = True
         section = {
             "motionSolverLibs": ['"libsixDoFRigidBodyMotion.so"'],
@@ -117,16 +117,16 @@ class OversetRun(SectionRun):
             folder, entries, _overlapping(flow.schemes(steady=False), self.meshes), solution
         )
 
-    def mesh_fault(self, twist: float, deflection: float) -> str:
+    def mesh_fault(self, twist: float, height: float) -> str:
         """Return the fault of the plate's mesh where it has left the channel, else ''."""
-        reach, half = self.meshes.reach(twist, deflection), self.mesh.channel.height / 2
+        reach, half = self.meshes.reach(twist, height), self.mesh.channel.height / 2
         if reach < half:
             return ""
         return f"the plate's mesh reaches {reach:.3g} c off the middle of a channel of {half:g} c"
 
     def history(self, loads: Loads | None = None) -> SectionHistory:
         """Return the history so far, its motion from the log."""
-        return read_section(self.folder, loads, read_motion)
+        return read_section(self.folder, self.axes, loads, read_motion)
 
 
 def read_motion(folder: Path) -> BodyMotion:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from equisection.errors import SolverError
 from equisection.solvers.openfoam.reading.loads import Loads, read_loads, reasonable
+from equisection.solvers.openfoam.section.body_axes import BodyAxes, moment_about
 from equisection.solvers.openfoam.section.section_motion import BodyMotion, read_motion
 
 Floats = NDArray[np.float64]
@@ -26,9 +27,11 @@ class SectionHistory:
     time
         s (c/V).
     twist, deflection
-        Nose up (rad); up (chords).
+        Nose up (rad); of the elastic axis, up (chords).
     lift, moment
         c_l, and c_m about the moving mid-chord.
+    axis_moment
+        c_m about the moving elastic axis.
     """
 
     time: Floats
@@ -36,6 +39,7 @@ class SectionHistory:
     deflection: Floats
     lift: Floats
     moment: Floats
+    axis_moment: Floats
 
     def sampled(self, step: float, interval: float, end: float = math.inf) -> SectionHistory:
         """Return the samples up to an end at multiples of an interval, which is one of the step."""
@@ -48,11 +52,13 @@ class SectionHistory:
             self.deflection[kept],
             self.lift[kept],
             self.moment[kept],
+            self.axis_moment[kept],
         )
 
 
 def read_section(
     folder: Path,
+    axes: BodyAxes,
     loads: Loads | None = None,
     motion_of: Callable[[Path], BodyMotion] = read_motion,
 ) -> SectionHistory:
@@ -62,6 +68,8 @@ def read_section(
     ----------
     folder
         Folder of the run.
+    axes
+        Axes of its section.
     loads
         Its loads, if they are read already.
     motion_of
@@ -80,13 +88,16 @@ def read_section(
         _steps(loads.time), _steps(motion.time), return_indices=True, assume_unique=True
     )
     _require_every_step(loads.time[one], folder)
-    deflection = motion.deflection[other]
+    twist = motion.twist[other]
+    deflection = axes.deflection(motion.height[other], twist)
+    known = loads.moment[one], loads.lift[one], loads.drag[one]
     return SectionHistory(
         time=loads.time[one],
-        twist=motion.twist[other],
+        twist=twist,
         deflection=deflection,
         lift=loads.lift[one],
-        moment=_about_moving_centre(loads, one, deflection),
+        moment=moment_about(axes.mid_chord_places(twist, deflection), *known),
+        axis_moment=moment_about(axes.axis_places(twist, deflection), *known),
     )
 
 
@@ -104,11 +115,3 @@ def _require_every_step(time: Floats, folder: Path) -> None:
             f"{folder / 'postProcessing'}: steps are missing between {time[gap]:g} and "
             f"{time[gap + 1]:g} c/V; delete {folder} and run again"
         )
-
-
-def _about_moving_centre(loads: Loads, rows: NDArray[np.intp], deflection: Floats) -> Floats:
-    """Return c_m about mid-chord at w/c from that about the centre at rest.
-
-    c_m(w) = c_m(0) - (w/c) c_d: drag above the centre at rest turns the nose up about that.
-    """
-    return loads.moment[rows] - deflection * loads.drag[rows]

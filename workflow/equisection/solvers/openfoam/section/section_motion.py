@@ -1,10 +1,12 @@
 """The free section as a rigid body with springs, and the mesh that follows it.
 
 Without dimensions (chord, speed and density 1) the section of Eq. 18 has, per unit span, the
-inertia I*/2, the mass m*/2 and the stiffnesses k*/2 and k_w*/2.
+inertia I*/2, the mass m*/2, the static imbalance S*/2, the stiffnesses k*/2 and k_w*/2, and the
+dampings c_theta*/2 and c_w*/2. The body turns about its centre of mass
+(:mod:`~equisection.solvers.openfoam.section.body_axes`), about which its inertia is I - S^2/m.
 
 Newmark's rule (gamma 1/2, beta 1/4) is applied anew in each outer iteration of a time step, with
-loads and springs at the latest estimate of the new position.
+loads, springs and dampers at the latest estimate of the new position.
 """
 
 from __future__ import annotations
@@ -21,10 +23,16 @@ from equisection.beam.section import Section
 from equisection.files import write_text
 from equisection.solvers.openfoam.dictionaries import PLATE, Entries, dictionary
 from equisection.solvers.openfoam.reading.histories import read_history
+from equisection.solvers.openfoam.section.body_axes import BodyAxes
 
 #: Name of the function object of the motion.
 MOTION = "motion"
-MOVER = "the rigid body of OpenFOAM"
+#: Length of the spring (chords) of a section with a damper or with offset axes. A spring pulls, and
+#: its damper brakes, along the line to its attachment: so long a spring stays vertical where the
+#: attachment wanders along the stream, and in its middle position.
+_LONG = 1e3
+#: Digits of the attachment's height, so that the long spring is slack to the last digit written.
+_DIGITS = 8
 #: Within the first distance from the plate the mesh moves with it, beyond the second it stands;
 #: the second as a part of the half channel at the most.
 _RIGID_WITHIN, _STILL_BEYOND, _STILL_PART = 0.3, 1.5, 0.75
@@ -32,49 +40,59 @@ _RIGID_WITHIN, _STILL_BEYOND, _STILL_PART = 0.3, 1.5, 0.75
 
 @dataclass(frozen=True)
 class BodyMotion:
-    """Time (c/V), twist (rad), nose up, and deflection (chords), upwards, shape (n,)."""
+    """Time (c/V), twist (rad), nose up, and height (chords) of the centre of mass, shape (n,)."""
 
     time: NDArray[np.float64]
     twist: NDArray[np.float64]
-    deflection: NDArray[np.float64]
+    height: NDArray[np.float64]
 
 
-def write_motion(folder: Path, section: Section, channel_height: float) -> None:
+def write_motion(folder: Path, section: Section, incidence: float, channel_height: float) -> None:
     """Write ``constant/dynamicMeshDict``: the section, and the mesh that morphs around it."""
-    entries = morphing(section, channel_height)
+    entries = morphing(section, incidence, channel_height)
     write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", entries))
     write_displacement(folder)
 
 
-def morphing(section: Section, channel_height: float) -> dict[str, Any]:
-    """Return the section, and the mesh that morphs around it up to near the channel's walls."""
+def morphing(section: Section, incidence: float, channel_height: float) -> dict[str, Any]:
+    """Return the section at its rigid incidence (rad), and the mesh that morphs around it.
+
+    It does so up to near the channel's walls.
+    """
     still = min(_STILL_BEYOND, _STILL_PART * channel_height / 2)
+    within = min(_RIGID_WITHIN, 0.4 * still)
     return {
         "dynamicFvMesh": "dynamicMotionSolverFvMesh",
         "motionSolverLibs": ['"libsixDoFRigidBodyMotion.so"'],
         "motionSolver": "sixDoFRigidBodyMotion",
-        "sixDoFRigidBodyMotionCoeffs": rigid_body(section, min(_RIGID_WITHIN, 0.4 * still), still),
+        "sixDoFRigidBodyMotionCoeffs": rigid_body(section, incidence, within, still),
     }
 
 
-def rigid_body(section: Section, rigid_within: float, still: float) -> dict[str, Any]:
-    """Return the section, released from rest with slack springs.
+def rigid_body(
+    section: Section, incidence: float, rigid_within: float, still: float
+) -> dict[str, Any]:
+    """Return the section in its flow, released from rest with slack springs.
 
-    Up to the first distance (chords) the mesh moves with it, beyond the second it is at rest.
-
-    Raises
-    ------
-    EquisectionError
-        The section is more than a mass on springs about mid-chord.
+    Parameters
+    ----------
+    section
+        The section in its flow (:meth:`equisection.beam.section.Section.in_flow`).
+    incidence
+        Rigid incidence theta_0 (rad).
+    rigid_within, still
+        Up to the first distance (chords) the mesh moves with it, beyond the second it is at rest.
     """
-    section.require_defaults(MOVER)
+    axes = BodyAxes.of(section, incidence)
+    centre = (*axes.centre_of_mass, 0)
+    about_centre = section.inertia - section.static_imbalance**2 / section.mass
     return {
         "patches": [PLATE],
         "innerDistance": rigid_within,
         "outerDistance": still,
         "mass": section.mass / 2,
-        "centreOfMass": (0, 0, 0),
-        "momentOfInertia": (1.0, 1.0, section.inertia / 2),
+        "centreOfMass": centre,
+        "momentOfInertia": (1.0, 1.0, about_centre / 2),
         "velocity": (0, 0, 0),
         "acceleration": (0, 0, 0),
         "angularMomentum": (0, 0, 0),
@@ -88,28 +106,36 @@ def rigid_body(section: Section, rigid_within: float, still: float) -> dict[str,
         "constraints": {
             "heave": {
                 "sixDoFRigidBodyMotionConstraint": "line",
-                "centreOfRotation": (0, 0, 0),
+                "centreOfRotation": centre,
                 "direction": (0, 1, 0),
             },
             "pitch": {"sixDoFRigidBodyMotionConstraint": "axis", "axis": (0, 0, 1)},
         },
         "restraints": {
-            "bending": {
-                "sixDoFRigidBodyMotionRestraint": "linearSpring",
-                "anchor": (0, 0, 0),
-                "refAttachmentPt": (0, 0, 0),
-                "stiffness": section.flexural_stiffness / 2,
-                "damping": 0.0,
-                "restLength": 0.0,
-            },
+            "bending": _bending(section, axes),
             "torsion": {
                 "sixDoFRigidBodyMotionRestraint": "linearAxialAngularSpring",
                 "axis": (0, 0, 1),
                 "stiffness": section.torsional_stiffness / 2,
-                "damping": 0.0,
+                "damping": section.torsional_damping / 2,
                 "referenceOrientation": (1, 0, 0, 0, 1, 0, 0, 0, 1),
             },
         },
+    }
+
+
+def _bending(section: Section, axes: BodyAxes) -> dict[str, Any]:
+    """Return spring and damper of the bending, attached to the elastic axis."""
+    along, up = axes.elastic_axis
+    up = round(up, _DIGITS)
+    length = _LONG if section.has_offset or section.flexural_damping else 0.0
+    return {
+        "sixDoFRigidBodyMotionRestraint": "linearSpring",
+        "anchor": (along, up - length, 0),
+        "refAttachmentPt": (along, up, 0),
+        "stiffness": section.flexural_stiffness / 2,
+        "damping": section.flexural_damping / 2,
+        "restLength": length,
     }
 
 

@@ -1,0 +1,105 @@
+"""Table of critical speeds: brackets in m/s, their mechanism, and the margin on the safe side."""
+
+import math
+
+import pandas as pd
+import pytest
+
+from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.separation import SeparationLags
+from equisection.analysis.critical_speeds import (
+    COLUMNS,
+    from_eigenvalues,
+    from_runs,
+    in_words,
+    with_margin,
+)
+from equisection.beam.section import Section
+from equisection.motion.stability import critical_speed
+
+RUN = {"twist_amplitude_deg": 3.0, "frequency_strouhal": 0.14}
+AS_GIVEN = {"k_star_given": 8.0, "speed": 20.0, "chord": 0.1, "incidence_deg": 2.5}
+
+
+def runs(*rows: tuple[str, float, str], axis: str = "k_star", **more: float) -> pd.DataFrame:
+    """Return a summary of runs: model, value, regime."""
+    return pd.DataFrame([{"model": m, axis: v, "regime": r, **RUN, **more} for m, v, r in rows])
+
+
+def test_bracket_over_k_star_in_metres_per_second() -> None:
+    """k* of 8 at 20 m/s is 2 at 40 m/s."""
+    summary = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"))
+    (row,) = from_runs(summary, **AS_GIVEN, basis="cfd").to_dict("records")
+    assert (row["speed_low"], row["speed_high"], row["speed"]) == pytest.approx((20.0, 40.0, 30.0))
+    assert row["k_star"] == pytest.approx(8.0 * (20.0 / 30.0) ** 2)
+    assert row["frequency_hz"] == pytest.approx(0.14 * 40.0 / 0.1)
+    assert (row["mechanism"], row["basis"], row["incidence_deg"]) == ("flutter", "cfd", 2.5)
+
+
+def test_bracket_over_speed_is_the_same() -> None:
+    over_k = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"))
+    over_speed = runs(("2d", 40.0, "growing"), ("2d", 20.0, "settled"), axis="speed")
+    one, other = (from_runs(s, **AS_GIVEN, basis="time") for s in (over_k, over_speed))
+    pd.testing.assert_frame_equal(one, other)
+
+
+def test_growth_without_an_oscillation_is_divergence() -> None:
+    summary = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"), frequency_strouhal=math.nan)
+    (row,) = from_runs(summary, **AS_GIVEN, basis="time").to_dict("records")
+    assert row["mechanism"] == "divergence"
+    assert math.isnan(row["frequency_hz"])
+
+
+@pytest.mark.parametrize(
+    ("regimes", "mechanism", "said"),
+    [
+        (("settled", "settled"), "none", "stable up to 40 m/s; no onset was found"),
+        (("growing", "growing"), "flutter", "unstable at 20 m/s and at all lower speeds"),
+        (("failed", "failed"), "unknown", "nothing is known"),
+    ],
+)
+def test_open_brackets_say_what_is_known(
+    regimes: tuple[str, str], mechanism: str, said: str
+) -> None:
+    summary = runs(("3d", 2.0, regimes[0]), ("3d", 8.0, regimes[1]))
+    found = with_margin([from_runs(summary, **AS_GIVEN, basis="time")], None)
+    assert math.isnan(found.loc[0, "speed"])
+    assert said in in_words(found)[0]
+    assert found.loc[0, "mechanism"] == mechanism
+
+
+def test_margin_is_that_of_the_highest_stable_speed() -> None:
+    summary = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"))
+    found = with_margin([from_runs(summary, **AS_GIVEN, basis="time")], 16.0)
+    assert tuple(found.columns) == COLUMNS
+    assert found.loc[0, "margin"] == pytest.approx(20.0 / 16.0)
+
+
+def test_eigenvalues_are_those_of_the_public_function() -> None:
+    """Of Goland's wing section, whose flutter in attached flow is near 134 m/s."""
+    section = Section(
+        chord=1.8288,
+        mass=35.717,
+        inertia=8.642,
+        static_imbalance=0.1 * 1.8288 * 35.717,
+        flexural_stiffness=35.717 * 49.4923**2,
+        torsional_stiffness=8.642 * 87.1081**2,
+        elastic_axis=0.33,
+        twist_recovery=1.0,
+        deflection_recovery=1.0,
+    )
+    polar, lags = Polar.flat_plate(math.radians(20)), SeparationLags.none()
+    table = from_eigenvalues(
+        {"2d": section}, polar, lags, incidence_deg=[0.5, 1.0], speed=(50.0, 200.0), density=1.225
+    )
+    known = critical_speed(
+        section, polar, incidence_deg=[0.5, 1.0], speed=(50.0, 200.0), density=1.225, lags=lags
+    )
+    assert table["speed"].tolist() == pytest.approx(known["critical_speed"].values.tolist())
+    assert table["speed"].tolist() == pytest.approx([133.0, 133.0], rel=0.01)
+    assert set(table["mechanism"]) == {"flutter"}
+    assert set(table["basis"]) == {"eigenvalue"}
+
+
+def test_no_models_make_an_empty_table() -> None:
+    assert tuple(with_margin([], 10.0).columns) == COLUMNS

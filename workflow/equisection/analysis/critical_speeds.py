@@ -1,0 +1,201 @@
+"""Critical speed of each model: from the brackets of the runs, and from eigenvalues."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.separation import SeparationLags
+from equisection.analysis.onset import bracket_of, sweeps
+from equisection.beam.section import Section
+from equisection.motion.stability import critical_speed
+from equisection.study.axes import INCIDENCE, SPEED, Axis, onset_axis_among
+
+#: Columns of ``comparison/critical_speed.csv``, in order.
+COLUMNS = (
+    "model",
+    "incidence_deg",
+    "speed",
+    "speed_low",
+    "speed_high",
+    "mechanism",
+    "frequency_hz",
+    "k_star",
+    "margin",
+    "basis",
+)
+#: Basis of a speed: runs of CFD, runs in time of another solver, or eigenvalues.
+CFD, TIME, EIGENVALUE = "cfd", "time", "eigenvalue"
+
+
+def from_runs(
+    summary: pd.DataFrame,
+    *,
+    k_star_given: float,
+    speed: float,
+    chord: float,
+    incidence_deg: float,
+    basis: str,
+) -> pd.DataFrame:
+    """Return the critical speed of each model by the brackets of its runs.
+
+    Parameters
+    ----------
+    summary
+        ``comparison/summary.csv``.
+    k_star_given, speed
+        k* of the beam as given (-) at the speed V (m/s) of the configuration.
+    chord
+        c (m).
+    incidence_deg
+        Rigid incidence (deg) of a study that does not vary it.
+    basis
+        :data:`CFD` or :data:`TIME`.
+
+    Returns
+    -------
+    pd.DataFrame
+        :data:`COLUMNS` without the margin. The speed is the middle of the bracket from
+        ``speed_low``, stable, to ``speed_high``, unstable. Where one side is open the speed is NaN,
+        and the mechanism of a model that is stable throughout is ``none``. Without an
+        oscillation of the twist the unstable run has diverged; what else grows is called
+        ``flutter``, with or without separation, which a history alone does not tell.
+    """
+    axis = onset_axis_among(summary.columns)
+
+    def speed_at(value: float) -> float:
+        return value if axis is SPEED else speed * math.sqrt(k_star_given / value)
+
+    rows = []
+    for model, fixed, runs in sweeps(summary):
+        bracket = bracket_of(runs)
+        low, high = speed_at(bracket.stable), speed_at(bracket.unstable)
+        middle = 0.5 * (low + high)
+        unstable = runs[axis.same(runs[axis.name], bracket.unstable)]
+        strouhal = unstable["frequency_strouhal"].max() if len(unstable) else math.nan
+        rows.append(
+            {
+                "model": model,
+                "incidence_deg": fixed.get(INCIDENCE, incidence_deg),
+                "speed": middle,
+                "speed_low": low,
+                "speed_high": high,
+                "mechanism": _mechanism(low, high, strouhal),
+                "frequency_hz": strouhal * high / chord,
+                "k_star": k_star_given * (speed / middle) ** 2,
+                "basis": basis,
+            }
+        )
+    return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
+
+
+def _mechanism(stable: float, unstable: float, strouhal: float) -> str:
+    if math.isnan(unstable):
+        return "unknown" if math.isnan(stable) else "none"
+    return "divergence" if math.isnan(strouhal) else "flutter"
+
+
+def from_eigenvalues(
+    sections: Mapping[str, Section],
+    polar: Polar,
+    lags: SeparationLags,
+    *,
+    incidence_deg: Sequence[float],
+    speed: tuple[float, float],
+    density: float,
+) -> pd.DataFrame:
+    """Return the critical speed of some sections by eigenvalues (:mod:`..motion.stability`).
+
+    Parameters
+    ----------
+    sections
+        Sections (SI) by the names of their models.
+    polar, lags
+        Loads of the section.
+    incidence_deg
+        Rigid incidences (deg).
+    speed
+        Lowest and highest speed (m/s) looked at.
+    density
+        rho (kg/m3).
+    """
+    rows = []
+    for model, section in sections.items():
+        found = critical_speed(
+            section,
+            polar,
+            incidence_deg=list(incidence_deg),
+            speed=speed,
+            density=density,
+            lags=lags,
+        )
+        for angle in incidence_deg:
+            one = found.sel(incidence_deg=angle)
+            number = {
+                name: float(one[name]) for name in ("critical_speed", "speed_low", "speed_high")
+            }
+            rows.append(
+                {
+                    "model": model,
+                    "incidence_deg": float(angle),
+                    "speed": number["critical_speed"],
+                    "speed_low": number["speed_low"],
+                    "speed_high": number["speed_high"],
+                    "mechanism": str(one["mechanism"].values),
+                    "frequency_hz": float(one["frequency"]),
+                    "k_star": float(one["k_star"]),
+                    "basis": EIGENVALUE,
+                }
+            )
+    return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
+
+
+def with_margin(tables: Iterable[pd.DataFrame], design_speed: float | None) -> pd.DataFrame:
+    """Return ``comparison/critical_speed.csv`` of some tables, by model and incidence.
+
+    ``margin`` is the highest speed known to be stable below the onset over the design speed, so
+    that the width of a bracket is on the safe side; NaN without a design speed.
+    """
+    found = pd.concat([table for table in tables if len(table)] or [pd.DataFrame(columns=COLUMNS)])
+    design = math.nan if design_speed is None else design_speed
+    order = {model: number for number, model in enumerate(dict.fromkeys(found["model"]))}
+    return (
+        found.assign(margin=found["speed_low"].astype(float) / design)[list(COLUMNS)]
+        .sort_values(
+            ["model", "incidence_deg", "basis"],
+            key=lambda column: column.map(order) if column.name == "model" else column,
+            kind="stable",
+        )
+        .reset_index(drop=True)
+    )
+
+
+def in_words(table: pd.DataFrame) -> list[str]:
+    """Return a line for each critical speed: what was found, or up to where nothing was."""
+    return [_line(row) for row in table.to_dict("records")]
+
+
+def _line(row: Mapping[Any, Any]) -> str:
+    who = f"{row['model']} at {row['incidence_deg']:g} deg ({row['basis']})"
+    low, high = row["speed_low"], row["speed_high"]
+    if np.isfinite(row["speed"]):
+        return f"{who}: {row['mechanism']} between {low:.4g} and {high:.4g} m/s"
+    if np.isfinite(high):
+        return f"{who}: unstable at {high:.4g} m/s and at all lower speeds that were run"
+    if np.isfinite(low):
+        return f"{who}: stable up to {low:.4g} m/s; no onset was found"
+    return f"{who}: nothing is known, no run has a verdict"
+
+
+def speeds_of(
+    values: Sequence[float], axis: Axis, k_star_given: float, speed: float
+) -> list[float]:
+    """Return the speeds (m/s) of values on the axis of a study, k* (-) or speed."""
+    if axis is SPEED:
+        return list(values)
+    return [speed * math.sqrt(k_star_given / value) for value in values]
