@@ -28,7 +28,8 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
         for reduction, section in sections.items()
     }
     poor = flutter["consistent"].warnings("consistent")
-    warnings = (*beam.warnings, *poor, *validity_warnings(integrals))
+    of_pair = span_integrals(beam, modes.section_pair()[0], 1)
+    warnings = (*beam.warnings, *poor, *validity_warnings(of_pair))
     logging.info(beam.axes_in_words)
     for warning in warnings:
         logging.warning(warning)

@@ -38,8 +38,10 @@ def main(beam: Beam, structure: Structure, output: Path, study_output: Path) -> 
     levels = [(mesh.chord, mesh.span, mesh.thickness) for mesh in structure.mesh_study]
     method = "beam" if structure.method == "analytic" else structure.method
     study = mesh_study(beam, levels, method, solved=modes)
-    analytic = compute_modes(beam, "analytic", levels[-1], count=ANALYTIC_MODES)
-    write_dataset(study_output, mesh_study_to_dataset(study, analytic))
+    closed_form = None
+    if not beam.has_fittings:
+        closed_form = compute_modes(beam, "analytic", levels[-1], count=ANALYTIC_MODES)
+    write_dataset(study_output, mesh_study_to_dataset(study, closed_form))
 
 
 if __name__ == "__main__":

@@ -74,7 +74,7 @@ IMPOSSIBLE = [
     ({"chord": -0.1}, r"chord\n.*greater than 0"),
     ({"density": float("nan")}, r"density\n.*finite"),
     ({"poisson_ratio": 0.5}, r"poisson_ratio\n.*less than 0\.5"),
-    ({"boundary": "glued"}, r"boundary\n.*'one-fork' or 'spring-root'"),
+    ({"boundary": "glued"}, r"boundary\n.*'spring-root' or 'supports'"),
     ({"lenght": 1.0}, r"lenght\n.*not permitted"),
     ({"thickness": 0.05}, r"beam\.thickness: 0\.05: allowed is .* below half the chord, 0\.05 m"),
     ({"length": 0.1}, r"beam\.length: 0\.1: allowed is a number above the chord"),

@@ -18,6 +18,7 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import Field, JsonValue, ValidationInfo, model_validator
 
+from equisection.beam.supports import Lump, Support
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.group_file import read_group
@@ -30,31 +31,30 @@ Boundary = Literal[
     "clamped-pinned",
     "one-fork",
     "spring-root",
+    "supports",
 ]
-BOUNDARIES: tuple[Boundary, ...] = get_args(Boundary)
+#: Boundary of a beam with both ends free, held by ``supports`` alone.
+BY_SUPPORTS: Boundary = "supports"
+#: Boundaries that hold the beam at its ends, by name.
+BOUNDARIES: tuple[Boundary, ...] = tuple(b for b in get_args(Boundary) if b != BY_SUPPORTS)
 
 BendingEnd = Literal["clamped", "pinned", "free", "spring"]
 TorsionEnd = Literal["fixed", "free", "spring"]
 
-_BENDING_ENDS: dict[str, tuple[BendingEnd, BendingEnd]] = {
-    "clamped-free": ("clamped", "free"),
-    "clamped-clamped": ("clamped", "clamped"),
-    "pinned-pinned": ("pinned", "pinned"),
-    "clamped-pinned": ("clamped", "pinned"),
-    "one-fork": ("pinned", "pinned"),
-    "spring-root": ("spring", "free"),
-}
-_TORSION_ENDS: dict[str, tuple[TorsionEnd, TorsionEnd]] = {
-    "clamped-free": ("fixed", "free"),
-    "clamped-clamped": ("fixed", "fixed"),
-    "pinned-pinned": ("fixed", "fixed"),
-    "clamped-pinned": ("fixed", "fixed"),
-    "one-fork": ("fixed", "free"),
-    "spring-root": ("spring", "free"),
+_Ends = tuple[tuple[BendingEnd, BendingEnd], tuple[TorsionEnd, TorsionEnd]]
+#: Names of lists of two supports, root and tip: end conditions of bending, then of twist.
+_ENDS: dict[str, _Ends] = {
+    "clamped-free": (("clamped", "free"), ("fixed", "free")),
+    "clamped-clamped": (("clamped", "clamped"), ("fixed", "fixed")),
+    "pinned-pinned": (("pinned", "pinned"), ("fixed", "fixed")),
+    "clamped-pinned": (("clamped", "pinned"), ("fixed", "fixed")),
+    "one-fork": (("pinned", "pinned"), ("fixed", "free")),
+    "spring-root": (("spring", "free"), ("spring", "free")),
+    "supports": (("free", "free"), ("free", "free")),
 }
 
 #: Boundaries whose far end moves freely, and so need a gap to the channel's wall.
-FREE_TIP: frozenset[str] = frozenset({"clamped-free", "spring-root"})
+FREE_TIP: frozenset[str] = frozenset({"clamped-free", "spring-root", BY_SUPPORTS})
 #: h/c up to which a rectangle is a thin strip: its G J is then 6 % too large.
 _THIN = 0.1
 
@@ -109,7 +109,8 @@ class Beam(KeyGroup):
         description="How the beam is held, root first. `pinned-pinned` has fork ends (no twist "
         "at either end), `one-fork` is pinned at both ends with the twist held at the root "
         "only, `spring-root` is held by the two root springs alone; these two need "
-        "`structure.method` `beam` or `analytic`.",
+        "`structure.method` `beam` or `analytic`. `supports` leaves both ends free: "
+        "`beam.supports` alone hold the beam.",
     )
     root_torsional_stiffness: Annotated[Positive | None, NULLABLE] = Field(
         None,
@@ -141,6 +142,15 @@ class Beam(KeyGroup):
         "homogeneous rectangle is at mid-chord.",
     )
     damping: Damping = Field(Damping(), description="Structural damping.")
+    supports: tuple[Support, ...] = Field(
+        (),
+        description="Supports, springs and dashpots along the span, beside what `boundary` holds; "
+        "needs `structure.method: beam`. The sweep scales their springs with the beam's own "
+        "stiffness, and dashpots with its square root: the same beam at another speed.",
+    )
+    lumps: tuple[Lump, ...] = Field(
+        (), description="Lumped masses along the span; needs `structure.method: beam`."
+    )
 
     @model_validator(mode="after")
     def _agree(self, info: ValidationInfo) -> Beam:
@@ -239,12 +249,22 @@ class Beam(KeyGroup):
     @property
     def bending_ends(self) -> tuple[BendingEnd, BendingEnd]:
         """End conditions of bending at root and tip."""
-        return _BENDING_ENDS[self.boundary]
+        return _ENDS[self.boundary][0]
 
     @property
     def torsion_ends(self) -> tuple[TorsionEnd, TorsionEnd]:
         """End conditions of twist at root and tip."""
-        return _TORSION_ENDS[self.boundary]
+        return _ENDS[self.boundary][1]
+
+    @property
+    def has_fittings(self) -> bool:
+        """Presence of supports or lumped masses along the span, or of nothing else to hold it."""
+        return bool(self.supports or self.lumps) or self.boundary == BY_SUPPORTS
+
+    @property
+    def has_imbalance(self) -> bool:
+        """Presence of a static imbalance, of the section or of a lumped mass."""
+        return self.imbalance_per_length != 0.0 or any(lump.imbalance for lump in self.lumps)
 
 
 def torsion_series_factor(thickness_over_chord: float) -> float:
@@ -285,6 +305,45 @@ def _torsional_spring(stiffness: float | None, boundary: str) -> Iterator[Proble
 @check("beam.root_bending_stiffness", "beam.boundary")
 def _bending_spring(stiffness: float | None, boundary: str) -> Iterator[Problem]:
     yield from _spring("beam.root_bending_stiffness", stiffness, boundary)
+
+
+@check("beam.supports", "beam.boundary")
+def _restrained(supports: tuple[Support, ...], boundary: str) -> Iterator[Problem]:
+    """Refuse a beam that can turn or swing as a rigid body, and what an end holds already."""
+    bending, torsion = _ENDS[boundary]
+    if boundary == BY_SUPPORTS:
+        held = sum(support.restrains_deflection for support in supports)
+        if held < 2:
+            yield Problem(
+                "beam.supports",
+                f"{held} of them hold the deflection",
+                "allowed with boundary 'supports' are two or more that fix or spring the "
+                "deflection; with fewer the beam moves as a rigid body",
+            )
+        if not any(support.restrains_twist for support in supports):
+            yield Problem(
+                "beam.supports",
+                "none of them holds the twist",
+                "allowed with boundary 'supports' are supports of which one or more fix or spring "
+                "the twist; without, the beam turns as a rigid body",
+            )
+    for number, support in enumerate(supports):
+        if support.at not in (0.0, 1.0):
+            continue
+        end = int(support.at)
+        for motion, ends in (("deflection", bending), ("twist", torsion)):
+            acts = any(
+                getattr(support, key) not in ("free", 0.0)
+                for key in (motion, f"{motion}_stiffness", f"{motion}_damping")
+            )
+            held_by_end = ends[end] == "fixed" or (motion == "deflection" and ends[end] != "free")
+            if acts and held_by_end:
+                yield Problem(
+                    f"beam.supports.{number}.at",
+                    support.at,
+                    f"allowed is a place where boundary '{boundary}' does not hold the {motion} "
+                    "already",
+                )
 
 
 def _percent(place: float) -> str:

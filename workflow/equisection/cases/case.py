@@ -90,6 +90,21 @@ class Case(Block):
         return ""
 
 
+class FittedModes(Block):
+    """Lumped masses and dashpots along the span on the modes, sums over their places.
+
+    Non-dimensional as the sectional ones of :class:`BeamModes`, which they add to: the mass of each
+    bending mode and the inertia of each torsion mode, the imbalance (torsion, bending) and the
+    dashpots (c_w* over V/c and c_theta*) of bending and of torsion modes as full matrices.
+    """
+
+    mass: tuple[float, ...]
+    inertia: tuple[float, ...]
+    imbalance: tuple[tuple[float, ...], ...]
+    bending_dashpots: tuple[tuple[float, ...], ...]
+    torsion_dashpots: tuple[tuple[float, ...], ...]
+
+
 class BeamModes(Block):
     """Modes of the beam for one k*, non-dimensional, bending and torsion apart.
 
@@ -99,7 +114,9 @@ class BeamModes(Block):
     which are those without it. Inertia and imbalance are about the elastic axis.
     """
 
-    left_out = frozenset({"imbalance", "bending_damping", "torsion_damping", "elastic_axis"})
+    left_out = frozenset(
+        {"imbalance", "bending_damping", "torsion_damping", "elastic_axis", "fittings"}
+    )
 
     span: tuple[float, ...]
     bending_frequency: tuple[float, ...]
@@ -112,6 +129,7 @@ class BeamModes(Block):
     bending_damping: float = 0.0  # of critical, of every mode
     torsion_damping: float = 0.0  # the same
     elastic_axis: float = 0.5  # x/c from the leading edge
+    fittings: FittedModes | None = None
 
     def require_defaults(self, model: str, *, but: Iterable[str] = ()) -> None:
         """Refuse a beam that has more than a model can represent.
@@ -132,9 +150,11 @@ class BeamModes(Block):
         fields = type(self).model_fields
         more = [
             f"{name} {getattr(self, name)} (allowed is {fields[name].default})"
-            for name in sorted(self.left_out.difference(but))
+            for name in sorted(self.left_out.difference(but, {"fittings"}))
             if getattr(self, name) != fields[name].default
         ]
+        if self.fittings:
+            more.append("supports or lumped masses along its span")
         if more:
             raise EquisectionError(f"{model} takes no beam with {', '.join(more)}")
 

@@ -8,17 +8,20 @@ from typing import Annotated, Literal
 from pydantic import Field, ValidationInfo, model_validator
 
 from equisection.config.groups import (
+    BY_SUPPORTS,
     FREE_TIP,
     MID_CHORD,
     Beam,
     Embedded,
     Flow,
     KeyGroup,
+    Lump,
     OpenFoam,
     SolverKeys,
     StartKeys,
     Steady,
     Structure,
+    Support,
     Sweep,
     Unsteady,
 )
@@ -167,6 +170,19 @@ def _factors_of_the_loads(
             f"allowed with solver 'openfoam' are models without {', '.join(corrected)} where "
             "beam.elastic_axis or beam.mass_axis is off mid-chord: the correction is then a factor "
             "of the loads, and OpenFOAM's body moves under those of its flow; 'embedded' takes it",
+        )
+
+
+@check("beam.supports", "beam.lumps", "beam.boundary", "solver")
+def _fittings_of_the_solver(
+    supports: tuple[Support, ...], lumps: tuple[Lump, ...], boundary: str, solver: str
+) -> Iterator[Problem]:
+    if solver == "openfoam" and (supports or lumps or boundary == BY_SUPPORTS):
+        yield Problem(
+            "solver",
+            solver,
+            "allowed with beam.supports, beam.lumps or boundary 'supports' is 'embedded': "
+            "OpenFOAM's bodies do not have them",
         )
 
 

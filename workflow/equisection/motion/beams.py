@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.motion.march import Failure, Monitor, Progress, Recording, march
 from equisection.motion.steady_states import release_state
-from equisection.motion.strip_system import StripStructure, StripSystem, assemble
+from equisection.motion.strip_system import StripStructure, StripSystem, assemble, diagonal
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -28,6 +28,28 @@ BEAM_TIME_STEP = 0.05
 
 OUTPUT_INTERVAL = 0.1
 """Default interval of the histories in convective times."""
+
+
+@dataclass(frozen=True)
+class Fittings:
+    """Lumped masses and dashpots of N beams on their modes, non-dimensional.
+
+    Parameters
+    ----------
+    mass, inertia
+        What they add to the mass of each bending mode, shape (N, n_b), and to the inertia of each
+        torsion mode, (N, n_t).
+    imbalance
+        What they add to S_ij, shape (N, n_t, n_b).
+    bending_dashpots, torsion_dashpots
+        What they add to the dampings, shape (N, n_b, n_b) and (N, n_t, n_t).
+    """
+
+    mass: Floats
+    inertia: Floats
+    imbalance: Floats
+    bending_dashpots: Floats
+    torsion_dashpots: Floats
 
 
 @dataclass(frozen=True)
@@ -65,6 +87,7 @@ class BeamParameters:
         imbalance: Floats | None = None,
         damping_ratios: tuple[float, float] = (0.0, 0.0),
         axis: float = 0.0,
+        fittings: Fittings | None = None,
     ) -> BeamParameters:
         """Take the modes of N uniform beams to S strips.
 
@@ -88,6 +111,8 @@ class BeamParameters:
             zeta_w and zeta_theta, of critical, of every bending and torsion mode.
         axis
             x_ea, chords from mid-chord back to the elastic axis.
+        fittings
+            Lumped masses and dashpots along the span; None for none.
 
         Notes
         -----
@@ -103,7 +128,19 @@ class BeamParameters:
         torsion_inertia = np.outer(inertia, _square_integral(span, torsion_shapes))
         bending_mass = np.outer(mass, _square_integral(span, bending_shapes))
         across = _product_integral(span, torsion_shapes, bending_shapes)
+        coupling = np.multiply.outer(
+            np.zeros(inertia.size) if imbalance is None else imbalance, across
+        )
+        if fittings is not None:
+            torsion_inertia = torsion_inertia + fittings.inertia
+            bending_mass = bending_mass + fittings.mass
+            coupling = coupling + fittings.imbalance
         bending_ratio, torsion_ratio = damping_ratios
+        torsion_damping = diagonal(2.0 * torsion_ratio * torsion_frequencies * torsion_inertia)
+        bending_damping = diagonal(2.0 * bending_ratio * bending_frequencies * bending_mass)
+        if fittings is not None:
+            torsion_damping = torsion_damping + fittings.torsion_dashpots
+            bending_damping = bending_damping + fittings.bending_dashpots
         strips = stations.size
         structure = StripStructure(
             torsion_shapes=torsion(stations),
@@ -113,11 +150,9 @@ class BeamParameters:
             torsion_stiffness=torsion_inertia * torsion_frequencies**2,
             bending_mass=bending_mass,
             bending_stiffness=bending_mass * bending_frequencies**2,
-            imbalance=np.multiply.outer(
-                np.zeros(inertia.size) if imbalance is None else imbalance, across
-            ),
-            torsion_damping=2.0 * torsion_ratio * torsion_frequencies * torsion_inertia,
-            bending_damping=2.0 * bending_ratio * bending_frequencies * bending_mass,
+            imbalance=coupling,
+            torsion_damping=torsion_damping,
+            bending_damping=bending_damping,
             axis=np.full(inertia.size, axis),
             lift_factor=np.ones(inertia.size),
             moment_factor=np.ones(inertia.size),

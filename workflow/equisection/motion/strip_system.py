@@ -84,7 +84,7 @@ class StripStructure:
     imbalance
         S_ij, shape (N, n_t, n_b).
     torsion_damping, bending_damping
-        C_i, shape (N, n_t), and c_j, shape (N, n_b).
+        Matrices C, shape (N, n_t, n_t), and c, shape (N, n_b, n_b); full with dashpots.
     axis
         x_ea, chords from mid-chord back to the elastic axis, shape (N,).
     lift_factor, moment_factor
@@ -379,11 +379,11 @@ def _accelerations(
     )
     both_f = weighted_f.T @ structure.torsion_shapes
     inertia = (
-        _diagonal(structure.torsion_inertia)
+        diagonal(structure.torsion_inertia)
         + moment_factor * APPARENT_INERTIA * both_f
         + lift_factor * APPARENT_MASS * axis**2 * both_f
     )
-    mass = _diagonal(structure.bending_mass) + lift_factor * APPARENT_MASS * (
+    mass = diagonal(structure.bending_mass) + lift_factor * APPARENT_MASS * (
         weighted_g.T @ structure.bending_shapes
     )
     across = lift_factor * APPARENT_MASS * axis * (weighted_f.T @ structure.bending_shapes)
@@ -392,12 +392,12 @@ def _accelerations(
         weighted_f.T
         @ (moment_factor * rows.moment + axis * (lift + lift_factor * rows.normal_rise))
         - structure.torsion_stiffness[:, :, None] * unit[layout.twist]
-        - structure.torsion_damping[:, :, None] * unit[layout.twist_rate]
+        - structure.torsion_damping @ unit[layout.twist_rate]
     )
     force = (
         weighted_g.T @ (lift - lift_factor * rows.turn)
         - structure.bending_stiffness[:, :, None] * unit[layout.deflection]
-        - structure.bending_damping[:, :, None] * unit[layout.deflection_rate]
+        - structure.bending_damping @ unit[layout.deflection_rate]
     )
     if structure.imbalance.any() or structure.is_offset:
         return _coupled(inertia, mass, across - structure.imbalance, torque, force)
@@ -423,6 +423,6 @@ def _coupled(
     return both[:, : torque.shape[1]], both[:, torque.shape[1] :]
 
 
-def _diagonal(values: Floats) -> Floats:
+def diagonal(values: Floats) -> Floats:
     """Diagonal matrices, shape (N, m, m), of values of shape (N, m)."""
     return np.asarray(values[:, :, None] * np.eye(values.shape[1]), dtype=np.float64)

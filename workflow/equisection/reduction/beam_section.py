@@ -9,7 +9,7 @@ from equisection.beam.beam import MID_CHORD, Beam
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ModesError, ReductionError
-from equisection.reduction.flutter_bias import flutter_bias, refusal
+from equisection.reduction.flutter_bias import flutter_bias, refusal, unlike
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import Reduction, reduce_beam, validity_warnings
 from equisection.structure.modes import modes_of_kinds
@@ -57,6 +57,11 @@ def reduce(
         The beam has no equivalent section: nothing restrains it, or the section would flutter at a
         speed that is 15 % or more off the beam's.
     """
+    if method != "beam" and beam.has_fittings:
+        raise ModesError(
+            f"method is {method!r}, which holds a beam at its ends alone, and the beam has "
+            "supports or lumps along its span; give method='beam'"
+        )
     if method == "solid" and beam.cross_section is not None:
         raise ModesError(
             "method is 'solid', which meshes a homogeneous plate, and the beam has a "
@@ -70,10 +75,12 @@ def reduce(
     modes = modes_of_kinds(beam, method, elements, (1, 1), COUNT)
     section = reduce_beam(beam, modes, reduction)
     compared = flutter_bias(section, beam, modes, density)
-    reason = refusal(compared.bias, reduction)
+    reason = unlike(compared.likeness, compared.damping_ratio)
+    reason = reason or refusal(compared.bias, reduction)
     if reason:
         raise ReductionError(reason)
     poor = compared.warnings(reduction)
-    for text in (*beam.warnings, *poor, *validity_warnings(span_integrals(beam, modes, count=1))):
+    integrals = span_integrals(beam, modes.section_pair()[0], count=1)
+    for text in (*beam.warnings, *poor, *validity_warnings(integrals)):
         warnings.warn(text, stacklevel=2)
     return section

@@ -23,11 +23,19 @@ from dataclasses import dataclass
 from equisection.beam.beam import Beam
 from equisection.beam.section import Section
 from equisection.motion.beam_flutter import FlutterOnset, beam_flutter, section_flutter
+from equisection.reduction.integrals import span_integrals
 from equisection.structure.modal_matrices import ModalMatrices, modal_matrices
 from equisection.structure.mode_set import ModeSet
 
 #: Bias above which a section is reported as a poor stand-in, and from which there is none.
 WARNED, REFUSED = 0.05, 0.15
+#: cos phi of the pair below which there is no section.
+LEAST_LIKENESS = 0.8
+#: Damping of the pair, with what dashpots of supports add by their projection on the modes, above
+#: which it is warned about, and above which there is no section: a damper so strong holds its place
+#: and changes the shapes (of a cantilever with one at its tip a projected 0.50 is 0.559, and 0.20
+#: is 0.2027).
+DAMPING_WARNED, DAMPING_REFUSED = 0.2, 0.5
 #: Pairs that are looked at. The n-th frequency of a pinned beam goes with n^2 in bending and with n
 #: in torsion, so that the first pair need not be the critical one.
 _PAIRS = 3
@@ -47,13 +55,22 @@ class FlutterBias:
         Onset of the beam with all of its modes.
     critical_pair
         Number n of the n-th bending and torsion mode that flutter first, each pair alone; 0 where
-        none does.
+        none does. The first is the section's pair.
+    bending_mode
+        Number of the bending mode that the section has, the one most like the first torsion mode.
+    likeness
+        cos phi of the section's pair (-).
+    damping_ratio
+        The larger damping ratio of the section's pair (-), dashpots projected.
     """
 
     section: FlutterOnset
     pair: FlutterOnset
     beam: FlutterOnset
     critical_pair: int
+    bending_mode: int = 1
+    likeness: float = 1.0
+    damping_ratio: float = 0.0
 
     @property
     def bias(self) -> float:
@@ -63,6 +80,22 @@ class FlutterBias:
     def warnings(self, reduction: str) -> tuple[str, ...]:
         """Warnings of a poor stand-in, of a section made by a reduction; empty where it is good."""
         found = []
+        if self.bending_mode > 1:
+            found.append(
+                f"the section has bending mode {self.bending_mode}, the one most like the first "
+                f"torsion mode (cos(phi) = {self.likeness:.3f})"
+            )
+        if self.damping_ratio > DAMPING_WARNED:
+            found.append(
+                f"dashpots of beam.supports give the section's modes a damping ratio of "
+                f"{self.damping_ratio:.3f}, above {DAMPING_WARNED:g}: so strong a damper changes "
+                "the shapes, which the modes do not have"
+            )
+        found += [
+            f"no section stands for this beam: {reason}"
+            for reason in [unlike(self.likeness, self.damping_ratio)]
+            if reason
+        ]
         of_section = f"the section of the {reduction} reduction"
         of_pair = f"its beam's first pair of modes flutters at {self.pair.speed:.4g} m/s"
         if abs(self.bias) > WARNED:
@@ -107,14 +140,37 @@ def flutter_bias(section: Section, beam: Beam, modes: ModeSet, density: float) -
     def onset(of: ModalMatrices) -> FlutterOnset:
         return beam_flutter(of, beam.chord, beam.elastic_axis, density)
 
-    pairs = [onset(matrices.pair(n)) for n in range(1, min(*numbers, _PAIRS) + 1)]
+    chosen, bending_mode = modes.section_pair()
+    first = matrices.pair(1, bending_mode)
+    others = [matrices.pair(n) for n in range(2, min(*numbers, _PAIRS) + 1)]
+    pairs = [onset(each) for each in (first, *others)]
     speeds = {n: each.speed for n, each in enumerate(pairs, start=1) if not math.isnan(each.speed)}
     return FlutterBias(
         section=section_flutter(section, density),
         pair=pairs[0],
         beam=onset(matrices),
         critical_pair=min(speeds, key=lambda n: speeds[n], default=0),
+        bending_mode=bending_mode,
+        likeness=span_integrals(beam, chosen, count=1).cos_phi,
+        damping_ratio=float(first.damping_ratios.max()),
     )
+
+
+def unlike(likeness: float, damping_ratio: float) -> str:
+    """Return why a pair of that cos phi and damping has no section; empty where it has."""
+    if likeness < LEAST_LIKENESS:
+        return (
+            f"the first torsion mode and the bending mode most like it have cos(phi) = "
+            f"{likeness:.3f} (allowed is {LEAST_LIKENESS:g} or more): their shapes are too unlike "
+            "for a section; run the beam (sweep.models: [3d])"
+        )
+    if damping_ratio > DAMPING_REFUSED:
+        return (
+            f"dashpots of beam.supports give its modes a damping ratio of {damping_ratio:.3f} "
+            f"(allowed is {DAMPING_REFUSED:g} or less): so strong a damper holds its place, and "
+            "the shapes are others; give a weaker one, or fix the support"
+        )
+    return ""
 
 
 def refusal(bias: float, reduction: str) -> str:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.beam.beam import Beam
+from equisection.structure.fittings import inertias, lumped, masses
 from equisection.structure.mode_set import ModeSet, torsion_strain
 from equisection.structure.span import gram, integrate
 
@@ -29,7 +30,7 @@ class Integrals:
     Attributes
     ----------
     mass_theta, mass_w : (n, n) arrays
-        M_theta, M_w (Eq. 6).
+        M_theta, M_w (Eq. 6), with lumped masses over I L and m L.
     stiffness_theta, stiffness_w : (n, n) arrays
         K_theta, K_w (Eq. 7) as omega_i omega_j M_ij over GJ/(L^2 rho c^3 h/12) and
         EI/(L^4 rho c h). Springs at the root count as stiffness.
@@ -95,11 +96,14 @@ def span_integrals(beam: Beam, modes: ModeSet, count: int = 4) -> Integrals:
     omega_w = 2.0 * np.pi * bending.frequency
     rate_theta = beam.torsional_rigidity / (beam.inertia_per_length * beam.length**2)
     rate_w = beam.bending_rigidity / (beam.mass_per_length * beam.length**4)
+    # For a uniform beam M and A are one integral (Eqs. 6, 12); lumped masses are in M alone.
+    mass_theta = a_theta_theta + lumped(z, f, f, inertias(beam))
+    mass_w = a_w_w + lumped(z, g, g, masses(beam))
     return Integrals(
-        mass_theta=a_theta_theta,  # for a uniform beam M and A are one integral (Eqs. 6, 12)
-        mass_w=a_w_w,
-        stiffness_theta=np.outer(omega_theta, omega_theta) * a_theta_theta / rate_theta,
-        stiffness_w=np.outer(omega_w, omega_w) * a_w_w / rate_w,
+        mass_theta=mass_theta,
+        mass_w=mass_w,
+        stiffness_theta=np.outer(omega_theta, omega_theta) * mass_theta / rate_theta,
+        stiffness_w=np.outer(omega_w, omega_w) * mass_w / rate_w,
         strain_theta=torsion_strain(modes, beam, count),
         a_theta_theta=a_theta_theta,
         a_theta_w=gram(z, f, g),

@@ -15,7 +15,11 @@ The static imbalance belongs to both rows and gets
 
 the only one that keeps the coupled frequencies of the beam's first two modes: S_2D^2/(m_2D I_2D) is
 then the beam's. In the consistent form it is S cos(phi). Dampers are those of the damping ratios of
-the first modes. Neither changes k*.
+the first modes, and dashpots of supports as those modes feel them. Neither changes k*.
+
+The pair is the first torsion mode and the bending mode most like it, which is the first where a
+beam is held at its ends (:meth:`equisection.structure.mode_set.ModeSet.section_pair`). Lumped
+masses are in M and not in A: m_2D is then not m, and S_2D has theirs too.
 """
 
 from __future__ import annotations
@@ -29,6 +33,12 @@ from equisection.beam.beam import Beam
 from equisection.beam.section import Section
 from equisection.errors import ReductionError
 from equisection.reduction.integrals import Integrals, span_integrals
+from equisection.structure.fittings import (
+    deflection_dashpots,
+    imbalances,
+    lumped,
+    twist_dashpots,
+)
 from equisection.structure.mode_set import ModeSet
 
 Reduction = Literal["paper", "consistent"]
@@ -39,7 +49,7 @@ _LEAST_PARTICIPATION = 0.3
 
 
 def reduce_beam(beam: Beam, modes: ModeSet, reduction: str = "consistent") -> Section:
-    """Equivalent section of a beam from its first modes of torsion and of bending (Eq. 17).
+    """Equivalent section of a beam from one mode of torsion and one of bending (Eq. 17).
 
     Parameters
     ----------
@@ -60,14 +70,15 @@ def reduce_beam(beam: Beam, modes: ModeSet, reduction: str = "consistent") -> Se
     """
     if reduction not in REDUCTIONS:
         raise ReductionError(f"reduction is {reduction!r}; choose one of {', '.join(REDUCTIONS)}")
-    integrals = span_integrals(beam, modes, count=1)
+    pair = modes.section_pair()[0]
+    integrals = span_integrals(beam, pair, count=1)
     _require_restraint(beam, integrals)
     if reduction == "paper":
-        return _paper_section(beam, integrals)
-    return _consistent_section(beam, integrals)
+        return _paper_section(beam, pair, integrals)
+    return _consistent_section(beam, pair, integrals)
 
 
-def _paper_section(beam: Beam, integrals: Integrals) -> Section:
+def _paper_section(beam: Beam, pair: ModeSet, integrals: Integrals) -> Section:
     a_tt, a_tw = integrals.a_theta_theta[0, 0], integrals.a_theta_w[0, 0]
     if abs(a_tw) < 1e-6:
         raise ReductionError(
@@ -76,6 +87,7 @@ def _paper_section(beam: Beam, integrals: Integrals) -> Section:
         )
     return _section(
         beam,
+        pair,
         divisors=(a_tw, a_tt),
         a_tw=a_tw,
         torsional_stiffness=beam.torsional_rigidity
@@ -91,7 +103,7 @@ def _paper_section(beam: Beam, integrals: Integrals) -> Section:
     )
 
 
-def _consistent_section(beam: Beam, integrals: Integrals) -> Section:
+def _consistent_section(beam: Beam, pair: ModeSet, integrals: Integrals) -> Section:
     a_tt, a_ww = integrals.a_theta_theta[0, 0], integrals.a_w_w[0, 0]
     for name, mean in (("F", integrals.f_mean[0]), ("G", integrals.g_mean[0])):
         if abs(mean) < 1e-6:
@@ -101,6 +113,7 @@ def _consistent_section(beam: Beam, integrals: Integrals) -> Section:
             )
     return _section(
         beam,
+        pair,
         divisors=(a_ww, a_tt),
         a_tw=integrals.a_theta_w[0, 0],
         torsional_stiffness=beam.torsional_rigidity
@@ -117,22 +130,35 @@ def _consistent_section(beam: Beam, integrals: Integrals) -> Section:
 
 
 def _section(
-    beam: Beam, *, divisors: tuple[float, float], a_tw: float, **members: float
+    beam: Beam,
+    pair: ModeSet,
+    *,
+    divisors: tuple[float, float],
+    a_tw: float,
+    **members: float,
 ) -> Section:
     """Return a section with the imbalance, the dampers and the axis of its beam.
 
     ``divisors`` are D_w and D_theta, ``members`` the others of :class:`Section`.
     """
-    imbalance = beam.imbalance_per_length
+    f, g = pair.torsion(1).shape, pair.bending(1).shape
+    imbalance = beam.imbalance_per_length * float(a_tw / np.sqrt(np.prod(divisors)))
+    if beam.lumps:
+        of_lumps = lumped(pair.span, g, f, imbalances(beam)).item()
+        imbalance += of_lumps / math.sqrt(math.prod(divisors))
+    at_deflection = lumped(pair.span, g, g, deflection_dashpots(beam)).item() / divisors[0]
+    at_twist = lumped(pair.span, f, f, twist_dashpots(beam)).item() / divisors[1]
     return Section(
         **members,
-        static_imbalance=imbalance * float(a_tw / np.sqrt(np.prod(divisors))) if imbalance else 0.0,
+        static_imbalance=imbalance if beam.has_imbalance else 0.0,
         flexural_damping=2.0
         * beam.damping.bending
-        * math.sqrt(members["flexural_stiffness"] * members["mass"]),
+        * math.sqrt(members["flexural_stiffness"] * members["mass"])
+        + at_deflection,
         torsional_damping=2.0
         * beam.damping.torsion
-        * math.sqrt(members["torsional_stiffness"] * members["inertia"]),
+        * math.sqrt(members["torsional_stiffness"] * members["inertia"])
+        + at_twist,
         chord=beam.chord,
         elastic_axis=beam.elastic_axis,
     )
@@ -148,7 +174,7 @@ def _require_restraint(beam: Beam, integrals: Integrals) -> None:
             raise ReductionError(
                 f"boundary {beam.boundary!r} leaves {motion} without restraint (its first "
                 "natural frequency is as good as zero), so that the section would have no spring; "
-                f"give a stiffer beam.{key} or another boundary"
+                f"give a stiffer beam.{key}, another boundary or beam.supports that hold it"
             )
 
 

@@ -45,13 +45,16 @@ def modes_from_dataset(dataset: xr.Dataset) -> ModeSet:
     )
 
 
-def mesh_study_to_dataset(study: MeshStudy, analytic: ModeSet) -> xr.Dataset:
-    """Return ``structure/mesh_study.nc``, which has the frequencies of the analytic beam too."""
+def mesh_study_to_dataset(study: MeshStudy, analytic: ModeSet | None) -> xr.Dataset:
+    """Return ``structure/mesh_study.nc``, which has the frequencies of the analytic beam too.
+
+    A beam with supports or lumped masses along its span has no closed form: there they are NaN.
+    """
     closed_form = []
-    left = {
-        kind: list(analytic.frequency[[k == kind for k in analytic.kind]])
-        for kind in set(analytic.kind)
-    }
+    left: dict[str, list[float]] = {}
+    if analytic is not None:
+        for kind, frequency in zip(analytic.kind, analytic.frequency, strict=True):
+            left.setdefault(kind, []).append(float(frequency))
     for kind in study.kind:
         closed_form.append(left[kind].pop(0) if left.get(kind) else float("nan"))
     count = [chord * span * thickness for chord, span, thickness in study.elements]

@@ -205,7 +205,8 @@ def _as_modes_feel_it(polar: xr.Dataset, modes: ModeSet) -> xr.Dataset:
             "by the modes; set correction: mean"
         )
     felt = {}
-    for name, first in (("cl", modes.bending(1)), ("cm", modes.torsion(1))):
+    pair = modes.section_pair()[0]
+    for name, first in (("cl", pair.bending(1)), ("cm", pair.torsion(1))):
         load = polar[f"{name}_section"].transpose("incidence_deg", "span").values
         felt[name] = (
             "incidence_deg",

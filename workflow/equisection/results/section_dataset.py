@@ -129,6 +129,19 @@ def with_flutter(
             "1",
             "k* of flutter by linear theory, all modes of the beam",
         ),
+        "section_bending_mode": (
+            (),
+            beam.bending_mode,
+            "1",
+            "number of the bending mode of the section, the one most like the first torsion mode",
+        ),
+        "section_likeness": ((), beam.likeness, "1", "cos phi of the section's pair of modes"),
+        "section_damping_ratio": (
+            (),
+            beam.damping_ratio,
+            "1",
+            "larger damping ratio of the section's modes, dashpots projected",
+        ),
         "critical_pair": (
             (),
             beam.critical_pair,

@@ -5,7 +5,14 @@ With s = z/L, find g, f and omega such that for every admissible v
     EI/L^3 [ int g'' v'' ds + (k_b L/EI) g'(0) v'(0) ] = omega^2 rho_s c h L int g v ds,
     GJ/L   [ int f' v' ds + (k_t L/GJ) f(0) v(0) ]     = omega^2 rho_s c^3 h L/12 int f v ds,
 
-on cubic Hermite and quadratic Lagrange elements, with root springs k_b and k_t (N m/rad).
+on cubic Hermite and quadratic Lagrange elements, with root springs k_b and k_t (N m/rad). A support
+at s_p adds k_p g(s_p) v(s_p) to the left, a lumped mass M_p g(s_p) v(s_p) to the integral of the
+mass, and each of them has a node. Deflection and twist are each alone: a lumped mass is in g with
+its mass and in f with its inertia about the elastic axis, its imbalance is in neither.
+
+Where the twist is held inside the span alone, either part turns on its own, and equal parts have
+modes of one frequency, of which an eigensolver gives any mixture. They are told apart by their
+moments over the span (:func:`_split`): of equal halves first both turn alike, then oppositely.
 """
 
 from __future__ import annotations
@@ -19,9 +26,14 @@ from skfem import Basis, BilinearForm, ElementLineHermite, ElementLineP2, MeshLi
 from skfem.helpers import dd, ddot, dot, grad
 
 from equisection.beam.beam import Beam
+from equisection.beam.supports import Fitting
 
 Floats = NDArray[np.float64]
 
+#: Relative distance of eigenvalues that are one.
+_DEGENERATE = 1e-6
+#: Share of an element within which its node moves to a support.
+_NEAR = 0.25
 #: s of the shifted eigenvalue problem, of the size of the lowest lambda (-).
 _SHIFT = 1.0
 
@@ -38,9 +50,32 @@ def _product(u: Any, v: Any, _: Any) -> Any:
     return u * v
 
 
+def nodes_along_span(beam: Beam, elements: int) -> Floats:
+    """z/L of the nodes, equally spaced but for one at each support and lumped mass."""
+    even = np.linspace(0.0, 1.0, elements + 1)
+    fittings: tuple[Fitting, ...] = (*beam.supports, *beam.lumps)
+    places = np.unique([fitting.at for fitting in fittings])
+    if places.size == 0:
+        return even
+    distance = np.abs(even[:, None] - places).min(axis=1)
+    kept = distance > _NEAR / elements
+    kept[[0, -1]] = True
+    nodes = np.union1d(even[kept], places)
+    return np.asarray(nodes[np.diff(nodes, prepend=-1.0) > 1e-12], dtype=np.float64)
+
+
+def stations(beam: Beam, elements: int) -> Floats:
+    """z/L of the shapes: nodes and middles of the elements."""
+    nodes = nodes_along_span(beam, elements)
+    both = np.empty(2 * nodes.size - 1)
+    both[::2], both[1::2] = nodes, (nodes[:-1] + nodes[1:]) / 2.0
+    return both
+
+
 def bending_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats]:
-    """Bending frequencies (Hz, (n,)) and shapes g ((n, 2 elements + 1), at ends and middles)."""
-    mesh = MeshLine(np.linspace(0.0, 1.0, elements + 1))
+    """Bending frequencies (Hz, (n,)) and shapes g ((n, m), at the m :func:`stations`)."""
+    place = nodes_along_span(beam, elements)
+    mesh = MeshLine(place)
     basis = Basis(mesh, ElementLineHermite(), intorder=6)
     deflection, slope = basis.dofs.nodal_dofs
     stiffness = BilinearForm(_curvature).assemble(basis).toarray()
@@ -50,6 +85,14 @@ def bending_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats
         spring = beam.root_bending_stiffness * beam.length / beam.bending_rigidity
         stiffness[root, root] += spring
     held: list[int] = []
+    for support in beam.supports:
+        at = deflection[_node(place, support.at)]
+        stiffness[at, at] += support.deflection_stiffness * beam.length**3 / beam.bending_rigidity
+        if support.deflection == "fixed":
+            held.append(int(at))
+    for lump in beam.lumps:
+        at = deflection[_node(place, lump.at)]
+        mass[at, at] += lump.mass / (beam.mass_per_length * beam.length)
     for node, end in zip((0, -1), beam.bending_ends, strict=True):
         if end != "free":
             held.append(int(deflection[node]))
@@ -58,13 +101,15 @@ def bending_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats
     eigenvalue, vector = _lowest(stiffness, mass, held, count)
     scale = beam.bending_rigidity / (beam.mass_per_length * beam.length**4)
     values, slopes = vector[deflection], vector[slope]
-    middle = (values[:-1] + values[1:]) / 2.0 + (slopes[:-1] - slopes[1:]) / (8.0 * elements)
+    size = np.diff(place)[:, None]
+    middle = (values[:-1] + values[1:]) / 2.0 + size * (slopes[:-1] - slopes[1:]) / 8.0
     return _hertz(eigenvalue * scale), _interleave(values, middle)
 
 
 def torsion_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats]:
-    """Torsion frequencies (Hz, (n,)) and shapes f ((n, 2 elements + 1), at ends and middles)."""
-    mesh = MeshLine(np.linspace(0.0, 1.0, elements + 1))
+    """Torsion frequencies (Hz, (n,)) and shapes f ((n, m), at the m :func:`stations`)."""
+    place = nodes_along_span(beam, elements)
+    mesh = MeshLine(place)
     basis = Basis(mesh, ElementLineP2(), intorder=4)
     nodes, middles = basis.dofs.nodal_dofs[0], basis.dofs.interior_dofs[0]
     stiffness = BilinearForm(_twist_rate).assemble(basis).toarray()
@@ -78,9 +123,50 @@ def torsion_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats
         for node, end in zip((0, -1), beam.torsion_ends, strict=True)
         if end == "fixed"
     ]
-    eigenvalue, vector = _lowest(stiffness, mass, held, count)
+    for support in beam.supports:
+        at = nodes[_node(place, support.at)]
+        stiffness[at, at] += support.twist_stiffness * beam.length / beam.torsional_rigidity
+        if support.twist == "fixed":
+            held.append(int(at))
+    for lump in beam.lumps:
+        at = nodes[_node(place, lump.at)]
+        mass[at, at] += lump.inertia_about_axis / (beam.inertia_per_length * beam.length)
+    # Two more than wanted, so that the last of them does not lack its twin.
+    eigenvalue, vector = _lowest(stiffness, mass, held, count + 2 if beam.supports else count)
+    if beam.supports:
+        powers = (basis.doflocs[0][:, None] ** np.arange(len(eigenvalue))).T
+        moments = powers @ BilinearForm(_product).assemble(basis) @ vector
+        eigenvalue, vector = _split(eigenvalue, vector, moments)
+        eigenvalue, vector = eigenvalue[:count], vector[:, :count]
     scale = beam.torsional_rigidity / (beam.inertia_per_length * beam.length**2)
     return _hertz(eigenvalue * scale), _interleave(vector[nodes], vector[middles])
+
+
+def _node(nodes: Floats, at: float) -> int:
+    return int(np.abs(nodes - at).argmin())
+
+
+def _split(eigenvalue: Floats, vector: Floats, moments: Floats) -> tuple[Floats, Floats]:
+    """Choose the modes of one eigenvalue by their moments over the span.
+
+    Of a set of modes f_n with one eigenvalue any rotation is as good. The first one chosen takes
+    all of the set's mean, sum f_n int f_n ds; the next, orthogonal to it in M, all of what is left
+    of int f_n s ds; and so on. ``moments`` (p, n) are int f_n s^p ds.
+    """
+    eigenvalue, vector = eigenvalue.copy(), vector.copy()
+    start = 0
+    while start < eigenvalue.size:
+        end = start + 1
+        while end < eigenvalue.size and (
+            eigenvalue[end] - eigenvalue[start] <= _DEGENERATE * eigenvalue[end]
+        ):
+            end += 1
+        if end - start > 1:
+            rotation = np.linalg.qr(moments[: end - start, start:end].T)[0]
+            vector[:, start:end] = vector[:, start:end] @ rotation
+            eigenvalue[start:end] = eigenvalue[start:end].mean()
+        start = end
+    return eigenvalue, vector
 
 
 def _lowest(stiffness: Floats, mass: Floats, held: list[int], count: int) -> tuple[Floats, Floats]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from equisection.beam.beam import Beam
 from equisection.errors import ModesError
+from equisection.structure.fittings import inertias, lumped
 from equisection.structure.span import derivative, gram
 
 Floats = NDArray[np.float64]
@@ -49,6 +50,27 @@ class ModeSet:
     def torsion(self, count: int) -> ModeSet:
         """First torsion modes."""
         return self.of_kind("torsion", count)
+
+    def section_pair(self) -> tuple[ModeSet, int]:
+        """First torsion mode and the bending mode most like it, and the number of that.
+
+        The likeness is |cos phi| = |int f g| / sqrt(int f^2 int g^2). On equal spans the first
+        bending mode alternates and is unlike the twist. The deflection is turned so that cos phi is
+        positive.
+        """
+        twist = self.torsion(1)
+        found = [i for i, this in enumerate(self.kind) if this == "bending"]
+        deflections = self.bending(max(len(found), 1))
+        across = gram(self.span, twist.shape, deflections.shape)[0]
+        own = np.diag(gram(self.span, deflections.shape, deflections.shape))
+        best = int(np.argmax(np.abs(across) / np.sqrt(own)))
+        first = self.kind.index("torsion")
+        pair = self._chosen(sorted([found[best], first]))
+        if best > 0 and across[best] < 0.0:
+            shape = pair.shape.copy()
+            shape[pair.kind.index("bending")] *= -1.0
+            pair = replace(pair, shape=shape)
+        return pair, best + 1
 
     def lowest(self, count: int) -> ModeSet:
         """Lowest modes of any kind."""
@@ -114,8 +136,17 @@ class MeshStudy:
 def torsion_strain(modes: ModeSet, beam: Beam, count: int) -> Floats:
     """K_theta of Eq. 7 from the slopes of the torsion shapes, (count, count), dimensionless.
 
-    A spring that holds the root adds its energy, (k_t L/GJ) f_i(0) f_j(0).
+    A spring that holds the root adds its energy, (k_t L/GJ) f_i(0) f_j(0). With supports or lumped
+    masses along the span the slopes jump, and omega_i omega_j M_ij, which is the same for a beam's
+    own modes, takes their place.
     """
+    if beam.has_fittings:
+        first = modes.torsion(count)
+        omega = 2.0 * np.pi * first.frequency
+        rate = beam.torsional_rigidity / (beam.inertia_per_length * beam.length**2)
+        mass = gram(modes.span, first.shape, first.shape)
+        mass = mass + lumped(modes.span, first.shape, first.shape, inertias(beam))
+        return np.asarray(np.outer(omega, omega) * mass / rate)
     shape = modes.torsion(count).shape
     slope = derivative(modes.span, shape)
     spring = (beam.root_torsional_stiffness or 0.0) * beam.length / beam.torsional_rigidity

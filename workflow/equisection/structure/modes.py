@@ -28,6 +28,10 @@ METHODS = ("solid", "beam", "analytic")
 #: Where the search for modes of a kind ends: a beam that lacks them among so many has none.
 MOST_MODES = 200
 
+#: Bending modes, at least, of a beam with supports along its span, among which the one most like
+#: the first torsion mode is looked for: of n equal spans it is the n-th.
+PAIRED_AMONG = 8
+
 logger = logging.getLogger(__name__)
 
 
@@ -53,6 +57,11 @@ def compute_modes(
     """
     if count < 1:
         raise ModesError(f"count is {count}; ask for at least one mode")
+    if method in ("solid", "analytic") and beam.has_fittings:
+        raise ModesError(
+            f"method is {method!r}, which holds a beam at its ends alone, and the beam has "
+            "supports or lumps along its span; use method 'beam'"
+        )
     if method == "solid":
         solid = solid_modes(beam, elements, count)
         sorted_out = classify(solid.chord_position, solid.span, solid.displacement)
@@ -62,6 +71,8 @@ def compute_modes(
     along_span = elements[1]
     span = np.linspace(0.0, 1.0, 2 * along_span + 1)
     if method == "beam":
+        if beam.has_fittings:
+            span = beam_elements.stations(beam, along_span)
         bending = beam_elements.bending_modes(beam, along_span, count)
         torsion = beam_elements.torsion_modes(beam, along_span, count)
     elif method == "analytic":
@@ -99,7 +110,9 @@ def modes_of_kinds(
         The mesh has too few modes of a kind.
     """
     wanted = dict(zip(("bending", "torsion"), numbers, strict=True))
-    modes = _holding(beam, method, elements, wanted, count)
+    least = PAIRED_AMONG if beam.has_fittings else 0
+    sought = {**wanted, "bending": max(wanted["bending"], least)}
+    modes = _holding(beam, method, elements, sought, count)
     for kind, number in wanted.items():
         modes.of_kind(kind, number)
     return modes

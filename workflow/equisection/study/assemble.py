@@ -8,12 +8,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from equisection.beam.section import Section
 from equisection.cases import (
     BeamModes,
     EndCriteria,
+    FittedModes,
     Geometry,
     Medium,
     SolverBlock,
@@ -25,12 +28,22 @@ from equisection.config import Config
 from equisection.errors import ConfigError, DivergenceError, EquisectionError, ReductionError
 from equisection.reduction.correction import corrected_equilibrium
 from equisection.reduction.flutter_bias import refusal as bias_refusal
+from equisection.reduction.flutter_bias import unlike
 from equisection.reduction.reduce import Reduction
 from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.section_dataset import section_from_dataset
 from equisection.solvers.protocol import Solver
 from equisection.solvers.verdicts import pitch_frequency
+from equisection.structure.fittings import (
+    deflection_dashpots,
+    imbalances,
+    inertias,
+    lumped,
+    masses,
+    twist_dashpots,
+)
+from equisection.structure.mode_set import ModeSet
 from equisection.study.axes import K_STAR, Point
 from equisection.study.plan import Model
 
@@ -186,6 +199,9 @@ def _section(
     if "flutter_bias" in data["equivalent"]:
         bias = data["equivalent"]["flutter_bias"].sel(reduction=reduction)
         reason = bias_refusal(float(bias), reduction)
+        if "section_likeness" in data["equivalent"]:
+            pair = data["equivalent"][["section_likeness", "section_damping_ratio"]]
+            reason = unlike(*(float(pair[name]) for name in pair)) or reason
         if reason:
             raise ReductionError(reason)
     section = section_from_dataset(data["equivalent"], reduction).scaled(stiffness_scale)
@@ -252,4 +268,33 @@ def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> 
         bending_damping=config.beam.damping.bending,
         torsion_damping=config.beam.damping.torsion,
         elastic_axis=config.beam.elastic_axis,
+        fittings=_fitted(config, bending, torsion, stiffness_scale),
     )
+
+
+def _fitted(
+    config: Config, bending: ModeSet, torsion: ModeSet, stiffness_scale: float
+) -> FittedModes | None:
+    """Return lumped masses and dashpots on the modes; None of a beam without.
+
+    Another stiffness scale s is the same beam at another speed: c* goes with the square root of s.
+    """
+    beam, flow = config.beam, config.flow
+    if not beam.supports and not beam.lumps:
+        return None
+    span, f, g = bending.span, torsion.shape, bending.shape
+    pressure = 0.5 * flow.density
+    rate = math.sqrt(stiffness_scale) / (pressure * flow.speed * beam.chord)
+    mass = lumped(span, g, g, masses(beam)).diagonal() * beam.mass_per_length
+    inertia = lumped(span, f, f, inertias(beam)).diagonal() * beam.inertia_per_length
+    return FittedModes(
+        mass=tuple(mass / (pressure * beam.chord**2)),
+        inertia=tuple(inertia / (pressure * beam.chord**4)),
+        imbalance=_rows(lumped(span, f, g, imbalances(beam)) / (pressure * beam.chord**3)),
+        bending_dashpots=_rows(rate * lumped(span, g, g, deflection_dashpots(beam))),
+        torsion_dashpots=_rows(rate / beam.chord**2 * lumped(span, f, f, twist_dashpots(beam))),
+    )
+
+
+def _rows(matrix: NDArray[np.float64]) -> tuple[tuple[float, ...], ...]:
+    return tuple(map(tuple, matrix))

@@ -3,7 +3,16 @@
 The description of each key has its unit; a name without a unit suffix is SI.
 """
 
-from equisection.beam.beam import FREE_TIP, MID_CHORD, Beam, Boundary, CrossSection, Damping
+from equisection.beam.beam import (
+    BY_SUPPORTS,
+    FREE_TIP,
+    MID_CHORD,
+    Beam,
+    Boundary,
+    CrossSection,
+    Damping,
+)
+from equisection.beam.supports import Lump, Support
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
 from equisection.config.groups.openfoam_keys import OpenFoam
@@ -15,6 +24,7 @@ from equisection.config.groups.unsteady import StartKeys, Unsteady, VerdictKeys
 from equisection.keys.group import KeyGroup
 
 __all__ = [
+    "BY_SUPPORTS",
     "FLAT_PLATE",
     "FREE_TIP",
     "MID_CHORD",
@@ -27,6 +37,7 @@ __all__ = [
     "Embedded",
     "Flow",
     "KeyGroup",
+    "Lump",
     "ModelName",
     "OpenFoam",
     "Range",
@@ -35,6 +46,7 @@ __all__ = [
     "StartKeys",
     "Steady",
     "Structure",
+    "Support",
     "Sweep",
     "Unsteady",
     "VerdictKeys",

@@ -8,7 +8,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from equisection.beam.beam import BOUNDARIES, MID_CHORD, CrossSection
+from equisection.beam.beam import BOUNDARIES, BY_SUPPORTS, MID_CHORD, CrossSection
+from equisection.beam.supports import Lump, Support
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.values import WHOLE
@@ -90,6 +91,19 @@ def _axes_by_the_method(elastic_axis: float, mass_axis: float, method: str) -> I
                 f"allowed with structure.method 'solid' is {MID_CHORD:g}, where a homogeneous "
                 "plate has its axes; or give structure.method: beam or analytic",
             )
+
+
+@check("beam.supports", "beam.lumps", "beam.boundary", "structure.method")
+def _fittings_by_the_method(
+    supports: tuple[Support, ...], lumps: tuple[Lump, ...], boundary: str, method: str
+) -> Iterator[Problem]:
+    if method != "beam" and (supports or lumps or boundary == BY_SUPPORTS):
+        yield Problem(
+            "structure.method",
+            method,
+            "allowed with beam.supports, beam.lumps or boundary 'supports' is beam; the others "
+            "hold a beam at its ends alone",
+        )
 
 
 @check("beam.cross_section", "structure.method")

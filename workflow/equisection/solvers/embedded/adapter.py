@@ -215,8 +215,11 @@ def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:
 
     def what_they_share(case: UnsteadyCase) -> str:
         shared = case.model_dump(exclude={"k_star", "section", "lift_factor", "moment_factor"})
+        beam = shared["beam"] or {}
         for lane in ("torsion_frequency", "bending_frequency"):
-            (shared["beam"] or {}).pop(lane, None)
+            beam.pop(lane, None)
+        if beam.get("fittings"):
+            beam["fittings"] = "some"  # dashpots go with the stiffness
         return json.dumps(shared, sort_keys=True)
 
     groups: dict[str, list[int]] = {}

@@ -13,8 +13,8 @@ from equisection.aerodynamics.induction import SpanStrips
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.beam import MID_CHORD
 from equisection.beam.section import Section
-from equisection.cases import UnsteadyCase
-from equisection.motion.beams import BeamHistories, BeamParameters, release_beams
+from equisection.cases import BeamModes, FittedModes, UnsteadyCase
+from equisection.motion.beams import BeamHistories, BeamParameters, Fittings, release_beams
 from equisection.motion.march import Failure
 from equisection.motion.sections import SectionHistories, release_sections
 from equisection.results.unsteady_result import UnsteadyResult
@@ -126,6 +126,7 @@ def release_all_beams(
         imbalance=np.array([beam.imbalance for beam in modes]),
         damping_ratios=(modes[0].bending_damping, modes[0].torsion_damping),
         axis=modes[0].elastic_axis - MID_CHORD,
+        fittings=_fittings(modes),
     )
     histories = release_beams(
         parameters,
@@ -135,6 +136,19 @@ def release_all_beams(
         progress=progress,
     )
     return [_beam_result(case, histories, lane) for lane, case in enumerate(cases)]
+
+
+def _fittings(modes: list[BeamModes]) -> Fittings | None:
+    """Return lumped masses and dashpots of some beams that all have them, or none."""
+    fitted = [beam.fittings for beam in modes if beam.fittings]
+    if not fitted:
+        return None
+    return Fittings(
+        **{
+            name: np.array([getattr(one, name) for one in fitted])
+            for name in FittedModes.model_fields
+        }
+    )
 
 
 def _common_settings(case: UnsteadyCase) -> ReleaseSettings:
