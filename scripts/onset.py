@@ -59,9 +59,6 @@ def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: 
             speed=flow.speed,
             chord=config.beam.chord,
             incidence_deg=flow.incidence_deg,
-            basis=critical_speeds.TIME
-            if isinstance(solver, HasSectionLoads)
-            else critical_speeds.CFD,
         )
     ]
     models = [plan.model(name, config.reduction) for name in config.sweep.models]

@@ -17,19 +17,19 @@ from equisection.analysis.critical_speeds import (
 from equisection.beam.section import Section
 from equisection.motion.stability import critical_speed
 
-RUN = {"twist_amplitude_deg": 3.0, "frequency_strouhal": 0.14}
+RUN = {"twist_amplitude_deg": 3.0, "frequency_strouhal": 0.14, "solver": "embedded"}
 AS_GIVEN = {"k_star_given": 8.0, "speed": 20.0, "chord": 0.1, "incidence_deg": 2.5}
 
 
-def runs(*rows: tuple[str, float, str], axis: str = "k_star", **more: float) -> pd.DataFrame:
+def runs(*rows: tuple[str, float, str], axis: str = "k_star", **more: object) -> pd.DataFrame:
     """Return a summary of runs: model, value, regime."""
     return pd.DataFrame([{"model": m, axis: v, "regime": r, **RUN, **more} for m, v, r in rows])
 
 
 def test_bracket_over_k_star_in_metres_per_second() -> None:
     """k* of 8 at 20 m/s is 2 at 40 m/s."""
-    summary = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"))
-    (row,) = from_runs(summary, **AS_GIVEN, basis="cfd").to_dict("records")
+    summary = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"), solver="openfoam")
+    (row,) = from_runs(summary, **AS_GIVEN).to_dict("records")
     assert (row["speed_low"], row["speed_high"], row["speed"]) == pytest.approx((20.0, 40.0, 30.0))
     assert row["k_star"] == pytest.approx(8.0 * (20.0 / 30.0) ** 2)
     assert row["frequency_hz"] == pytest.approx(0.14 * 40.0 / 0.1)
@@ -39,13 +39,21 @@ def test_bracket_over_k_star_in_metres_per_second() -> None:
 def test_bracket_over_speed_is_the_same() -> None:
     over_k = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"))
     over_speed = runs(("2d", 40.0, "growing"), ("2d", 20.0, "settled"), axis="speed")
-    one, other = (from_runs(s, **AS_GIVEN, basis="time") for s in (over_k, over_speed))
+    one, other = (from_runs(s, **AS_GIVEN) for s in (over_k, over_speed))
     pd.testing.assert_frame_equal(one, other)
+
+
+def test_basis_is_that_of_the_runs_of_each_model() -> None:
+    """A model that is taken from another run has that run's solver."""
+    here = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"), solver="openfoam")
+    taken = runs(("3d", 2.0, "growing"), ("3d", 8.0, "settled"), solver="embedded")
+    found = from_runs(pd.concat([here, taken], ignore_index=True), **AS_GIVEN)
+    assert dict(zip(found["model"], found["basis"], strict=True)) == {"2d": "cfd", "3d": "time"}
 
 
 def test_growth_without_an_oscillation_is_divergence() -> None:
     summary = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"), frequency_strouhal=math.nan)
-    (row,) = from_runs(summary, **AS_GIVEN, basis="time").to_dict("records")
+    (row,) = from_runs(summary, **AS_GIVEN).to_dict("records")
     assert row["mechanism"] == "divergence"
     assert math.isnan(row["frequency_hz"])
 
@@ -62,7 +70,7 @@ def test_open_brackets_say_what_is_known(
     regimes: tuple[str, str], mechanism: str, said: str
 ) -> None:
     summary = runs(("3d", 2.0, regimes[0]), ("3d", 8.0, regimes[1]))
-    found = with_margin([from_runs(summary, **AS_GIVEN, basis="time")], None)
+    found = with_margin([from_runs(summary, **AS_GIVEN)], None)
     assert math.isnan(found.loc[0, "speed"])
     assert said in in_words(found)[0]
     assert found.loc[0, "mechanism"] == mechanism
@@ -70,7 +78,7 @@ def test_open_brackets_say_what_is_known(
 
 def test_margin_is_that_of_the_highest_stable_speed() -> None:
     summary = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"))
-    found = with_margin([from_runs(summary, **AS_GIVEN, basis="time")], 16.0)
+    found = with_margin([from_runs(summary, **AS_GIVEN)], 16.0)
     assert tuple(found.columns) == COLUMNS
     assert found.loc[0, "margin"] == pytest.approx(20.0 / 16.0)
 

@@ -14,6 +14,8 @@ from equisection.aerodynamics.separation import SeparationLags
 from equisection.analysis.onset import bracket_of, sweeps
 from equisection.beam.section import Section
 from equisection.motion.stability import critical_speed
+from equisection.solvers.protocol import Capability
+from equisection.solvers.registry import SOLVERS
 from equisection.study.axes import INCIDENCE, SPEED, Axis, onset_axis_among
 
 #: Columns of ``comparison/critical_speed.csv``, in order.
@@ -40,7 +42,6 @@ def from_runs(
     speed: float,
     chord: float,
     incidence_deg: float,
-    basis: str,
 ) -> pd.DataFrame:
     """Return the critical speed of each model by the brackets of its runs.
 
@@ -54,8 +55,6 @@ def from_runs(
         c (m).
     incidence_deg
         Rigid incidence (deg) of a study that does not vary it.
-    basis
-        :data:`CFD` or :data:`TIME`.
 
     Returns
     -------
@@ -64,7 +63,8 @@ def from_runs(
         ``speed_low``, stable, to ``speed_high``, unstable. Where one side is open the speed is NaN,
         and the mechanism of a model that is stable throughout is ``none``. Without an
         oscillation of the twist the unstable run has diverged; what else grows is called
-        ``flutter``, with or without separation, which a history alone does not tell.
+        ``flutter``, with or without separation, which a history alone does not tell. The basis is
+        :data:`CFD` where the solver of all its runs has a mesh, else :data:`TIME`.
     """
     axis = onset_axis_among(summary.columns)
 
@@ -88,10 +88,16 @@ def from_runs(
                 "mechanism": _mechanism(low, high, strouhal),
                 "frequency_hz": strouhal * high / chord,
                 "k_star": k_star_given * (speed / middle) ** 2,
-                "basis": basis,
+                "basis": _basis(runs["solver"]),
             }
         )
     return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
+
+
+def _basis(solvers: Iterable[str]) -> str:
+    """Return what the runs of some solvers are; a model of another run may have its own."""
+    meshed = all(Capability.MESH in SOLVERS[name].provides for name in solvers)
+    return CFD if meshed else TIME
 
 
 def _mechanism(stable: float, unstable: float, strouhal: float) -> str:
