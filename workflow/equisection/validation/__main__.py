@@ -40,10 +40,6 @@ tables.
 #: Problems that have no row, and the reason.
 _WITHOUT = (
     (
-        "Goland's wing with a tip store, or with a spring along the span",
-        "a beam here has no masses or supports along the span yet",
-    ),
-    (
         "square prism, galloping (Parkinson and Smith, 1964)",
         "its coefficients were not at hand to look them up",
     ),

@@ -70,6 +70,64 @@ def goland(
     )
 
 
+_STORE_MASS = 0.5 * 35.717 * 6.096
+#: Goland's wing with a store of half its mass at the tip, 0.2 c behind the elastic axis and of the
+#: radius of inertia 0.3 c about it; or with a spring of 30 E I/L^3 under 0.6 of its span.
+_FITTED = {
+    "store at the tip": {
+        "lumps": [
+            {
+                "at": 1.0,
+                "mass": _STORE_MASS,
+                "inertia_about_centre": _STORE_MASS * 1.8288**2 * (0.3**2 - 0.2**2),
+                "behind_axis": 0.2 * 1.8288,
+            }
+        ]
+    },
+    "spring at 0.6 L": {"supports": [{"at": 0.6, "deflection_stiffness": 30 * 9.773e6 / 6.096**3}]},
+}
+
+
+@cache
+def _fitted(fitting: str) -> ModalMatrices:
+    beam = Beam.model_validate(goland().model_dump() | _FITTED[fitting])
+    return modal_matrices(beam, modes_of_kinds(beam, "beam", (1, 60, 1), (8, 8), 4), 8, 8)
+
+
+def _fitted_frequency(fitting: str, number: int) -> float:
+    return float(_fitted(fitting).natural_frequencies[number])
+
+
+def _fitted_flutter(fitting: str) -> float:
+    return beam_flutter(_fitted(fitting), 1.8288, 0.33, _AIR).speed
+
+
+def _goland_fitted() -> list[KnownValue]:
+    known = {
+        "store at the tip": ((27.113, 70.534, 181.11), 135.306),
+        "spring at 0.6 L": ((73.484, 105.848, 247.74), 98.492),
+    }
+    found = []
+    for fitting, (frequencies, speed) in known.items():
+        case = f"{_GOLAND}, {fitting}"
+        found += [
+            KnownValue(
+                case,
+                f"frequency {n + 1} in vacuum",
+                "rad/s",
+                value,
+                _OWN,
+                partial(_fitted_frequency, fitting, n),
+                1e-4,
+                _DIGITS,
+            )
+            for n, value in enumerate(frequencies)
+        ]
+        compute = partial(_fitted_flutter, fitting)
+        found.append(KnownValue(case, "flutter", "m/s", speed, _OWN, compute, 1e-4, _DIGITS))
+    return found
+
+
 @cache
 def _matrices(
     number: int, mass_axis: float, damping: float, boundary: Boundary = "clamped-free"
@@ -461,4 +519,4 @@ def _flat_plate() -> list[KnownValue]:
 
 def flutter_values() -> list[KnownValue]:
     """Known values of flutter and divergence."""
-    return [*_goland(), *_deck(), *_airfoil(), *_flat_plate()]
+    return [*_goland(), *_goland_fitted(), *_deck(), *_airfoil(), *_flat_plate()]
