@@ -59,6 +59,7 @@ REPORTED_TABLES = (
     "paper",
     "summary",
     "onset",
+    "critical_speed",
     "linear_theory",
     "section_and_beam",
 )
@@ -66,6 +67,8 @@ COLUMNS = {
     "comparison/summary.csv": "model,k_star,regime,mean_twist_deg,mean_deflection_chords,"
     "twist_amplitude_deg,frequency_strouhal,growth_rate,cpu_seconds,wall_seconds",
     "comparison/onset.csv": "model,k_star_stable,k_star_unstable",
+    "comparison/critical_speed.csv": "model,incidence_deg,speed,speed_low,speed_high,mechanism,"
+    "frequency_hz,k_star,margin,basis",
     "comparison/linear_theory.csv": "reduction,motion,k_star,growth_rate,frequency_strouhal",
     "comparison/section_and_beam.csv": "model,k_star,twist,deflection,frequency,growth",
     "comparison/paper.csv": "quantity,paper,here,relative_difference",
