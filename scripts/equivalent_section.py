@@ -13,9 +13,10 @@ from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.section_dataset import equivalent_to_dataset, with_flutter
 from equisection.run.script import logged
+from equisection.structure.warping import warping_warnings
 
 
-def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
+def main(beam: Beam, flow: Flow, modes_file: Path, output: Path, *, method: str = "solid") -> None:
     """Reduce the modes of the beam (Eqs. 6, 7, 12 and 17)."""
     modes = modes_from_dataset(read_dataset(modes_file))
     count = min(modes.kind.count("bending"), modes.kind.count("torsion"))
@@ -29,7 +30,8 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path) -> None:
     }
     poor = flutter["consistent"].warnings("consistent")
     of_pair = span_integrals(beam, modes.section_pair()[0], 1)
-    warnings = (*beam.warnings, *poor, *validity_warnings(of_pair))
+    soft = warping_warnings(beam, method)
+    warnings = (*beam.warnings, *soft, *poor, *validity_warnings(of_pair))
     logging.info(beam.axes_in_words)
     for warning in warnings:
         logging.warning(warning)
@@ -50,4 +52,5 @@ if __name__ == "__main__":
             Flow(**snakemake.params.flow),
             Path(snakemake.input.modes),
             Path(snakemake.output[0]),
+            method=snakemake.params.method,
         )

@@ -74,4 +74,4 @@ def test_a_section_that_is_unlike_its_beam_warns():
         eq.reduce(eq.Beam(boundary="one-fork"), method="analytic")
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        eq.reduce(eq.Beam(), method="analytic")
+        eq.reduce(eq.Beam(length=3.0), method="analytic")

@@ -17,6 +17,7 @@ rule equivalent_section:
         code=code("equivalent_section"),
         beam=RESOLVED["beam"],
         flow=RESOLVED["flow"],
+        method=CONFIG.structure.method,
     message:
         "equivalent section"
     script:

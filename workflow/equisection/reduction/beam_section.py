@@ -13,6 +13,7 @@ from equisection.reduction.flutter_bias import flutter_bias, refusal, unlike
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import Reduction, reduce_beam, validity_warnings
 from equisection.structure.modes import modes_of_kinds
+from equisection.structure.warping import warping_warnings
 
 #: Modes that are computed at least; with those of the chord's plane among them.
 COUNT = 4
@@ -81,6 +82,7 @@ def reduce(
         raise ReductionError(reason)
     poor = compared.warnings(reduction)
     integrals = span_integrals(beam, modes.section_pair()[0], count=1)
-    for text in (*beam.warnings, *poor, *validity_warnings(integrals)):
+    soft = warping_warnings(beam, method)
+    for text in (*beam.warnings, *soft, *poor, *validity_warnings(integrals)):
         warnings.warn(text, stacklevel=2)
     return section
