@@ -70,9 +70,10 @@ status: $(ENV)/run
 verify: $(ENV)/run
 	$(BIN)/equisection verify
 
-# The tests of OpenFOAM run beside the others: on two cores that is a third less time.
+# The tests of OpenFOAM run beside the others, on the second core.
 test: $(ENV)/test
 	@log=$$(mktemp); $(BIN)/python -m pytest -p no:cacheprovider tests/openfoam >$$log 2>&1 & beside=$$!; \
+		trap "kill $$beside; exit 130" INT TERM; \
 		$(BIN)/python -m pytest --ignore=tests/openfoam; rest=$$?; \
 		wait $$beside; solver=$$?; echo "tests/openfoam, which ran beside:"; cat $$log; rm $$log; \
 		exit $$((rest | solver))

@@ -1,12 +1,10 @@
 """Index the results of cases that ran one by one."""
 
-import logging
-import math
 from collections.abc import Sequence
 from pathlib import Path
 
 from equisection.cases import case_hash, point_of, read_cases
-from equisection.results.loads_zigzag import loads_zigzag, warning_of_zigzag
+from equisection.results.loads_zigzag import with_zigzag
 from equisection.results.netcdf import read_attributes
 from equisection.run.script import logged
 from equisection.store.index import write_index
@@ -18,11 +16,7 @@ def main(cases: Sequence[Path], results: Sequence[Path], output: Path) -> None:
     for case_file, result in zip(cases, results, strict=True):
         (case,) = read_cases(case_file).values()
         found = read_attributes(result, case_hash(case))
-        found |= loads_zigzag(result, found)
-        warning = warning_of_zigzag(found.get("loads_zigzag", math.nan))
-        if warning:
-            logging.getLogger(__name__).warning("%s: %s", result.stem, warning)
-        attributes[result.stem] = point_of(case) | found
+        attributes[result.stem] = point_of(case) | with_zigzag(result, found)
     write_index(output, attributes)
 
 

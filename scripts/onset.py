@@ -24,7 +24,7 @@ from equisection.run.script import logged
 from equisection.solvers.protocol import HasSectionLoads
 from equisection.solvers.registry import solver_from_config
 from equisection.study import plan
-from equisection.study.axes import INCIDENCE, SPEED, onset_axis, varied
+from equisection.study.axes import INCIDENCE, SPEED, AsGiven, onset_axis, varied
 
 
 def main(
@@ -44,19 +44,19 @@ def main(
     slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg, axis)
     linear = linear_onset(sections, slope)
     table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
-    _write(with_speeds(table, nominal_k_star(sections), speed), output)
+    _write(with_speeds(table, AsGiven(nominal_k_star(sections), speed)), output)
 
 
 def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: Path) -> None:
     """Write the critical speed of each model, and tell it."""
     config, data = load_config(raw_config), read_dataset(equivalent)
-    flow, given, table = config.flow, nominal_k_star(data), pd.read_csv(summary)
+    flow, table = config.flow, pd.read_csv(summary)
+    given = AsGiven(nominal_k_star(data), flow.speed)
     solver = solver_from_config(config, config.steady.resolution)
     found = [
         critical_speeds.from_runs(
             table,
-            k_star_given=given,
-            speed=flow.speed,
+            given=given,
             chord=config.beam.chord,
             incidence_deg=flow.incidence_deg,
         )
@@ -68,9 +68,9 @@ def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: 
         if model.dimension == "2d" and not model.corrected
     }
     if isinstance(solver, HasSectionLoads) and sections:
-        values = critical_speeds.speeds_of(
-            config.sweep.values(), onset_axis(varied(config)), given, flow.speed
-        )
+        values = config.sweep.values()
+        if onset_axis(varied(config)) is not SPEED:
+            values = tuple(map(given.speed_at, values))
         reach = config.sweep.onset_reach
         polar, lags = solver.section_loads
         found.append(
@@ -94,8 +94,8 @@ def growth_by_linear_theory(
 ) -> None:
     """Write growth and frequency of both motions of both reductions at each k*, or speed."""
     sections = read_dataset(equivalent)
-    given = nominal_k_star(sections)
-    k_star = [given * (speed / one) ** 2 for one in values] if along == SPEED.name else values
+    given = AsGiven(nominal_k_star(sections), speed)
+    k_star = [given.k_star_at(one) for one in values] if along == SPEED.name else values
     _write(linear_theory(sections, k_star, speed), output)
 
 

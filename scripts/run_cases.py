@@ -8,7 +8,7 @@ from typing import Any
 
 from equisection.cases import read_cases
 from equisection.results.failures import warning_of
-from equisection.results.loads_zigzag import loads_zigzag
+from equisection.results.loads_zigzag import with_zigzag
 from equisection.run.script import logged
 from equisection.solvers.protocol import MPIRUN, ONE_THREAD, Allocation
 from equisection.store.index import write_index
@@ -70,7 +70,7 @@ def take_kept(cases: Path, output: Path, store: Path, reuse: Path) -> None:
     """Index the kept results of the cases; those that have none are named in the index."""
     answers = answer_from_kept(read_cases(cases), output.parent, store, reuse)
     found = {
-        name: attributes | loads_zigzag(output.parent / f"{name}.nc", attributes)
+        name: with_zigzag(output.parent / f"{name}.nc", attributes)
         for name, attributes in answers.found.items()
     }
     write_index(output, found, answers.missing)

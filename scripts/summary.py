@@ -8,11 +8,14 @@ from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import nominal_k_star
 from equisection.run.script import logged
+from equisection.study.axes import AsGiven
 
 
 def main(indices: Sequence[Path], output: Path, equivalent: Path, speed: float) -> None:
     """Summarise the verdicts; the folder of an index is named after its model."""
-    summary = with_both(summary_of(indices), nominal_k_star(read_dataset(equivalent)), speed)
+    summary = with_both(
+        summary_of(indices), AsGiven(nominal_k_star(read_dataset(equivalent)), speed)
+    )
     with written_whole(output) as aside:
         summary.to_csv(aside, index=False)
 

@@ -44,9 +44,10 @@ def test_it_fades_with_the_length_and_needs_a_clamped_end():
     assert two > 2 * one
 
 
-def test_the_warning_names_size_and_remedy_and_spares_solids():
-    (text,) = warping_warnings(plate(3.7), "beam")
-    for part in ("'beam'", "15 % larger", "structure.method: solid"):
+@pytest.mark.parametrize(("aspect_ratio", "size"), [(1.2, "61 %"), (3.7, "15 %")])
+def test_the_warning_names_size_and_remedy_and_spares_solids(aspect_ratio, size):
+    (text,) = warping_warnings(plate(aspect_ratio), "beam")
+    for part in ("'beam'", f"about {size} larger", "structure.method: solid"):
         assert part in text
-    assert warping_warnings(plate(3.7), "solid") == ()
+    assert warping_warnings(plate(aspect_ratio), "solid") == ()
     assert warping_warnings(plate(30.0), "beam") == ()

@@ -16,9 +16,10 @@ from equisection.analysis.critical_speeds import (
 )
 from equisection.beam.section import Section
 from equisection.motion.stability import critical_speed
+from equisection.study.axes import AsGiven
 
 RUN = {"twist_amplitude_deg": 3.0, "frequency_strouhal": 0.14, "solver": "embedded"}
-AS_GIVEN = {"k_star_given": 8.0, "speed": 20.0, "chord": 0.1, "incidence_deg": 2.5}
+AS_GIVEN = {"given": AsGiven(8.0, 20.0), "chord": 0.1, "incidence_deg": 2.5}
 
 
 def runs(*rows: tuple[str, float, str], axis: str = "k_star", **more: object) -> pd.DataFrame:

@@ -14,7 +14,7 @@ from equisection.analysis.onset import (
     with_speeds,
 )
 from equisection.analysis.summary import columns, summarise, with_both
-from equisection.study.axes import INCIDENCE, K_STAR, SPEED, Axis
+from equisection.study.axes import INCIDENCE, K_STAR, SPEED, AsGiven, Axis
 
 S, L, G, F = "settled", "limit-cycle", "growing", "failed"
 
@@ -58,7 +58,7 @@ def test_speeds_of_the_bracket_have_its_dynamic_pressures():
     rows += [("3d", {"k_star": 2.0, "regime": S})]
     known = dict.fromkeys(columns(), math.nan) | {"mean_known": 1}
     table = onset_table(summarise((model, known | found) for model, found in rows))
-    section, beam = with_speeds(table, 8.0, 20.0).to_dict("records")
+    section, beam = with_speeds(table, AsGiven(8.0, 20.0)).to_dict("records")
     assert section["k_star_given"] == 8.0
     assert section["speed_unstable"] == pytest.approx(40.0)
     assert section["speed_stable"] == pytest.approx(20.0 * 4 / 3)
@@ -148,8 +148,8 @@ def test_bracket_over_speed_is_that_over_k_star_seen_from_the_other_side():
     over_k_star = summary_over((K_STAR,), *zip(K_STARS, REGIMES, strict=True))
     speeds = [round(speed_of(k_star), 6) for k_star in K_STARS]
     over_speed = summary_over((SPEED,), *zip(speeds, REGIMES, strict=True))
-    (mine,) = with_speeds(onset_table(over_k_star), 8.0, 20.0).to_dict("records")
-    (other,) = with_speeds(onset_table(over_speed), 8.0, 20.0).to_dict("records")
+    (mine,) = with_speeds(onset_table(over_k_star), AsGiven(8.0, 20.0)).to_dict("records")
+    (other,) = with_speeds(onset_table(over_speed), AsGiven(8.0, 20.0)).to_dict("records")
     for side in ("speed_stable", "speed_unstable", "k_star_stable", "k_star_unstable"):
         assert other[side] == pytest.approx(mine[side], rel=1e-6)
     assert float(other["failed_inside"]) == pytest.approx(speed_of(6.0), rel=1e-5)
@@ -205,7 +205,7 @@ def test_summary_over_speed_has_k_star_beside_and_stays_a_study_of_speed():
         ("2d", {"speed": v, "k_star": math.nan, "regime": r}) for v, r in ((20.0, S), (40.0, G))
     ]
     known = dict.fromkeys(columns((SPEED,)), math.nan) | {"mean_known": 1}
-    summary = with_both(summarise(((m, known | f) for m, f in rows), (SPEED,)), 8.0, 20.0)
+    summary = with_both(summarise(((m, known | f) for m, f in rows), (SPEED,)), AsGiven(8.0, 20.0))
     assert summary["k_star"].tolist() == pytest.approx([8.0, 2.0])  # a quarter at twice the speed
     assert list(summary.columns)[1] == "speed"
     table = onset_table(summary)
@@ -215,6 +215,6 @@ def test_summary_over_speed_has_k_star_beside_and_stays_a_study_of_speed():
 def test_summary_over_k_star_has_the_speed_beside():
     rows = [("2d", {"k_star": k, "regime": r}) for k, r in ((2.0, G), (8.0, S))]
     known = dict.fromkeys(columns(), math.nan) | {"mean_known": 1}
-    summary = with_both(summarise((m, known | f) for m, f in rows), 8.0, 20.0)
+    summary = with_both(summarise((m, known | f) for m, f in rows), AsGiven(8.0, 20.0))
     assert summary["speed"].tolist() == pytest.approx([40.0, 20.0])
     assert onset_table(summary)["k_star_stable"].tolist() == [8.0]

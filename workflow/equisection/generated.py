@@ -40,7 +40,14 @@ def write_or_check(
     """
     parser = argparse.ArgumentParser(prog=command, description=about)
     parser.add_argument("--check", action="store_true", help="change nothing, exit 1 if outdated")
-    check = parser.parse_args(arguments).check
+    return write_outdated(wanted, root, command, check=parser.parse_args(arguments).check)
+
+
+def write_outdated(wanted: Mapping[Path, str], root: Path, command: str, *, check: bool) -> int:
+    """Write files that are not as wanted, or only print the difference; return the exit status.
+
+    Parameters are those of :func:`write_or_check`, for a command with further arguments.
+    """
     outdated = False
     for path, text in wanted.items():
         file = root / path

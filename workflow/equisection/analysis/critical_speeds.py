@@ -16,7 +16,7 @@ from equisection.beam.section import Section
 from equisection.motion.stability import critical_speed
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
-from equisection.study.axes import INCIDENCE, SPEED, Axis, onset_axis_among
+from equisection.study.axes import INCIDENCE, SPEED, AsGiven, onset_axis_among
 
 #: Columns of ``comparison/critical_speed.csv``, in order.
 COLUMNS = (
@@ -38,8 +38,7 @@ CFD, TIME, EIGENVALUE = "cfd", "time", "eigenvalue"
 def from_runs(
     summary: pd.DataFrame,
     *,
-    k_star_given: float,
-    speed: float,
+    given: AsGiven,
     chord: float,
     incidence_deg: float,
 ) -> pd.DataFrame:
@@ -49,8 +48,8 @@ def from_runs(
     ----------
     summary
         ``comparison/summary.csv``.
-    k_star_given, speed
-        k* of the beam as given (-) at the speed V (m/s) of the configuration.
+    given
+        The beam as given.
     chord
         c (m).
     incidence_deg
@@ -67,14 +66,12 @@ def from_runs(
         :data:`CFD` where the solver of all its runs has a mesh, else :data:`TIME`.
     """
     axis = onset_axis_among(summary.columns)
-
-    def speed_at(value: float) -> float:
-        return value if axis is SPEED else speed * math.sqrt(k_star_given / value)
-
     rows = []
     for model, fixed, runs in sweeps(summary):
         bracket = bracket_of(runs)
-        low, high = speed_at(bracket.stable), speed_at(bracket.unstable)
+        low, high = bracket.stable, bracket.unstable
+        if axis is not SPEED:
+            low, high = given.speed_at(low), given.speed_at(high)
         middle = 0.5 * (low + high)
         unstable = runs[axis.same(runs[axis.name], bracket.unstable)]
         strouhal = unstable["frequency_strouhal"].max() if len(unstable) else math.nan
@@ -87,7 +84,7 @@ def from_runs(
                 "speed_high": high,
                 "mechanism": _mechanism(low, high, strouhal),
                 "frequency_hz": strouhal * high / chord,
-                "k_star": k_star_given * (speed / middle) ** 2,
+                "k_star": given.k_star_at(middle),
                 "basis": _basis(runs["solver"]),
             }
         )
@@ -196,12 +193,3 @@ def _line(row: Mapping[Any, Any]) -> str:
     if np.isfinite(low):
         return f"{who}: stable up to {low:.4g} m/s; no onset was found"
     return f"{who}: nothing is known, no run has a verdict"
-
-
-def speeds_of(
-    values: Sequence[float], axis: Axis, k_star_given: float, speed: float
-) -> list[float]:
-    """Return the speeds (m/s) of values on the axis of a study, k* (-) or speed."""
-    if axis is SPEED:
-        return list(values)
-    return [speed * math.sqrt(k_star_given / value) for value in values]

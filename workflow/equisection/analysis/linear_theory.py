@@ -28,6 +28,7 @@ from equisection.motion.linear_flutter import (
 )
 from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import nominal_k_star, section_in_flow
+from equisection.study.axes import AsGiven
 from equisection.study.plan import Model, model
 
 #: Columns of ``comparison/linear_theory.csv``, in order.
@@ -77,7 +78,7 @@ def linear_theory(
         exact = exact_growth_and_frequency(section, scales)
         for column, motion in enumerate(_MOTIONS):
             for value, root, is_so in zip(ascending, p[:, column], exact[:, column], strict=True):
-                there = speed * math.sqrt(given / value)
+                there = AsGiven(given, speed).speed_at(value)
                 numbers = (root.real, root.imag / math.tau, there)
                 rows.append((reduction, motion, value, *numbers, is_so.real, is_so.imag / math.tau))
     return pd.DataFrame(rows, columns=list(COLUMNS))

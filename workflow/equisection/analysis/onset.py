@@ -23,10 +23,17 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-import numpy as np
 import pandas as pd
 
-from equisection.study.axes import K_STAR, Axis, Point, axes_among, onset_axis, onset_axis_among
+from equisection.study.axes import (
+    K_STAR,
+    AsGiven,
+    Axis,
+    Point,
+    axes_among,
+    onset_axis,
+    onset_axis_among,
+)
 from equisection.study.plan import STRIDE
 
 _SIGNIFICANT_DIGITS = 4
@@ -304,26 +311,22 @@ def sweeps(summary: pd.DataFrame) -> Iterator[tuple[str, dict[Axis, float], pd.D
         yield str(model), dict(zip(further, map(float, values), strict=True)), runs
 
 
-def with_speeds(onset: pd.DataFrame, k_star_given: float, speed: float) -> pd.DataFrame:
+def with_speeds(onset: pd.DataFrame, given: AsGiven) -> pd.DataFrame:
     """Return the brackets over k* with their speeds, or those over speed with their k*.
 
-    k* is a stiffness over a dynamic pressure, so the beam as given has the k* of the onset at
-    V sqrt(k*_given/k*). The polar is taken to be the same at that speed, whose Reynolds number is
-    another.
+    The polar is taken to be the same at that speed, whose Reynolds number is another.
 
     Parameters
     ----------
     onset
         :func:`onset_table`.
-    k_star_given
-        k* of the beam as given (-), at ``speed``.
-    speed
-        V (m/s).
+    given
+        The beam as given.
     """
     added = {}
     for side in ("stable", "unstable"):
         if f"k_star_{side}" in onset:
-            added[f"speed_{side}"] = speed * np.sqrt(k_star_given / onset[f"k_star_{side}"])
+            added[f"speed_{side}"] = given.speed_at(onset[f"k_star_{side}"])
         else:
-            added[f"k_star_{side}"] = k_star_given * (speed / onset[f"speed_{side}"]) ** 2
-    return onset.assign(k_star_given=k_star_given, **added)
+            added[f"k_star_{side}"] = given.k_star_at(onset[f"speed_{side}"])
+    return onset.assign(k_star_given=given.k_star, **added)

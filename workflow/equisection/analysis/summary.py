@@ -7,12 +7,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from equisection.errors import ResultFileError
 from equisection.store.index import read_index
-from equisection.study.axes import K_STAR, SPEED, Axis, Point, axes_of, onset_axis_among
+from equisection.study.axes import K_STAR, SPEED, AsGiven, Axis, Point, axes_of, onset_axis_among
 
 #: Columns of ``comparison/summary.csv`` after the model and the axes of the study: attributes of a
 #: result.
@@ -109,16 +108,8 @@ def _of(attributes: Mapping[str, Any], name: str) -> Any:
     return attributes[name]
 
 
-def with_both(summary: pd.DataFrame, k_star_given: float, speed: float) -> pd.DataFrame:
-    """Return a summary over k* with the speed of each run at its end, or one over speed with k*.
-
-    Parameters
-    ----------
-    summary
-        A summary over k* (-) or speed (m/s).
-    k_star_given, speed
-        k* of the beam as given (-) at the speed V (m/s).
-    """
+def with_both(summary: pd.DataFrame, given: AsGiven) -> pd.DataFrame:
+    """Return a summary over k* with the speed of each run at its end, or one over speed with k*."""
     if onset_axis_among(summary.columns) is K_STAR:
-        return summary.assign(speed=speed * np.sqrt(k_star_given / summary[K_STAR.name]))
-    return summary.assign(k_star=k_star_given * (speed / summary[SPEED.name]) ** 2)
+        return summary.assign(speed=given.speed_at(summary[K_STAR.name]))
+    return summary.assign(k_star=given.k_star_at(summary[SPEED.name]))

@@ -8,15 +8,14 @@ at rest in still air under dead load.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Literal
 
 from pydantic import Field
 
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
-from equisection.keys.values import NUMBER, Number, Positive
+from equisection.keys.values import NotNegative, Number, Positive
 
-_NotNegative = Annotated[float, Field(ge=0, allow_inf_nan=False), NUMBER]
 Hold = Literal["free", "fixed"]
 #: Part of the span below which two places are one.
 _ONE_PLACE = 1e-6
@@ -37,16 +36,16 @@ class Support(Fitting):
         "free", description="`fixed` holds the deflection of the elastic axis."
     )
     twist: Hold = Field("free", description="`fixed` holds the twist.")
-    deflection_stiffness: _NotNegative = Field(
+    deflection_stiffness: NotNegative = Field(
         0.0, description="Spring of the deflection (N/m) where that is free."
     )
-    twist_stiffness: _NotNegative = Field(
+    twist_stiffness: NotNegative = Field(
         0.0, description="Spring of the twist (N m/rad) where that is free."
     )
-    deflection_damping: _NotNegative = Field(
+    deflection_damping: NotNegative = Field(
         0.0, description="Dashpot of the deflection (N s/m) where that is free."
     )
-    twist_damping: _NotNegative = Field(
+    twist_damping: NotNegative = Field(
         0.0, description="Dashpot of the twist (N m s/rad) where that is free."
     )
 
@@ -65,7 +64,7 @@ class Lump(Fitting):
     """One lumped mass: a motor, a tip store, a joint."""
 
     mass: Positive = Field(description="Mass M (kg).")
-    inertia_about_centre: _NotNegative = Field(
+    inertia_about_centre: NotNegative = Field(
         0.0, description="Moment of inertia about its own centre of mass, of the twist (kg m2)."
     )
     behind_axis: Number = Field(

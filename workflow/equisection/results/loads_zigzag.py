@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -61,3 +62,15 @@ def warning_of_zigzag(zigzag: float) -> str:
         f"{100 * zigzag:.1f} % of their variation ({100 * LARGEST_ZIGZAG:g} % is allowed); "
         "raise openfoam.outer_correctors or halve unsteady.time_step"
     )
+
+
+def with_zigzag(path: Path, attributes: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the attributes of a result with the zigzag of its loads, and log what is too large.
+
+    Parameters and errors are those of :func:`loads_zigzag`.
+    """
+    found = loads_zigzag(path, attributes)
+    warning = warning_of_zigzag(found.get(NAME, math.nan))
+    if warning:
+        logging.getLogger(__name__).warning("%s: %s", path.stem, warning)
+    return {**attributes, **found}

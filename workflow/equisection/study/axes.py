@@ -105,6 +105,26 @@ SPEED = Axis("speed", "v", "V", "$V$", unit="m/s", stable="below", key="flow.spe
 #: stands before it is the resolution.
 AXES = (INCIDENCE, K_STAR, SPEED)
 
+
+@dataclass(frozen=True)
+class AsGiven:
+    """Beam as given: its k* (-) at a speed V (m/s), and so at every other.
+
+    k* is a stiffness over the dynamic pressure, k* V^2 that of the beam over rho c^2/2.
+    """
+
+    k_star: float
+    speed: float
+
+    def speed_at(self, k_star: Any) -> Any:
+        """Return the speed (m/s) at which it has a k*, or each of an array."""
+        return self.speed * (self.k_star / k_star) ** 0.5
+
+    def k_star_at(self, speed: Any) -> Any:
+        """Return its k* (-) at a speed (m/s), or at each of an array."""
+        return self.k_star * (self.speed / speed) ** 2
+
+
 #: Pattern of the names of the cases of a sweep: parts of one axis or more, in order.
 SWEEP_PATTERN = "|".join(
     "_".join(axis.pattern for axis in chosen)

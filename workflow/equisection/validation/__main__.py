@@ -6,13 +6,11 @@ python -m equisection.validation --check   tells whether it is up to date
 
 from __future__ import annotations
 
-import argparse
-import difflib
 import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.files import write_text
+from equisection.generated import write_or_check
 from equisection.validation.flutter_values import flutter_values
 from equisection.validation.known_values import ORIGINS, KnownValue
 from equisection.validation.structure_values import structure_values
@@ -20,6 +18,7 @@ from equisection.validation.wing_values import wing_values
 
 COMMAND = "python -m equisection.validation"
 PAGE = Path("docs/validation.md")
+ROOT = Path(__file__).parents[3]
 
 _INTRODUCTION = f"""# Validation
 
@@ -94,24 +93,10 @@ def _percent(difference: float) -> str:
     return f"{rounded + 0.0:+.3f} %" if rounded else "0.000 %"
 
 
-def main(arguments: Sequence[str] | None = None) -> int:
+def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
     """Write or check the page; return the exit status."""
-    parser = argparse.ArgumentParser(prog=COMMAND, description="Known values, computed here.")
-    parser.add_argument("--page", type=Path, default=PAGE)
-    parser.add_argument("--check", action="store_true", help="only tell whether it is up to date")
-    options = parser.parse_args(arguments)
-    text = page(known_values())
-    if not options.check:
-        write_text(options.page, text)
-        print(f"written: {options.page}")
-        return 0
-    there = options.page.read_text(encoding="utf-8") if options.page.exists() else ""
-    if there == text:
-        return 0
-    changes = difflib.unified_diff(there.splitlines(), text.splitlines(), "there", "made now", n=0)
-    print("\n".join(changes), file=sys.stderr)
-    print(f"{options.page} is out of date: run `make validation` and commit it", file=sys.stderr)
-    return 1
+    about = "Known values, computed here."
+    return write_or_check({PAGE: page(known_values())}, root, COMMAND, about, arguments)
 
 
 if __name__ == "__main__":

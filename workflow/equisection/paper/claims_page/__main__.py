@@ -10,7 +10,6 @@ The evidence is in the runs that ``make paper`` leaves in ``results/``, and in t
 from __future__ import annotations
 
 import argparse
-import difflib
 import math
 import sys
 from collections.abc import Iterable, Sequence
@@ -19,7 +18,7 @@ from pathlib import Path
 import pandas as pd
 
 from equisection.errors import EquisectionError
-from equisection.files import write_text
+from equisection.generated import write_outdated
 from equisection.paper.claims_page.claims import CLAIMS, Claim
 from equisection.paper.claims_page.evidence import Evidence, read_evidence
 from equisection.paper.claims_page.findings import Finding
@@ -176,17 +175,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except EquisectionError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
-    if not options.check:
-        write_text(options.page, text)
-        print(f"written: {options.page}")
-        return 0
-    there = options.page.read_text(encoding="utf-8") if options.page.exists() else ""
-    if there == text:
-        return 0
-    changes = difflib.unified_diff(there.splitlines(), text.splitlines(), "there", "made now", n=0)
-    print("\n".join(changes), file=sys.stderr)
-    print(f"{options.page} is out of date: run `make paper` and commit it", file=sys.stderr)
-    return 1
+    return write_outdated({options.page: text}, Path(), "make paper", check=options.check)
 
 
 if __name__ == "__main__":
