@@ -65,6 +65,7 @@ def test_growth_without_an_oscillation_is_divergence() -> None:
         (("settled", "settled"), "none", "stable up to 40 m/s; no onset was found"),
         (("growing", "growing"), "flutter", "unstable at 20 m/s and at all lower speeds"),
         (("failed", "failed"), "unknown", "nothing is known"),
+        (("failed", "settled"), "unknown", "stable up to 20 m/s; what is beyond failed"),
     ],
 )
 def test_open_brackets_say_what_is_known(

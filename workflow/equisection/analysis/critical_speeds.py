@@ -60,7 +60,8 @@ def from_runs(
     pd.DataFrame
         :data:`COLUMNS` without the margin. The speed is the middle of the bracket from
         ``speed_low``, stable, to ``speed_high``, unstable. Where one side is open the speed is NaN,
-        and the mechanism of a model that is stable throughout is ``none``. Without an
+        and the mechanism of a model that is stable throughout is ``none``, but ``unknown`` where
+        runs failed beyond the last stable one. Without an
         oscillation of the twist the unstable run has diverged; what else grows is called
         ``flutter``, with or without separation, which a history alone does not tell. The basis is
         :data:`CFD` where the solver of all its runs has a mesh, else :data:`TIME`.
@@ -82,7 +83,7 @@ def from_runs(
                 "speed": middle,
                 "speed_low": low,
                 "speed_high": high,
-                "mechanism": _mechanism(low, high, strouhal),
+                "mechanism": _mechanism(low, high, strouhal, bool(bracket.failed)),
                 "frequency_hz": strouhal * high / chord,
                 "k_star": given.k_star_at(middle),
                 "basis": _basis(runs["solver"]),
@@ -97,9 +98,9 @@ def _basis(solvers: Iterable[str]) -> str:
     return CFD if meshed else TIME
 
 
-def _mechanism(stable: float, unstable: float, strouhal: float) -> str:
+def _mechanism(stable: float, unstable: float, strouhal: float, any_failed: bool) -> str:
     if math.isnan(unstable):
-        return "unknown" if math.isnan(stable) else "none"
+        return "unknown" if math.isnan(stable) or any_failed else "none"
     return "divergence" if math.isnan(strouhal) else "flutter"
 
 
@@ -190,6 +191,10 @@ def _line(row: Mapping[Any, Any]) -> str:
         return f"{who}: {row['mechanism']} between {low:.4g} and {high:.4g} m/s"
     if np.isfinite(high):
         return f"{who}: unstable at {high:.4g} m/s and at all lower speeds that were run"
+    if np.isfinite(low) and row["mechanism"] == "unknown":
+        return (
+            f"{who}: stable up to {low:.4g} m/s; what is beyond failed, so nothing is known of it"
+        )
     if np.isfinite(low):
         return f"{who}: stable up to {low:.4g} m/s; no onset was found"
     return f"{who}: nothing is known, no run has a verdict"
