@@ -16,6 +16,7 @@ from equisection.motion.linear_flutter import (
     flutter,
     growth_and_frequency,
 )
+from equisection.validation.flutter_values import deck
 
 
 def section(mass, inertia, flexural, torsional, axis=0.0, centre=0.0):  # noqa: PLR0917
@@ -277,20 +278,6 @@ def goland(imbalance=COS_PHI, axis=0.33, damping_ratio=0.0, pair=1) -> Section:
         torsional_damping=2 * damping_ratio * GOLAND_INERTIA * pitch,
         chord=GOLAND_CHORD,
         elastic_axis=axis,
-    )
-
-
-def deck(damping_ratio: float) -> Section:
-    """Return a bridge deck (SI) of 0.1 Hz and 0.278 Hz (IABSE Task Group 3.1)."""
-    heave, pitch = 2 * math.pi * 0.1, 2 * math.pi * 0.278
-    return Section(
-        mass=22740.0,
-        inertia=2.47e6,
-        flexural_stiffness=22740.0 * heave**2,
-        torsional_stiffness=2.47e6 * pitch**2,
-        flexural_damping=2 * damping_ratio * 22740.0 * heave,
-        torsional_damping=2 * damping_ratio * 2.47e6 * pitch,
-        chord=31.0,
     )
 
 
