@@ -38,15 +38,18 @@ def save_figure(figure: Figure, paths: Sequence[Path]) -> None:
     FigureFormatError
         A suffix is not ``.png``, ``.svg`` or ``.pdf``.
     """
+    unknown = [path for path in paths if path.suffix.removeprefix(".") not in _METADATA]
+    if unknown:
+        raise FigureFormatError(
+            f"{unknown[0]}: format '{unknown[0].suffix.removeprefix('.')}' is not written here; "
+            f"{', '.join(_METADATA)} are"
+        )
     figure.draw_without_rendering()  # lays the panels out, which costs more than drawing them
+    # Matplotlib lays out anew for each file, also where only the style asks for a layout engine.
     with matplotlib.rc_context({"figure.constrained_layout.use": False}):
-        figure.set_layout_engine(None)  # with one, even of fixed places, each format is drawn twice
-    for path in paths:
-        suffix = path.suffix.removeprefix(".")
-        if suffix not in _METADATA:
-            raise FigureFormatError(
-                f"{path}: format '{suffix}' is not written here; {', '.join(_METADATA)} are"
-            )
-        with written_whole(path) as aside:
-            figure.savefig(aside, format=suffix, metadata=_METADATA[suffix])
-        logger.info("%s", path)
+        figure.set_layout_engine(None)
+        for path in paths:
+            suffix = path.suffix.removeprefix(".")
+            with written_whole(path) as aside:
+                figure.savefig(aside, format=suffix, metadata=_METADATA[suffix])
+            logger.info("%s", path)
