@@ -17,15 +17,13 @@ that the unknowns are banded along the span.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csc_matrix
 from scipy.sparse.linalg import ArpackNoConvergence, LinearOperator, eigsh, splu
-from skfem import Basis, BilinearForm, ElementHex2, ElementVector, MeshHex
-from skfem.helpers import dot
-from skfem.models.elasticity import lame_parameters, linear_elasticity
+from skfem import Basis, ElementHex2, ElementVector, MeshHex
+from skfem.models.elasticity import lame_parameters
 
 from equisection.beam.beam import Beam
 from equisection.errors import ModesError
@@ -129,18 +127,22 @@ class _Element:
     component: Ints
 
 
-def _product(u: Any, v: Any, _: Any) -> Any:
-    return dot(u, v)
-
-
 def _one_element(beam: Beam, elements: tuple[int, int, int]) -> _Element:
+    """Return the element's matrices: the integrals above of each pair of its shape functions."""
     along_chord, along_span, through = elements
     size = np.array([beam.chord / along_chord, beam.thickness / through, beam.length / along_span])
     basis = Basis(MeshHex().scaled(tuple(size)), ElementVector(ElementHex2()), intorder=4)
-    lame = lame_parameters(beam.youngs_modulus, beam.poisson_ratio)
-    stiffness = linear_elasticity(*lame).assemble(basis).toarray()
-
-    mass = beam.density * BilinearForm(_product).assemble(basis).toarray()
+    number = np.argsort(basis.element_dofs[:, 0])
+    shapes = [basis.basis[i][0] for i in number]
+    value = np.stack([shape.value[:, 0] for shape in shapes])  # (81, 3, points)
+    gradient = np.stack([shape.grad[:, :, 0] for shape in shapes])  # (81, 3, 3, points)
+    weight = basis.dx[0]
+    lame, shear = lame_parameters(beam.youngs_modulus, beam.poisson_ratio)
+    strain = (gradient + gradient.swapaxes(1, 2)) / 2.0
+    dilatation = np.einsum("naaq->nq", strain)
+    stiffness = 2.0 * shear * np.tensordot(strain * weight, strain, axes=((1, 2, 3),) * 2)
+    stiffness += lame * (dilatation * weight) @ dilatation.T
+    mass = beam.density * np.tensordot(value * weight, value, axes=((1, 2),) * 2)
     place = np.rint(2.0 * basis.doflocs / size[:, None]).astype(np.int64)
     component = np.empty(basis.N, dtype=np.int64)
     dofs = basis.dofs
