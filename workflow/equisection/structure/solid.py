@@ -134,7 +134,7 @@ def _one_element(beam: Beam, elements: tuple[int, int, int]) -> _Element:
     basis = Basis(MeshHex().scaled(tuple(size)), ElementVector(ElementHex2()), intorder=4)
     number = np.argsort(basis.element_dofs[:, 0])
     shapes = [basis.basis[i][0] for i in number]
-    value = np.stack([shape.value[:, 0] for shape in shapes])  # (81, 3, points)
+    value = np.stack([np.asarray(shape)[:, 0] for shape in shapes])  # (81, 3, points)
     gradient = np.stack([shape.grad[:, :, 0] for shape in shapes])  # (81, 3, 3, points)
     weight = basis.dx[0]
     lame, shear = lame_parameters(beam.youngs_modulus, beam.poisson_ratio)
@@ -157,12 +157,18 @@ class _Folding:
     """Relation of the whole mesh's unknowns to those of a quarter, for one class.
 
     ``number`` (k, i, j, component) gives the row in the quarter's system or -1 where held;
-    ``sign`` the factor, zero where held or odd on a mirror.
+    ``sign`` the factor, zero where held or odd on a mirror. ``free`` (k, unknowns of a plane across
+    the span) is false where the beam's ends hold.
     """
 
     number: Ints
     sign: Floats
-    unknowns: int
+    free: NDArray[np.bool_]
+
+    @property
+    def unknowns(self) -> int:
+        """Number of unknowns of the quarter."""
+        return int(self.free.sum())
 
 
 def _fold(beam: Beam, elements: tuple[int, int, int], parity: tuple[int, int]) -> _Folding:
@@ -184,36 +190,48 @@ def _fold(beam: Beam, elements: tuple[int, int, int], parity: tuple[int, int]) -
         sign[end][..., list(held)] = 0.0
     quarter = sign[:, : nx // 2 + 1, : ny // 2 + 1] != 0.0
     numbers = np.where(quarter, np.cumsum(quarter).reshape(quarter.shape) - 1, -1)
-    return _Folding(numbers[:, i][:, :, j], sign, int(quarter.sum()))
+    return _Folding(numbers[:, i][:, :, j], sign, quarter[:, quarter[1]])
 
 
 def _class_matrices(
     element: _Element, elements: tuple[int, int, int], folding: _Folding
 ) -> tuple[csc_matrix, csc_matrix]:
-    """Stiffness and mass of one class of modes: one element's matrices, scattered."""
+    """Stiffness and mass of one class of modes.
+
+    One element's matrices are scattered over one layer across the span. All layers are alike, and
+    the unknowns that the ends hold are left out at last.
+    """
     along_chord, along_span, through = elements
-    ex, ey, ez = np.meshgrid(
-        np.arange((along_chord + 1) // 2),
-        np.arange((through + 1) // 2),
-        np.arange(along_span),
-        indexing="ij",
+    ex, ey = np.meshgrid(
+        np.arange((along_chord + 1) // 2), np.arange((through + 1) // 2), indexing="ij"
     )
-    origin = np.stack([ex.ravel(), ey.ravel(), ez.ravel()]).astype(np.int64)
+    origin = np.stack([ex.ravel(), ey.ravel()]).astype(np.int64)
     # An element and its images contribute alike; one on a mirror is its own image.
     images = np.where(2 * origin[0] + 1 == along_chord, 1.0, 2.0)
     images *= np.where(2 * origin[1] + 1 == through, 1.0, 2.0)
-    x, y, z = (2 * origin[d][:, None] + element.place[d] for d in range(3))
-    number = folding.number[z, x, y, element.component]
-    sign = folding.sign[z, x, y, element.component]
+    x, y = (2 * origin[d][:, None] + element.place[d] for d in range(2))
+    planes, of_plane = folding.free.shape
+    inside = folding.number[1] - folding.free[0].sum()  # numbers within a plane that is not held
+    number = of_plane * element.place[2] + inside[x, y, element.component]
+    sign = folding.sign[1][x, y, element.component]
     rows = np.repeat(number[:, :, None], number.shape[1], axis=2)
     weight = images[:, None, None] * sign[:, :, None] * sign[:, None, :]
     kept = weight != 0.0
     index = rows[kept], rows.transpose(0, 2, 1)[kept]
-    size = (folding.unknowns, folding.unknowns)
-    return (
-        coo_matrix(((weight * element.stiffness)[kept], index), shape=size).tocsc(),
-        coo_matrix(((weight * element.mass)[kept], index), shape=size).tocsc(),
-    )
+    below = 2 * of_plane * np.arange(along_span)[:, None]  # unknowns below each layer
+    free = np.flatnonzero(folding.free)
+
+    def whole(matrix: Floats) -> csc_matrix:
+        """Return the matrix of all layers from that of one element."""
+        layer = coo_matrix(((weight * matrix)[kept], index), shape=(3 * of_plane,) * 2).tocsc()
+        entries = layer.tocoo()
+        of_layers = (
+            np.tile(entries.data, along_span),
+            ((entries.row + below).ravel(), (entries.col + below).ravel()),
+        )
+        return coo_matrix(of_layers, shape=(planes * of_plane,) * 2).tocsc()[free][:, free]
+
+    return whole(element.stiffness), whole(element.mass)
 
 
 def _class_modes(

@@ -15,8 +15,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
+
+from equisection.verdict.tops import find_tops
 
 Array = NDArray[np.float64]
 
@@ -96,8 +97,7 @@ def find_cycles(time: Array, signal: Array) -> Cycles:
     noise = noise_level(signal)
     rounding = 1e-12 * (1e-3 + float(np.max(np.abs(signal), initial=0.0)))
     prominence = max(_PROMINENCE_IN_NOISE * noise, rounding)
-    tops, _ = scipy.signal.find_peaks(signal, prominence=prominence)
-    bottoms, _ = scipy.signal.find_peaks(-signal, prominence=prominence)
+    tops, bottoms = find_tops(signal, prominence), find_tops(-signal, prominence)
     index = _in_turn(signal, np.concatenate((tops, bottoms)), tops.size)
     index = _without_secondary(signal, index)
     at, value = _refined(time, signal, index, noise)
