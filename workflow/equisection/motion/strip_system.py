@@ -227,7 +227,8 @@ class StripSystem:
         if motion is None:
             deficits.append(np.zeros_like(x))
             return
-        rate, circulatory, leading = np.split(motion, 3, axis=1)
+        strips = x.shape[1]
+        rate, circulatory, leading = (motion[:, i * strips : (i + 1) * strips] for i in range(3))
         branches, rise = self.loads.branches, pressure_rise(rate)
         deficits[1] = deficits[1] - rise * (branches.moment_slope * leading - deficits[1])
         if self.structure.is_offset:

@@ -53,12 +53,10 @@ def find_tops(signal: Array, prominence: float) -> NDArray[np.int64]:
 def _lowest_before(height: Array, valleys: Array) -> Array:
     """Return the lowest valley before each top, back to the last top that is higher."""
     lowest = np.empty_like(height)
-    higher: list[
-        tuple[float, float]
-    ] = []  # tops that may be higher than the next, and their valleys
+    passed: list[tuple[float, float]] = []  # tops that are higher than all after them, with valleys
     for i, (this, valley) in enumerate(zip(height.tolist(), valleys.tolist(), strict=True)):
-        while higher and higher[-1][0] <= this:
-            valley = min(valley, higher.pop()[1])
         lowest[i] = valley
-        higher.append((this, valley))
+        while passed and passed[-1][0] <= this:
+            lowest[i] = min(lowest[i], passed.pop()[1])
+        passed.append((this, float(lowest[i])))
     return lowest
