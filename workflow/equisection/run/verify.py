@@ -7,7 +7,6 @@ and each file that a job has made, or made something from, by its content
 
 from __future__ import annotations
 
-import hashlib
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
@@ -22,6 +21,7 @@ from equisection.results.netcdf import read_attributes
 from equisection.run.listing import Listed, cases_of_run
 from equisection.run.status import find_runs
 from equisection.store.index import indices_of_run, read_index
+from equisection.store.kept import holds_its_case
 from equisection.store.made_from import FOLDER, ProvenanceRecord, read_record
 
 
@@ -152,7 +152,7 @@ def verify_kept(folder: Path) -> Verified:
         found.makers[_maker(attributes)] += 1
         if "case" not in attributes:
             found.unrecorded.append(name)
-        elif not _holds_its_case(attributes):
+        elif not holds_its_case(attributes):
             found.find(name, Fault.FOREIGN, "the case that it holds is not that of its hash")
     return found
 
@@ -245,21 +245,13 @@ def _check_result(path: Path, name: str, wanted: str, as_made: bool, found: Veri
     except ResultFileError as error:
         found.find(name, Fault.BROKEN, _without_path(error, path))
         return
-    if not _holds_its_case(attributes):
+    if not holds_its_case(attributes):
         found.find(name, Fault.FOREIGN, "the case that it holds is not that of its hash")
     elif attributes.get("case_hash") != wanted and as_made:
         found.find(name, Fault.STALE, _CASE_CHANGED)
     elif attributes.get("case_hash") != wanted:
         other = str(attributes.get("case_hash"))[:12]
         found.find(name, Fault.FOREIGN, f"it is the result of case {other}, not of its case file")
-
-
-def _holds_its_case(attributes: Mapping[str, Any]) -> bool:
-    """Tell whether the case that a result holds has its hash; True if it holds none."""
-    case = attributes.get("case")
-    return case is None or (
-        hashlib.sha256(str(case).encode()).hexdigest() == attributes.get("case_hash")
-    )
 
 
 def _check_inputs(record: ProvenanceRecord, found: Verified, seen: Mapping[str, str]) -> None:
