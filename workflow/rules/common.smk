@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import time
 
 import equisection
 from equisection.cases import KINDS
@@ -60,6 +61,15 @@ if workflow.is_main_process:
     else:
         start.say(file.words(done=False) for file in unsound)
     start.say(start.notices(CONFIG, PLACE_ON_DISK))
+
+
+STARTED = time.time()
+
+
+onsuccess:
+    from equisection.run.verify import verify_made
+
+    start.say(verify_made(PLACE_ON_DISK / CONFIG.run, STARTED))
 
 
 wildcard_constraints:

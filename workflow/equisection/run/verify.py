@@ -8,7 +8,7 @@ and each file that a job has made, or made something from, by its content
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -18,6 +18,7 @@ from equisection.cases import KINDS
 from equisection.errors import ResultFileError
 from equisection.provenance import file_hash
 from equisection.results.netcdf import read_attributes
+from equisection.results.whole import fault_of
 from equisection.run.listing import Listed, cases_of_run
 from equisection.run.status import find_runs
 from equisection.store.index import indices_of_run, read_index
@@ -138,6 +139,33 @@ def verify_run(run: Path) -> Verified:
     return found
 
 
+def verify_made(run: Path, since: float) -> list[str]:
+    """Check what jobs have made in a run since a time, as seconds since the epoch.
+
+    Returns
+    -------
+    list of str
+        A line for each file that is not as its job made it, then the sum; none if no job has made
+        anything.
+    """
+    found, made = Verified(run.name), dict[str, str]()
+    for path in (run / FOLDER).glob("*.json"):
+        if path.stat().st_mtime >= since:
+            for record in _records_in([path], run, found):
+                made |= record.outputs
+    for name, digest in sorted(made.items()):
+        found.checked += 1
+        now = _now(run, name)
+        fault = fault_of(run / name) if now and name.endswith(".nc") else ""
+        if not now:
+            found.find(name, Fault.MISSING, "a job has made it; run again")
+        elif fault:
+            found.find(name, Fault.BROKEN, f"{fault}; run again")
+        elif now != digest:
+            found.find(name, Fault.FOREIGN, "it is not as its job has made it; run again")
+    return words(found) if found.checked or found.faults else []
+
+
 def verify_kept(folder: Path) -> Verified:
     """Check the results that are kept in a folder, each by the case that it holds."""
     found = Verified(str(folder))
@@ -158,7 +186,11 @@ def verify_kept(folder: Path) -> Verified:
 
 
 def _records(run: Path, found: Verified) -> Iterator[ProvenanceRecord]:
-    for path in sorted((run / FOLDER).glob("*.json")):
+    return _records_in(sorted((run / FOLDER).glob("*.json")), run, found)
+
+
+def _records_in(paths: Iterable[Path], run: Path, found: Verified) -> Iterator[ProvenanceRecord]:
+    for path in paths:
         try:
             yield read_record(path)
         except ResultFileError as error:

@@ -17,8 +17,10 @@ from equisection.results.whole import fault_of
 from equisection.store.index import indices_of_run, read_index, result_file
 from equisection.store.made_from import FOLDER, read_record
 
-#: What jobs make besides results and their indices; it is cheap, and made again if it was edited.
-_CHEAP = {".csv"}
+#: Folder of the case files, which have the places of the indices of their results.
+CASES = "cases"
+#: Cheap files that jobs make besides results and figures; they are made again if they were edited.
+_CHEAP = {".csv", ".json", ".yaml"}
 
 
 @dataclass(frozen=True)
@@ -50,7 +52,9 @@ class Unsound:
             return f"{self.path}: {self.why}" + ("" if done else "; a run would make it again")
         if done:
             return f"{self.path}: {self.why}; kept as {self.aside.name}, made again"
-        return f"{self.path}: {self.why}; a run would keep it as {self.aside.name} and make it again"
+        return (
+            f"{self.path}: {self.why}; a run would keep it as {self.aside.name} and make it again"
+        )
 
     def put_aside(self) -> None:
         """Rename or delete it, so that the workflow makes it anew."""
@@ -89,21 +93,26 @@ def unsound_files(run: Path) -> list[Unsound]:
 
     They are NetCDF files that are not as they were written; results that were exchanged after the
     index that names them and are not of that case; indices that name a file that is not there, for
-    the job that writes one takes sound results from the store; and tables that were edited since
-    their job made them. Files that a job is writing at this moment (``.tmp-...``) are left alone.
+    the job that writes one takes sound results from the store; and tables, indices and case files
+    that were edited since their job made them. Files that a job is writing at this moment
+    (``.tmp-...``) are left alone.
     """
     found = [
         Unsound(path, fault, kept=True)
         for path in run.glob("**/*.nc")
         if not path.name.startswith(TEMPORARY) and (fault := fault_of(path))
     ]
-    broken = {file.path for file in found}
+    found += _edited(run)
+    unsound = {file.path for file in found}
     for index in indices_of_run(run):
-        found += _unsound_results(index, broken)
-    return [*found, *_edited(run)]
+        if run / CASES / index.relative_to(run) in unsound:
+            found.append(Unsound(index, "its cases are made again, and so is it", kept=False))
+        elif index not in unsound:
+            found += _unsound_results(index, unsound)
+    return found
 
 
-def _unsound_results(index: Path, broken: set[Path]) -> Iterator[Unsound]:
+def _unsound_results(index: Path, unsound: set[Path]) -> Iterator[Unsound]:
     try:
         results = read_index(index)
     except ResultFileError as error:
@@ -118,7 +127,7 @@ def _unsound_results(index: Path, broken: set[Path]) -> Iterator[Unsound]:
         except FileNotFoundError:
             lost = True
             continue
-        if path in broken:
+        if path in unsound:
             lost = True
         elif exchanged and not _belongs(path, str(attributes.get("case_hash"))):
             yield Unsound(path, "not the result of its case", kept=True)
@@ -139,19 +148,13 @@ def _belongs(path: Path, case_hash: str) -> bool:
 
 
 def _edited(run: Path) -> Iterator[Unsound]:
-    """Yield the tables that are younger than the record of their job, and differ from it."""
+    """Yield the cheap files that differ from the record of the job that made them."""
     for path in sorted((run / FOLDER).glob("*.json")):
         try:
             made = read_record(path).outputs
         except ResultFileError:
             continue  # 'equisection verify' names it
-        recorded = path.stat().st_mtime_ns
         for name, digest in made.items():
             file = run / name
-            if (
-                file.suffix in _CHEAP
-                and file.is_file()
-                and file.stat().st_mtime_ns > recorded
-                and file_hash(file) != digest
-            ):
+            if file.suffix in _CHEAP and file.is_file() and file_hash(file) != digest:
                 yield Unsound(file, "edited since its job made it", kept=True)

@@ -92,6 +92,6 @@ class _ReaderApart:
 def _fault_of_content(path: Path) -> str:
     try:
         attributes = read_without_digest(path).attrs
-    except Exception as error:  # noqa: BLE001, the library raises anything on a damaged file
+    except Exception as error:  # the library raises anything on a damaged file
         return str(error).removeprefix(f"{path}: ")
     return "" if holds_its_case(attributes) else "the case that it holds is not that of its hash"
