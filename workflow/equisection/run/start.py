@@ -7,10 +7,12 @@ start of the workflow, so it must be cheap.
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import redirect_stderr
 from pathlib import Path
 from typing import Any
 
@@ -136,7 +138,8 @@ def changes_files(arguments: Sequence[str]) -> bool:
     if any(_LOCKS.glob("*")):
         return False
     try:
-        options = vars(get_argument_parser().parse_known_args(list(arguments))[0])
+        with redirect_stderr(io.StringIO()):
+            options = vars(get_argument_parser().parse_known_args(list(arguments))[0])
     except SystemExit:  # not a command that snakemake reads: another program runs the workflow
         return True
     return not any(options.get(name) for name in _ONLY_LOOK)
