@@ -47,7 +47,7 @@ def find_tops(signal: Array, prominence: float) -> NDArray[np.int64]:
         _lowest_before(height, valleys[:-1]), _lowest_before(height[::-1], valleys[:0:-1])[::-1]
     )
     found = top[height - base >= prominence]
-    return (first[found] + last[found]) // 2
+    return np.asarray((first[found] + last[found]) // 2, dtype=np.int64)
 
 
 def _lowest_before(height: Array, valleys: Array) -> Array:
