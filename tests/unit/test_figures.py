@@ -10,6 +10,7 @@ import pandas as pd
 import pytest
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Polygon
 from matplotlib.text import Text
 from tests.sample_cases import PAPER
@@ -746,6 +747,24 @@ def test_saving_twice_gives_the_same_bytes(suffix, tmp_path):
     first, second = (tmp_path / place / f"figure.{suffix}" for place in ("first", "second"))
     assert first.read_bytes() == second.read_bytes()
     assert first.stat().st_size > 10_000
+
+
+def test_a_figure_is_laid_out_once_for_all_formats(tmp_path, monkeypatch):
+    laid_out = []
+    once = ConstrainedLayoutEngine.execute
+
+    def counted(engine, figure):
+        laid_out.append(figure)
+        return once(engine, figure)
+
+    monkeypatch.setattr(ConstrainedLayoutEngine, "execute", counted)
+    with drawing_style(STYLE):  # which asks for a layout engine
+        figure = Figure()
+        axes = figure.subplots()
+        axes.set_ylabel("a label that needs room")
+        save_figure(figure, [tmp_path / f"figure.{suffix}" for suffix in ("png", "svg", "pdf")])
+    assert laid_out == [figure]
+    assert {path.suffix for path in tmp_path.iterdir()} == {".png", ".svg", ".pdf"}
 
 
 def test_an_unknown_format_is_refused(tmp_path):
