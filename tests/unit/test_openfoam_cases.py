@@ -89,7 +89,7 @@ def test_wall_velocity_follows_the_mesh_from_the_steady_run_on(tmp_path: Path) -
 
 def body_of(section: Section, folder: Path, incidence: float = 0.0) -> dict[str, str]:
     """Return what is written of a section, by the last words of its lines."""
-    write_motion(folder, section, incidence, 4.0)
+    write_motion(folder, section, BodyAxes.of(section, incidence), 4.0)
     text = (folder / "constant" / "dynamicMeshDict").read_text()
     return dict(re.findall(r"(\w+) (.+);", text[text.index("mass ") :]))
 
@@ -100,7 +100,7 @@ def numbers(written: str) -> list[float]:
 
 def test_section_has_half_of_each_reduced_quantity(tmp_path: Path) -> None:
     assert UNSTEADY.section is not None
-    write_motion(tmp_path, UNSTEADY.section, 0.1, 4.0)
+    write_motion(tmp_path, UNSTEADY.section, BodyAxes.of(UNSTEADY.section, 0.1), 4.0)
     text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
     for line in ("mass 40;", "momentOfInertia (1 1 3.35);", "stiffness 0.45;", "stiffness 3.22;"):
         assert line in text
@@ -109,7 +109,8 @@ def test_section_has_half_of_each_reduced_quantity(tmp_path: Path) -> None:
 def test_section_without_dampers_and_offset_is_written_as_it_always_was(tmp_path: Path) -> None:
     """So that a run that was begun before goes on, whatever its incidence."""
     assert UNSTEADY.section is not None
-    write_motion(tmp_path, UNSTEADY.section, math.radians(2.5), 4.0)
+    axes = BodyAxes.of(UNSTEADY.section, math.radians(2.5))
+    write_motion(tmp_path, UNSTEADY.section, axes, 4.0)
     text = (tmp_path / "constant" / "dynamicMeshDict").read_bytes()
     assert hashlib.sha256(text).hexdigest()[:16] == "1f399325f7e89ea1"
 
@@ -118,7 +119,7 @@ def test_section_has_half_of_each_reduced_damping(tmp_path: Path) -> None:
     damped = Section(
         **{**dict(UNSTEADY.section or {}), "flexural_damping": 0.6, "torsional_damping": 0.2}
     )
-    write_motion(tmp_path, damped, 0.1, 4.0)
+    write_motion(tmp_path, damped, BodyAxes.of(damped, 0.1), 4.0)
     text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
     assert [float(found) for found in re.findall(r"damping (.+);", text)] == [0.3, 0.1]
 

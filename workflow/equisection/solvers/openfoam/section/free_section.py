@@ -73,7 +73,8 @@ class SectionRun(FreeRun[Mesh]):
     def axes(self) -> BodyAxes:
         """Axes of the section."""
         assert self.case.section is not None
-        return BodyAxes.of(self.case.section, self.mesh.incidence)
+        incidence = math.radians(self.case.incidence_deg)
+        return BodyAxes.of(self.case.section, incidence, self.case.section_start_twist)
 
     def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
         """Make the rigid steady flow, as :func:`~.section_rigid.run_steady` does."""
@@ -82,7 +83,13 @@ class SectionRun(FreeRun[Mesh]):
     def write_motion(self, folder: Path) -> None:
         """Write the dictionaries that move section and mesh."""
         assert self.case.section is not None
-        write_motion(folder, self.case.section, self.mesh.incidence, self.mesh.channel.height)
+        write_motion(
+            folder,
+            self.case.section,
+            self.axes,
+            self.mesh.channel.height,
+            self.case.section_heave_rate,
+        )
 
     def write_system(self, folder: Path) -> None:
         """Write the control of the run, whose end may differ from that of an earlier start."""
@@ -150,17 +157,20 @@ class SectionRun(FreeRun[Mesh]):
         )
         _, height = self.axes.mid_chord_places(so_far.twist[-1], so_far.deflection[-1])
         try:
-            fault = self.mesh_fault(twist, float(height))
+            fault = self.mesh_fault(twist - self.axes.start_twist, float(height))
         except SolverError as error:
             # the run has its result, whatever becomes of the search for its cause
             logger.warning("the mesh at its end was not checked: %s", error)
             return where
         return f"{where}, where {fault}" if fault else where
 
-    def mesh_fault(self, twist: float, height: float) -> str:
-        """Return the fault of the mesh at a twist (rad) and height (chords) of mid-chord, or ''."""
+    def mesh_fault(self, rotation: float, height: float) -> str:
+        """Return the fault of the mesh at a rotation since the release (rad), or ''.
+
+        ``height`` is that of mid-chord (chords).
+        """
         mesh = MorphingMesh(self.installation, self.folder, self.mesh.channel.height)
-        quality = mesh.along(twist, height, 1, self.work / "moved")[-1]
+        quality = mesh.along(rotation, height, 1, self.work / "moved")[-1]
         faults = quality.faults
         if not faults and quality.non_orthogonality_deg > _OBLIQUE:
             faults = f"a face is {quality.non_orthogonality_deg:.0f} deg oblique"
@@ -216,7 +226,7 @@ def _from_release(
     sampled = history.sampled(case.time_step, case.output_interval, end)
     return SectionHistory(
         np.concatenate([[0.0], sampled.time]),
-        np.concatenate([[0.0], sampled.twist]),
+        np.concatenate([[case.section_start_twist], sampled.twist]),
         np.concatenate([[0.0], sampled.deflection]),
         np.concatenate([[loads["lift"]], sampled.lift]),
         np.concatenate([[loads["moment"]], sampled.moment]),
