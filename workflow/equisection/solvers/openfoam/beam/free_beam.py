@@ -51,7 +51,7 @@ from equisection.solvers.openfoam.case_folder import (
     states,
 )
 from equisection.solvers.openfoam.dictionaries import write_system
-from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
 from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
 from equisection.solvers.openfoam.process import (
     SILENCE,
@@ -320,6 +320,7 @@ class _Exchange:
         self._run, self._structure, self._pipes, self._tell = run, structure, pipes, tell
         self._due = Every(LOOKS_EVERY, last_look(start))
         self._resumed = structure.proposed_position
+        self._iterations = IterationsCheck()
         self._last: Handed | None = None
         self._answer = ""
 
@@ -391,5 +392,7 @@ class _Exchange:
         if not self._due.is_due(time):
             return False
         case = self._run.case
-        history = self._run.history().sampled(case.time_step, case.output_interval, last_look(time))
+        so_far = self._run.history()
+        self._iterations.look(so_far.time, so_far.lift, so_far.moment)
+        history = so_far.sampled(case.time_step, case.output_interval, last_look(time))
         return is_decided(case, self._run.tip_motion(history))

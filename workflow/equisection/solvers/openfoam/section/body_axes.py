@@ -14,8 +14,8 @@ the axis moves by d (1 - cos theta) along it.
 A section that is held at a twist until its release is meshed there, so that its mesh is at rest
 then and not distorted.
 
-Lengths are in chords; x is along the stream and y up, from mid-chord at the release. Nose up is a rotation
-about -z.
+Lengths are in chords; x is along the stream and y up, from mid-chord at the release. Nose up
+is a rotation about -z.
 """
 
 from __future__ import annotations

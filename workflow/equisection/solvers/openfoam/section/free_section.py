@@ -30,7 +30,7 @@ from equisection.solvers.openfoam.case_folder import (
     mark_ready,
 )
 from equisection.solvers.openfoam.dictionaries import control, write_system
-from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
 from equisection.solvers.openfoam.mesh.block_mesh import Mesh
 from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
@@ -179,7 +179,7 @@ class SectionRun(FreeRun[Mesh]):
         return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
 
     def _watch(self, start: float, tell: Tell) -> Watch:
-        case, due = self.case, Every(LOOKS_EVERY, last_look(start))
+        case, due, iterations = self.case, Every(LOOKS_EVERY, last_look(start)), IterationsCheck()
 
         def decided(time: float) -> bool:
             tell(time, case.duration)
@@ -187,9 +187,9 @@ class SectionRun(FreeRun[Mesh]):
                 return False
             loads = read_loads(self.folder)
             require_reasonable(loads, self.folder)
-            history = self.history(loads).sampled(
-                case.time_step, case.output_interval, last_look(time)
-            )
+            so_far = self.history(loads)
+            iterations.look(so_far.time, so_far.lift, so_far.moment)
+            history = so_far.sampled(case.time_step, case.output_interval, last_look(time))
             return is_decided(case, _tip(case.section, history))
 
         return decided
