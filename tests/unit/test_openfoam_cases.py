@@ -262,6 +262,14 @@ def test_start_of_a_section_is_that_of_the_tip_by_its_recovery() -> None:
     assert mesh_of(started, 1.0).incidence == pytest.approx(math.radians(2.5 - 0.3))
 
 
+@pytest.mark.parametrize("start", [{"twist_deg": -0.5}, {"heave_rate": 0.01}])
+def test_symmetric_section_starts_at_zero_incidence(start: dict[str, float]) -> None:
+    config = load_config(
+        openfoam(flow={"incidence_deg": 0.0}, unsteady={"time_step": 0.01, "start": start})
+    )
+    assert config.unsteady.start.is_given
+
+
 def test_settings_decide_results_and_know_no_machine() -> None:
     there = openfoam(openfoam={"prefix": "openfoam2312", "outer_correctors": 4})
     solver = solver_from_config(load_config(there), "coarse")
