@@ -3,7 +3,7 @@
     python -m tests.benchmarks.starts
 
 It is held at a twist until the flow is steady, or gets a heave rate at the release. OpenFOAM's mesh
-is the coarse preset, whose polar the embedded solver has.
+is coarser than any preset; the embedded solver has the polar of the coarse one.
 """
 
 import tempfile
@@ -19,13 +19,13 @@ from equisection.cases import Start, UnsteadyCase
 from equisection.motion.sections import release_sections
 from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.section.free_section import SectionRun
 from equisection.solvers.openfoam.section.rigid_section import mesh_of
 from tests.sample_cases import UNSTEADY
 from tests.watching import nothing
 
-DURATION, STEP = 12.0, 0.02
+DURATION, STEP = 6.0, 0.02
+REFINEMENT = 0.6
 POLAR = Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv"
 #: The paper's ratios at k* = 10.
 SECTION = Section(
@@ -41,7 +41,7 @@ SECTION = Section(
 def by_openfoam(case: UnsteadyCase) -> np.ndarray:
     """Return time, twist (deg) and deflection (chords) of each step, shape (3, n)."""
     with tempfile.TemporaryDirectory() as work:
-        mesh = mesh_of(case, PRESETS["coarse"].refinement)
+        mesh = mesh_of(case, REFINEMENT)
         result = SectionRun(find(), case, mesh, Coupling(), Path(work)).run(nothing)
     return np.stack([result.time, np.degrees(result.twist), result.deflection])
 
