@@ -101,6 +101,7 @@ def test_loads_that_zigzag_are_told_while_the_run_goes_on_and_in_its_result(
 ) -> None:
     """Seen in every step, whatever is recorded: of each second step, which hides it, here."""
     monkeypatch.setenv("STAND_IN_FAULT", "zigzag")
+    monkeypatch.setenv("STAND_IN_PACE", "0.004")
     found = run(tmp_path, CASE.model_copy(update={"output_interval": 0.04}))
     assert found["loads_zigzag"] > LARGEST_ZIGZAG
     recorded = read_dataset(tmp_path / "k.nc")["cl"].values[200:]

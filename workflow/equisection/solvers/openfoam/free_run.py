@@ -21,6 +21,8 @@ Floats = NDArray[np.float64]
 
 logger = logging.getLogger(__name__)
 
+#: Time (c/V) from which the iterations are checked: a shorter record varies too little to tell.
+CHECKED_FROM = 10.0
 #: Interval of the states that a run is resumed from (c/V).
 STATE_INTERVAL = 2.0
 
@@ -43,7 +45,9 @@ class IterationsCheck:
         time, lift, moment
             s (c/V), c_l and c_m of every step so far, shape (n,).
         """
-        warning = "" if self._is_told else warning_of_zigzag(zigzag_of(time, lift, moment))
+        if self._is_told or not time.size or time[-1] < CHECKED_FROM:
+            return
+        warning = warning_of_zigzag(zigzag_of(time, lift, moment))
         if warning:
             self._is_told = True
             logger.warning("at %g c/V of the run that goes on: %s", time[-1], warning)
