@@ -92,7 +92,8 @@ def free() -> None:
                 "motion", start, "sixDoFRigidBodyState.dat", "centreOfRotation rotation"
             )
         # the loads are about the centre at rest
-        row(loads, now, f"0.05 {lift!r} {moment + 0.05 * motion['lift']!r}")
+        seen = lift + 0.05 * (-1) ** number if FAULT == "zigzag" else lift
+        row(loads, now, f"0.05 {seen!r} {moment + 0.05 * motion['lift']!r}")
         row(places, now, f"(0 {motion['lift']!r} 0) (0 0 {-motion['twist']!r})")
         say("ExecutionTime = 0 s\n")
         time.sleep(PACE)

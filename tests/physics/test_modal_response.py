@@ -10,7 +10,8 @@ FREQUENCY = np.array([0.4, 1.3, 9.0])
 
 
 def at_rest(load: Floats) -> ModalState:
-    return ModalState.at_rest(0.0, load)
+    nothing = np.zeros_like(load)
+    return ModalState(0.0, nothing, nothing, load, load)
 
 
 def test_free_modes_ring_at_their_frequencies_for_ever() -> None:
@@ -184,3 +185,19 @@ def test_structure_that_is_taken_up_again_goes_on_as_before() -> None:
         np.testing.assert_array_equal(
             again.turn(number * 0.02, load), whole.turn(number * 0.02, load)
         )
+
+
+def test_release_from_a_position_with_a_velocity_is_the_free_vibration_from_there() -> None:
+    """Under a load that is balanced by the springs at a place, about that place."""
+    place, start = np.array([0.2, -0.1, 0.01]), np.array([0.5, 0.3, -0.2])
+    velocity = np.array([-0.4, 0.1, 0.6])
+    load, step = place * FREQUENCY**2, 0.05
+    structure = Staggered(ModalStep(FREQUENCY, step), position=start, velocity=velocity)
+    np.testing.assert_array_equal(structure.proposed_position, start)
+    for number in range(1, 102):
+        structure.turn(number * step, load)
+    assert structure.state is not None
+    phase = FREQUENCY * structure.state.time
+    assert structure.state.time == pytest.approx(5.0)
+    expected = place + (start - place) * np.cos(phase) + velocity / FREQUENCY * np.sin(phase)
+    np.testing.assert_allclose(structure.state.position, expected, atol=1e-12)

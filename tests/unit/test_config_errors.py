@@ -306,18 +306,6 @@ MALFORMED = [
     ),
     ({"unsteady": {"start": {"twist_deg": -7}}}, "unsteady.start.twist_deg", "-7", "either way"),
     ({"unsteady": {"start": {"heave_rate": 2}}}, "unsteady.start.heave_rate", "2", "below 1"),
-    (
-        {"unsteady": {"start": {"twist_deg": 0.5}}, "solver": "openfoam"},
-        "unsteady.start.twist_deg",
-        "0.5",
-        "'embedded' takes it",
-    ),
-    (
-        {"unsteady": {"start": {"heave_rate": 0.01}}, "solver": "openfoam"},
-        "unsteady.start.heave_rate",
-        "0.01",
-        "'embedded' takes it",
-    ),
     ({"embedded": {"incidence_point": 0}}, "embedded.incidence_point", "0", "0.25"),
     (
         {"flow": {"incidence_deg": 0}, "embedded": {"symmetric": False}, "solver": "openfoam"},

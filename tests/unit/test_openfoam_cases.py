@@ -15,6 +15,7 @@ from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY
 from tests.watching import nothing
 
 from equisection.beam.section import Section
+from equisection.cases import Start
 from equisection.config import Config, load_config
 from equisection.errors import ConfigError, SolverError
 from equisection.figures.catalogue import figures
@@ -89,7 +90,7 @@ def test_wall_velocity_follows_the_mesh_from_the_steady_run_on(tmp_path: Path) -
 
 def body_of(section: Section, folder: Path, incidence: float = 0.0) -> dict[str, str]:
     """Return what is written of a section, by the last words of its lines."""
-    write_motion(folder, section, incidence, 4.0)
+    write_motion(folder, section, BodyAxes.of(section, incidence), 4.0)
     text = (folder / "constant" / "dynamicMeshDict").read_text()
     return dict(re.findall(r"(\w+) (.+);", text[text.index("mass ") :]))
 
@@ -100,7 +101,7 @@ def numbers(written: str) -> list[float]:
 
 def test_section_has_half_of_each_reduced_quantity(tmp_path: Path) -> None:
     assert UNSTEADY.section is not None
-    write_motion(tmp_path, UNSTEADY.section, 0.1, 4.0)
+    write_motion(tmp_path, UNSTEADY.section, BodyAxes.of(UNSTEADY.section, 0.1), 4.0)
     text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
     for line in ("mass 40;", "momentOfInertia (1 1 3.35);", "stiffness 0.45;", "stiffness 3.22;"):
         assert line in text
@@ -109,7 +110,8 @@ def test_section_has_half_of_each_reduced_quantity(tmp_path: Path) -> None:
 def test_section_without_dampers_and_offset_is_written_as_it_always_was(tmp_path: Path) -> None:
     """So that a run that was begun before goes on, whatever its incidence."""
     assert UNSTEADY.section is not None
-    write_motion(tmp_path, UNSTEADY.section, math.radians(2.5), 4.0)
+    axes = BodyAxes.of(UNSTEADY.section, math.radians(2.5))
+    write_motion(tmp_path, UNSTEADY.section, axes, 4.0)
     text = (tmp_path / "constant" / "dynamicMeshDict").read_bytes()
     assert hashlib.sha256(text).hexdigest()[:16] == "1f399325f7e89ea1"
 
@@ -118,7 +120,7 @@ def test_section_has_half_of_each_reduced_damping(tmp_path: Path) -> None:
     damped = Section(
         **{**dict(UNSTEADY.section or {}), "flexural_damping": 0.6, "torsional_damping": 0.2}
     )
-    write_motion(tmp_path, damped, 0.1, 4.0)
+    write_motion(tmp_path, damped, BodyAxes.of(damped, 0.1), 4.0)
     text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
     assert [float(found) for found in re.findall(r"damping (.+);", text)] == [0.3, 0.1]
 
@@ -213,6 +215,59 @@ def test_moments_of_a_section_with_offset_are_about_where_its_axes_have_moved(
     alpha = axes.incidence + twist
     transferred = history.moment - 0.25 * (0.4 * math.cos(alpha) + 0.1 * math.sin(alpha))
     np.testing.assert_allclose(history.axis_moment, transferred)
+
+
+def test_section_that_is_held_until_its_release_is_meshed_there(tmp_path: Path) -> None:
+    """Mid-chord, axis and centre of mass are where the section has turned them to about its axis.
+
+    Held at w = 0, the axis is where it is at rest, so the spring of the bending is slack; that of
+    the torsion is not.
+    """
+    twist, rigid = math.radians(2.0), math.radians(5.0)
+    held = BodyAxes(rigid, -0.25, 0.1, twist)
+    axis, centre = np.array(held.elastic_axis), np.array(held.centre_of_mass)
+    assert axis == pytest.approx([-0.25 * math.cos(rigid + twist), 0.25 * math.sin(rigid + twist)])
+    assert centre - axis == pytest.approx([0.1 * math.cos(twist), -0.1 * math.sin(twist)])
+    assert held.deflection(centre[1], np.array(twist)) == pytest.approx(0.0)
+    np.testing.assert_allclose(held.mid_chord_places(twist, 0.0), 0.0, atol=1e-15)
+    # untwisted, the section is as it is without a start, but for the place of its mesh
+    free = BodyAxes(rigid, -0.25, 0.1)
+    shift = np.subtract(held.axis_places(twist, 0.0), free.axis_places(twist, 0.0))
+    moved = np.array(held.mid_chord_places(-0.1, 0.3)) - free.mid_chord_places(-0.1, 0.3)
+    np.testing.assert_allclose(moved, shift)
+
+    write_histories(tmp_path, "1 0.1 0.4 0.07\n2 0.1 0.4 0.07\n", f"1 (0 {centre[1]} 0) (0 0 0)\n")
+    history = read_section(tmp_path, held)
+    assert (history.twist[0], history.deflection[0]) == pytest.approx((twist, 0.0))
+    assert history.moment[0] == pytest.approx(0.07)
+
+
+def test_body_of_a_start_has_its_rate_and_the_moment_of_its_spring(tmp_path: Path) -> None:
+    assert UNSTEADY.section is not None
+    twist = math.radians(2.0)
+    axes = BodyAxes.of(UNSTEADY.section, 0.0, twist)
+    write_motion(tmp_path, UNSTEADY.section, axes, 4.0, heave_rate=-0.01)
+    text = (tmp_path / "constant" / "dynamicMeshDict").read_text()
+    assert "velocity (0 -0.01 0);" in text
+    # nose down, which is about +z
+    assert numbers(re.findall(r"torque (.+);", text)[0])[2] == pytest.approx(3.22 * twist)
+    slack = numbers(re.findall(r"referenceOrientation (.+);", text)[0])
+    assert math.atan2(slack[3], slack[0]) == pytest.approx(twist)
+
+
+def test_start_of_a_section_is_that_of_the_tip_by_its_recovery() -> None:
+    started = UNSTEADY.model_copy(update={"start": Start(twist_deg=-0.5, heave_rate=0.02)})
+    assert started.section_start_twist == pytest.approx(math.radians(-0.5 * 0.6))
+    assert started.section_heave_rate == pytest.approx(0.02 * 0.4)
+    assert mesh_of(started, 1.0).incidence == pytest.approx(math.radians(2.5 - 0.3))
+
+
+@pytest.mark.parametrize("start", [{"twist_deg": -0.5}, {"heave_rate": 0.01}])
+def test_symmetric_section_starts_at_zero_incidence(start: dict[str, float]) -> None:
+    config = load_config(
+        openfoam(flow={"incidence_deg": 0.0}, unsteady={"time_step": 0.01, "start": start})
+    )
+    assert config.unsteady.start.is_given
 
 
 def test_settings_decide_results_and_know_no_machine() -> None:

@@ -30,6 +30,7 @@ from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.section.body_axes import BodyAxes
 from equisection.solvers.openfoam.section.section_history import read_section
 from equisection.store.job import run_cases
+from equisection.verdict.zigzag import LARGEST_ZIGZAG
 
 STAND_IN = f"{sys.executable} {ROOT / 'tests' / 'openfoam_stand_in.py'}"
 SOLVER = SolverBlock(
@@ -93,6 +94,28 @@ def test_case_that_cannot_be_computed_is_failed_with_its_reason(
     assert words in found["reason"]
     assert str(tmp_path / "store") in found["reason"]
     assert read_dataset(tmp_path / "k.nc").attrs["reason"] == found["reason"]
+
+
+def test_loads_that_zigzag_are_told_while_the_run_goes_on_and_in_its_result(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Seen in every step, whatever is recorded: of each second step, which hides it, here."""
+    monkeypatch.setenv("STAND_IN_FAULT", "zigzag")
+    monkeypatch.setenv("STAND_IN_PACE", "0.004")
+    found = run(tmp_path, CASE.model_copy(update={"output_interval": 0.04}))
+    assert found["loads_zigzag"] > LARGEST_ZIGZAG
+    recorded = read_dataset(tmp_path / "k.nc")["cl"].values[200:]
+    assert np.abs(np.diff(recorded, 4)).max() < 0.001  # of 0.8, if it were seen
+    (told,) = (r.getMessage() for r in caplog.records if "zigzag" in r.getMessage())
+    assert re.match(r"at 1\d\S* c/V of the run that goes on: not converged in its time step", told)
+    assert "openfoam.outer_correctors" in told
+
+
+def test_loads_that_are_converged_are_not_warned_of(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert run(tmp_path)["loads_zigzag"] < LARGEST_ZIGZAG / 20
+    assert "zigzag" not in caplog.text
 
 
 def test_loads_that_blow_up_just_before_the_end_are_no_result(

@@ -215,6 +215,14 @@ def test_mass_of_the_modes_is_that_of_a_beam_with_imbalance() -> None:
     np.testing.assert_array_equal(POINTS.mass, np.eye(4))
 
 
+def test_release_has_the_tip_where_it_is_to_be() -> None:
+    """In the first mode of each kind alone, each of which is largest at the free tip."""
+    position, velocity = POINTS.release(0.05, -0.01)
+    assert [*POINTS.tip(position), *POINTS.tip(velocity)] == pytest.approx([0.05, 0.0, 0.0, -0.01])
+    np.testing.assert_array_equal([position[1], *position[2:]], 0.0)
+    np.testing.assert_array_equal([*velocity[:2], velocity[3]], 0.0)
+
+
 def test_coupled_beam_refuses_a_field_that_it_does_not_have() -> None:
     """A beam of a later kind is refused by name until its physics is here."""
 

@@ -117,7 +117,7 @@ def test_motion_is_that_of_the_last_iteration_of_a_step(tmp_path: Path) -> None:
     np.testing.assert_allclose(motion.time, [0.02, 0.04])
     np.testing.assert_allclose(motion.height, [0.1, 0.2])
     # turned by asin(0.6) about -z, which is nose up
-    np.testing.assert_allclose(motion.twist, math.asin(0.6))
+    np.testing.assert_allclose(motion.rotation, math.asin(0.6))
 
 
 def test_steps_that_a_resumption_repeats_count_once(tmp_path: Path) -> None:

@@ -10,9 +10,10 @@ from tests.sample_cases import UNSTEADY_PLATE
 from tests.watching import nothing
 
 from equisection.errors import SolverError
-from equisection.motion.modal_response import ModalStep, Staggered
+from equisection.motion.modal_response import ModalState, ModalStep, Staggered
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.beam import free_beam as plate_free
+from equisection.solvers.openfoam.beam.beam_history import add_row
 from equisection.solvers.openfoam.beam.free_beam import PlateRun
 from equisection.solvers.openfoam.beam.pipes import Pipes
 from equisection.solvers.openfoam.installation import Installation
@@ -64,3 +65,21 @@ def test_picture_of_the_tip_is_no_condition_of_a_result(
 ) -> None:
     monkeypatch.setattr(tip_flow, "run_program", fails)
     assert tip_flow.sample_tip_flow(cast(Installation, None), tmp_path, MESH, state="") is None
+
+
+def test_zigzag_of_the_loads_is_seen_in_every_step_whatever_is_recorded(tmp_path: Path) -> None:
+    """A lift that zigzags by 10 % of its variation, of which each second step is recorded."""
+    case = UNSTEADY_PLATE.model_copy(update={"output_interval": 0.08, "time_step": 0.04})
+    run = PlateRun(cast(Installation, None), case, MESH, flow.Coupling(2), tmp_path, ranks=1)
+    run.folder.mkdir()
+    modes = run.points.frequency.size
+    with run.history_file.open("w", encoding="ascii") as stream:
+        for number in range(1000):
+            time, nothing = number * 0.04, np.zeros(modes)
+            swing = math.sin(time)
+            place = 0.01 * swing * np.eye(modes)[0]
+            state = ModalState(time, place, nothing, nothing, nothing)
+            add_row(stream, state, 0.3 + 0.1 * swing + 0.01 * (-1) ** number / 2**0.5, 0.05 * swing)
+    result = run._result("")
+    assert result.loads_zigzag == pytest.approx(0.1, rel=0.02)
+    assert np.abs(np.diff(result.lift, 4)).max() < 0.001

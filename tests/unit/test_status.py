@@ -77,6 +77,14 @@ class TestStates:
         assert entry.job is not None
         assert entry.job.fraction == 0.25
 
+    def test_a_warning_is_told_while_the_job_runs(self, run: Run) -> None:
+        run.job(6.0, Process.this())
+        run.log("unsteady_2d_k6", "2026-01-01 10:00:01,000 WARNING the loads zigzag\n")
+        run.job(7.0, Process.this())
+        entry = run.entry("k6")
+        assert (entry.state, entry.text) == (State.RUNNING, "the loads zigzag")
+        assert run.entry("k7").text == ""
+
     def test_a_killed_job_does_not_run(self, run: Run) -> None:
         run.job(6.0, GONE)
         entry = run.entry("k6")

@@ -11,6 +11,7 @@ The store, the kept results, the status, the verification and the cost of a run 
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -55,6 +56,20 @@ class UnsteadyCase(Case):
     def not_run(self) -> str:
         """Reason for the lack of a structure to move; empty for a case that is run."""
         return self.refusal
+
+    @property
+    def section_start_twist(self) -> float:
+        """Twist (rad) in which the section is held until the release; 0 for a beam."""
+        if self.section is None:
+            return 0.0
+        return math.radians(self.start.twist_deg) * self.section.twist_recovery
+
+    @property
+    def section_heave_rate(self) -> float:
+        """Rate of the section's deflection at the release (over V), up; 0 for a beam."""
+        if self.section is None:
+            return 0.0
+        return self.start.heave_rate * self.section.deflection_recovery
 
     @model_validator(mode="after")
     def _one_structure(self) -> UnsteadyCase:

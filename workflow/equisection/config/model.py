@@ -213,27 +213,13 @@ def _set_in_motion(
 ) -> Iterator[Problem]:
     """Refuse a release from an equilibrium, after which anything looks stable."""
     if incidence_deg == 0 and (symmetric or solver != "embedded") and not start.is_given:
-        start_of = "0 with unsteady.start.twist_deg or " if solver == "embedded" else ""
         yield Problem(
             "flow.incidence_deg",
             incidence_deg,
-            f"allowed is {start_of}any other, such as 0.1: a symmetric section has no loads at 0 "
-            "deg, so nothing sets it in motion and the sweep would say nothing of its stability",
+            "allowed is 0 with unsteady.start.twist_deg, or any other, such as 0.1: a symmetric "
+            "section has no loads at 0 deg, so nothing sets it in motion and the sweep would say "
+            "nothing of its stability",
         )
-
-
-@check("unsteady.start", "solver")
-def _start_of_the_solver(start: StartKeys, solver: str) -> Iterator[Problem]:
-    """Refuse a start that OpenFOAM's runs do not have."""
-    if solver != "openfoam":
-        return
-    for key, value in start.model_dump().items():
-        if value != 0:
-            yield Problem(
-                f"unsteady.start.{key}",
-                value,
-                "allowed with solver 'openfoam' is 0; 'embedded' takes it",
-            )
 
 
 @check("steady.incidence_deg", "flow.incidence_deg", "embedded.symmetric", "solver")

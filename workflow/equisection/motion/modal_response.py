@@ -43,12 +43,6 @@ class ModalState:
     load: Floats
     earlier_load: Floats
 
-    @classmethod
-    def at_rest(cls, time: float, load: Floats) -> ModalState:
-        """Return modes at rest and undeformed under a load that has not changed before."""
-        nothing = np.zeros_like(load)
-        return cls(time, nothing, nothing, load, load)
-
     def expected_load(self) -> Floats:
         """Return the load a step later by extrapolation."""
         return 2.0 * self.load - self.earlier_load
@@ -109,18 +103,29 @@ class Staggered:
     modes
         The step of the modes.
     start
-        Their state when the flow takes over; None before the first load is known, at rest.
+        Their state when the flow takes over; None before the first load is known.
+    position, velocity
+        Of the modes at the release, for the state that the first load completes; None for
+        undeformed and at rest.
     """
 
-    def __init__(self, modes: ModalStep, start: ModalState | None = None) -> None:
+    def __init__(
+        self,
+        modes: ModalStep,
+        start: ModalState | None = None,
+        *,
+        position: Floats | None = None,
+        velocity: Floats | None = None,
+    ) -> None:
         self._modes = modes
+        self._release = position, velocity
         self.state = start
         self._proposed = start if start is None else modes.advanced(start, start.expected_load())
 
     @property
     def proposed_position(self) -> Floats | None:
-        """Position of the modes that the flow was given last."""
-        return None if self._proposed is None else self._proposed.position
+        """Position of the modes that the flow was given last; None for undeformed at first."""
+        return self._release[0] if self._proposed is None else self._proposed.position
 
     def turn(self, time: float, load: Floats) -> Floats:
         """Take the load that the flow has computed, and return the position of modes at ``time``.
@@ -129,7 +134,10 @@ class Staggered:
         final. In a later turn it is the load at the end of the step.
         """
         if self._proposed is None:
-            self.state = ModalState.at_rest(time - self._modes.step, load)
+            position, velocity = (
+                np.zeros_like(load) if given is None else given for given in self._release
+            )
+            self.state = ModalState(time - self._modes.step, position, velocity, load, load)
         elif self.is_new_step(time):
             assert self.state is not None
             self.state = self._modes.advanced(self.state, load)

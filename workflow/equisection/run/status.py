@@ -22,7 +22,7 @@ from equisection.results.netcdf import read_attributes
 from equisection.results.whole import fault_of
 from equisection.run.listing import Listed, cases_of_run, config_of_run
 from equisection.run.status_cost import CostOfRun
-from equisection.run.status_logs import LINES, JobsOfRun, last_lines, printable
+from equisection.run.status_logs import LINES, JobsOfRun, last_lines, last_warning, printable
 from equisection.store.index import indices_of_run, read_index
 from equisection.store.lock import Owner, living_owner
 from equisection.store.progress import Snapshot
@@ -221,8 +221,8 @@ class _Reader:
         )
         runs_here = job is not None and job.lives()
         if runs_here or owner is not None:
-            text = "" if runs_here else "by another workflow in this store"
-            return replace(entry, state=State.RUNNING, text=text)
+            text = last_warning(log) if runs_here else "by another workflow in this store"
+            return replace(entry, state=State.RUNNING, text=printable(text))
         if fault[1]:
             return replace(entry, state=fault[0], text=printable(fault[1]))
         lines = last_lines(self._store.work(task), log)

@@ -78,6 +78,16 @@ def last_error(log: Path) -> str:
     return after[0].split(" ERROR ", 1)[1]
 
 
+def last_warning(log: Path | None) -> str:
+    """Return the message of the last warning in the log of a job; empty if there is none."""
+    try:
+        text = log.read_text(encoding="utf-8", errors="replace") if log else ""
+    except OSError:
+        return ""
+    found = [line for line in text.splitlines() if " WARNING " in line[:40]]
+    return found[-1].split(" WARNING ", 1)[1] if found else ""
+
+
 def last_lines(work: Path, log: Path | None) -> tuple[str, ...]:
     """Return the last lines of the newest log: of a program in the working directory, or the job's.
 

@@ -2,7 +2,8 @@
 
 OpenFOAM moves the mesh and resolves the flow; the structure is solved here, on its modes
 (``motion.modal_response``), with loads and places exchanged over pipes. The run starts from the
-rigid steady flow and is resumed from its last whole state, if its folder has one.
+rigid steady flow, or that of the plate held in its first torsion mode, and is resumed from its last
+whole state, if its folder has one.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from pathlib import Path
 from typing import IO
 
 import numpy as np
+from numpy.typing import NDArray
 
 from equisection.errors import SolverError
 from equisection.motion.modal_response import Staggered
@@ -29,6 +31,7 @@ from equisection.solvers.openfoam.beam.beam_history import (
     read_plate,
     require_state,
 )
+from equisection.solvers.openfoam.beam.deformed_mesh import deform_mesh
 from equisection.solvers.openfoam.beam.lumped_points import (
     Handed,
     LumpedPoints,
@@ -48,7 +51,7 @@ from equisection.solvers.openfoam.case_folder import (
     states,
 )
 from equisection.solvers.openfoam.dictionaries import write_system
-from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
 from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
 from equisection.solvers.openfoam.process import (
     SILENCE,
@@ -75,6 +78,8 @@ from equisection.solvers.verdicts import (
 from equisection.verdict.zigzag import zigzag_of
 
 logger = logging.getLogger(__name__)
+
+Floats = NDArray[np.float64]
 
 #: The version whose ``lumpedPointMovement`` the dictionaries are written for.
 _VERSION = "v1912"
@@ -104,6 +109,12 @@ class PlateRun(FreeRun[PlateMesh]):
         """The plate's modes at its lumped points."""
         assert self.case.beam is not None
         return LumpedPoints.of(self.case.beam, self.mesh.edges(), self.mesh.section.incidence)
+
+    @property
+    def release(self) -> tuple[Floats, Floats]:
+        """Position and velocity of the modes at the release."""
+        start = self.case.start
+        return self.points.release(math.radians(start.twist_deg), start.heave_rate)
 
     def history(self) -> PlateHistory:
         """Return the history so far."""
@@ -147,13 +158,20 @@ class PlateRun(FreeRun[PlateMesh]):
         rigid = PlateFlow(
             self.installation, self.case, self.mesh, self.coupling, self.ranks, self.work
         )
-        source, _, converged = rigid.steady(self.before_release(tell))
+        is_held = self.case.start.twist_deg != 0.0
+        source, _, converged = rigid.steady(
+            self.before_release(tell), self._deform if is_held else None
+        )
         if not converged:
             logger.info("the steady flow does not converge; the release is from its last state")
         folder = emptied(self.folder)
         copy_flow_of_all(source, folder)
-        write_lumped_motion(folder, self.points, names())
+        write_lumped_motion(folder, self.points, names(), is_deformed=is_held)
         mark_ready(folder)
+
+    def _deform(self, folder: Path) -> None:
+        """Move the mesh of a folder to that of the plate as it is held until the release."""
+        deform_mesh(self.installation, folder, self.points, self.release[0], self.work / "held")
 
     def _write_system(self) -> None:
         """Write what controls the run; its end may differ from that of an earlier start."""
@@ -195,7 +213,10 @@ class PlateRun(FreeRun[PlateMesh]):
         state = keep_until(self.history_file, before, self.points.frequency.size).state()
         if start:
             require_state(state, start, self.case.time_step, self.folder)
-        structure = Staggered(self.points.modes(self.case.time_step), state)
+        position, velocity = self.release
+        structure = Staggered(
+            self.points.modes(self.case.time_step), state, position=position, velocity=velocity
+        )
         pipes = Pipes(self.folder, SILENCE)
         try:
             run_beside(
@@ -299,6 +320,7 @@ class _Exchange:
         self._run, self._structure, self._pipes, self._tell = run, structure, pipes, tell
         self._due = Every(LOOKS_EVERY, last_look(start))
         self._resumed = structure.proposed_position
+        self._iterations = IterationsCheck()
         self._last: Handed | None = None
         self._answer = ""
 
@@ -370,5 +392,7 @@ class _Exchange:
         if not self._due.is_due(time):
             return False
         case = self._run.case
-        history = self._run.history().sampled(case.time_step, case.output_interval, last_look(time))
+        so_far = self._run.history()
+        self._iterations.look(so_far.time, so_far.lift, so_far.moment)
+        history = so_far.sampled(case.time_step, case.output_interval, last_look(time))
         return is_decided(case, self._run.tip_motion(history))

@@ -144,6 +144,21 @@ class LumpedPoints:
         """Number n_t of torsion modes."""
         return int(self.torsion.shape[0])
 
+    def release(self, twist: float, heave_rate: float) -> tuple[Floats, Floats]:
+        """Return position and velocity of the modes at a release, shape (n_t + n_b,) each.
+
+        Parameters
+        ----------
+        twist
+            Theta of the tip in the first torsion mode (rad).
+        heave_rate
+            w'/c of the tip in the first bending mode (over V), up.
+        """
+        position, velocity = np.zeros((2, self.frequency.size))
+        position[0] = twist / self.torsion_at_tip[0]
+        velocity[self.torsion_modes] = heave_rate / self.bending_at_tip[0]
+        return position, velocity
+
     def modes(self, step: float) -> ModalStep:
         """Return a time step (c/V) of the modes."""
         return ModalStep(self.frequency, step, self.damping_ratio, self.mass)
@@ -298,14 +313,18 @@ class Handed:
         return Handed(self.time, self.forces, moments)
 
 
-def write_lumped_motion(folder: Path, points: LumpedPoints, comms: Mapping[str, str]) -> None:
-    """Write the files that move the mesh of a case, divided or not, with the plate at rest.
+def write_lumped_motion(
+    folder: Path, points: LumpedPoints, comms: Mapping[str, str], *, is_deformed: bool = False
+) -> None:
+    """Write the files that move the mesh of a case, divided or not.
 
     Parameters
     ----------
     comms
         Names of the folder and the files of the exchange: ``commsDir``, ``inputName``,
         ``outputName`` and ``logName``.
+    is_deformed
+        The displacement of the mesh at time 0 is there already. Otherwise the plate is at rest.
     """
     movement = {
         "axis": (0, 0, 1),
@@ -340,7 +359,7 @@ def write_lumped_motion(folder: Path, points: LumpedPoints, comms: Mapping[str, 
         folder / "system" / "lumpedPointMovement", dictionary("lumpedPointMovement", movement)
     )
     write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", mesh))
-    for part in parts(folder):
+    for part in [] if is_deformed else parts(folder):
         write_text(part / "0" / "pointDisplacement", _point_displacement())
 
 

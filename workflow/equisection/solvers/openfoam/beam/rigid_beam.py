@@ -7,6 +7,7 @@ more on the plate, and with means of shorter records: a step costs what eight of
 from __future__ import annotations
 
 import logging
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -119,8 +120,17 @@ class PlateFlow:
         make_mesh(self.installation, folder)
         return folder
 
-    def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
+    def steady(
+        self, tell: Tell, deform: Callable[[Path], None] | None = None
+    ) -> tuple[Path, Loads, bool]:
         """Make the mesh and run the steady solver until it has converged, or for long enough.
+
+        Parameters
+        ----------
+        tell
+            Called with the progress.
+        deform
+            Moves the mesh of a folder, which is divided already, to that of a plate held deformed.
 
         Returns
         -------
@@ -134,6 +144,8 @@ class PlateFlow:
         """
         folder = self.set_up()
         divide(self.installation, folder, self.ranks, self.mesh.layers)
+        if deform is not None:
+            deform(folder)
         loads, has_converged = follow_iterations(
             folder,
             _has_converged,

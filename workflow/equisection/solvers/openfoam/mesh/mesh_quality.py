@@ -20,6 +20,7 @@ from equisection.solvers.openfoam.case_folder import emptied
 from equisection.solvers.openfoam.dictionaries import control, dictionary, write_system
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.process import run_program
+from equisection.solvers.openfoam.section.body_axes import BodyAxes
 from equisection.solvers.openfoam.section.section_motion import morphing, write_displacement
 
 #: A section that goes on as it was started.
@@ -75,7 +76,7 @@ class MorphingMesh:
         entries = {**control("pimpleFoam", 1.0, 1.0 / steps, 1.0 / steps), "purgeWrite": 0}
         entries["functions"] = {}
         write_system(place, entries, flow.schemes(steady=False), flow.unsteady_solution())
-        moving = morphing(_COASTING, 0.0, self.channel_height)
+        moving = morphing(_COASTING, BodyAxes(0.0), self.channel_height)
         cosine, sine = math.cos(twist), math.sin(twist)
         moving["sixDoFRigidBodyMotionCoeffs"] |= {
             "test": True,  # no flow and no loads

@@ -25,7 +25,8 @@ def problems(config: Config) -> Iterator[Problem]:
         given.upstream_chords,
         given.downstream_chords,
     )
-    angles = {*config.steady.incidence_deg, config.flow.incidence_deg}
+    released = config.flow.incidence_deg + config.unsteady.start.twist_deg
+    angles = {*config.steady.incidence_deg, config.flow.incidence_deg, released}
     try:
         for angle in sorted(angles, key=abs, reverse=True):
             Mesh(channel, math.radians(angle), 1.0).points()

@@ -11,8 +11,11 @@ obeys its equations (:mod:`equisection.beam.section`) as they are, and S is not 
 cosine of the incidence. The centre of mass being held along the stream in the place of the axis,
 the axis moves by d (1 - cos theta) along it.
 
-Lengths are in chords; x is along the stream and y up, from mid-chord at rest. Nose up is a rotation
-about -z.
+A section that is held at a twist until its release is meshed there, so that its mesh is at rest
+then and not distorted.
+
+Lengths are in chords; x is along the stream and y up, from mid-chord at the release. Nose up
+is a rotation about -z.
 """
 
 from __future__ import annotations
@@ -47,15 +50,18 @@ class BodyAxes:
         x_ea, chords from mid-chord back to the elastic axis.
     arm
         d, chords from the elastic axis back to the centre of mass.
+    start_twist
+        Twist at the release (rad), in which the section is meshed.
     """
 
     incidence: float
     behind_mid_chord: float = 0.0
     arm: float = 0.0
+    start_twist: float = 0.0
 
     @classmethod
-    def of(cls, section: Section, incidence: float) -> BodyAxes:
-        """Return the axes of a section in its flow at a rigid incidence (rad).
+    def of(cls, section: Section, incidence: float, start_twist: float = 0.0) -> BodyAxes:
+        """Return the axes of a section in its flow at a rigid incidence and a first twist (rad).
 
         Raises
         ------
@@ -64,30 +70,34 @@ class BodyAxes:
         """
         section.require_defaults("the rigid body of OpenFOAM", but=OF_BODY)
         arm = section.static_imbalance / section.mass
-        return cls(incidence, section.axis_behind_mid_chord, arm)
+        return cls(incidence, section.axis_behind_mid_chord, arm, start_twist)
 
     @property
     def elastic_axis(self) -> tuple[float, float]:
-        """Place of the elastic axis at rest."""
+        """Place of the elastic axis at the release."""
+        incidence = self.incidence + self.start_twist
         return (
-            self.behind_mid_chord * math.cos(self.incidence),
-            -self.behind_mid_chord * math.sin(self.incidence) + 0.0,
+            self.behind_mid_chord * math.cos(incidence),
+            -self.behind_mid_chord * math.sin(incidence) + 0.0,
         )
 
     @property
     def centre_of_mass(self) -> tuple[float, float]:
-        """Place of the centre of mass at rest."""
+        """Place of the centre of mass at the release."""
         along, up = self.elastic_axis
-        return along + self.arm, up
+        return (
+            along + self.arm * math.cos(self.start_twist),
+            up - self.arm * math.sin(self.start_twist),
+        )
 
     def deflection(self, height: Floats, twist: Floats) -> Floats:
         """Return w/c of the elastic axis from the height of the centre of mass and the twist."""
-        return np.asarray(height - self.centre_of_mass[1] + self.arm * np.sin(twist))
+        return np.asarray(height - self.elastic_axis[1] + self.arm * np.sin(twist))
 
     def axis_places(self, twist: Floats, deflection: Floats) -> Places:
         """Return the places of the elastic axis at twists (rad) and deflections (chords)."""
         along, up = self.elastic_axis
-        return along + self.arm * (1.0 - np.cos(twist)), up + deflection
+        return along + self.arm * (math.cos(self.start_twist) - np.cos(twist)), up + deflection
 
     def mid_chord_places(self, twist: Floats, deflection: Floats) -> Places:
         """Return the places of mid-chord at twists (rad) and deflections (chords)."""
@@ -98,7 +108,7 @@ class BodyAxes:
 
 
 def moment_about(places: tuple[Value, Value], moment: Value, lift: Value, drag: Value) -> Floats:
-    """Return c_m about places from c_m about mid-chord at rest, c_l and c_d.
+    """Return c_m about places from c_m about mid-chord at the release, c_l and c_d.
 
     c_m(x, y) = c_m(0) + x c_l - y c_d: lift ahead of a place, and drag above it, turn the nose up
     about it.

@@ -30,7 +30,7 @@ from equisection.solvers.openfoam.case_folder import (
     mark_ready,
 )
 from equisection.solvers.openfoam.dictionaries import control, write_system
-from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
 from equisection.solvers.openfoam.mesh.block_mesh import Mesh
 from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
@@ -73,7 +73,8 @@ class SectionRun(FreeRun[Mesh]):
     def axes(self) -> BodyAxes:
         """Axes of the section."""
         assert self.case.section is not None
-        return BodyAxes.of(self.case.section, self.mesh.incidence)
+        incidence = math.radians(self.case.incidence_deg)
+        return BodyAxes.of(self.case.section, incidence, self.case.section_start_twist)
 
     def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
         """Make the rigid steady flow, as :func:`~.section_rigid.run_steady` does."""
@@ -82,7 +83,13 @@ class SectionRun(FreeRun[Mesh]):
     def write_motion(self, folder: Path) -> None:
         """Write the dictionaries that move section and mesh."""
         assert self.case.section is not None
-        write_motion(folder, self.case.section, self.mesh.incidence, self.mesh.channel.height)
+        write_motion(
+            folder,
+            self.case.section,
+            self.axes,
+            self.mesh.channel.height,
+            self.case.section_heave_rate,
+        )
 
     def write_system(self, folder: Path) -> None:
         """Write the control of the run, whose end may differ from that of an earlier start."""
@@ -150,17 +157,20 @@ class SectionRun(FreeRun[Mesh]):
         )
         _, height = self.axes.mid_chord_places(so_far.twist[-1], so_far.deflection[-1])
         try:
-            fault = self.mesh_fault(twist, float(height))
+            fault = self.mesh_fault(twist - self.axes.start_twist, float(height))
         except SolverError as error:
             # the run has its result, whatever becomes of the search for its cause
             logger.warning("the mesh at its end was not checked: %s", error)
             return where
         return f"{where}, where {fault}" if fault else where
 
-    def mesh_fault(self, twist: float, height: float) -> str:
-        """Return the fault of the mesh at a twist (rad) and height (chords) of mid-chord, or ''."""
+    def mesh_fault(self, rotation: float, height: float) -> str:
+        """Return the fault of the mesh at a rotation since the release (rad), or ''.
+
+        ``height`` is that of mid-chord (chords).
+        """
         mesh = MorphingMesh(self.installation, self.folder, self.mesh.channel.height)
-        quality = mesh.along(twist, height, 1, self.work / "moved")[-1]
+        quality = mesh.along(rotation, height, 1, self.work / "moved")[-1]
         faults = quality.faults
         if not faults and quality.non_orthogonality_deg > _OBLIQUE:
             faults = f"a face is {quality.non_orthogonality_deg:.0f} deg oblique"
@@ -169,7 +179,7 @@ class SectionRun(FreeRun[Mesh]):
         return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
 
     def _watch(self, start: float, tell: Tell) -> Watch:
-        case, due = self.case, Every(LOOKS_EVERY, last_look(start))
+        case, due, iterations = self.case, Every(LOOKS_EVERY, last_look(start)), IterationsCheck()
 
         def decided(time: float) -> bool:
             tell(time, case.duration)
@@ -177,9 +187,9 @@ class SectionRun(FreeRun[Mesh]):
                 return False
             loads = read_loads(self.folder)
             require_reasonable(loads, self.folder)
-            history = self.history(loads).sampled(
-                case.time_step, case.output_interval, last_look(time)
-            )
+            so_far = self.history(loads)
+            iterations.look(so_far.time, so_far.lift, so_far.moment)
+            history = so_far.sampled(case.time_step, case.output_interval, last_look(time))
             return is_decided(case, _tip(case.section, history))
 
         return decided
@@ -216,7 +226,7 @@ def _from_release(
     sampled = history.sampled(case.time_step, case.output_interval, end)
     return SectionHistory(
         np.concatenate([[0.0], sampled.time]),
-        np.concatenate([[0.0], sampled.twist]),
+        np.concatenate([[case.section_start_twist], sampled.twist]),
         np.concatenate([[0.0], sampled.deflection]),
         np.concatenate([[loads["lift"]], sampled.lift]),
         np.concatenate([[loads["moment"]], sampled.moment]),

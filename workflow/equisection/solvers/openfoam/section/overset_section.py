@@ -91,7 +91,9 @@ class OversetRun(SectionRun):
     def write_motion(self, folder: Path) -> None:
         """Write the dictionary that moves the section and its mesh."""
         assert self.case.section is not None
-        body = rigid_body(self.case.section, self.mesh.incidence, _EVERYWHERE, 2 * _EVERYWHERE)
+        body = rigid_body(
+            self.case.section, self.axes, _EVERYWHERE, 2 * _EVERYWHERE, self.case.section_heave_rate
+        )
         body["report"] = True
         section = {
             "motionSolverLibs": ['"libsixDoFRigidBodyMotion.so"'],
@@ -117,9 +119,9 @@ class OversetRun(SectionRun):
             folder, entries, _overlapping(flow.schemes(steady=False), self.meshes), solution
         )
 
-    def mesh_fault(self, twist: float, height: float) -> str:
+    def mesh_fault(self, rotation: float, height: float) -> str:
         """Return the fault of the plate's mesh where it has left the channel, else ''."""
-        reach, half = self.meshes.reach(twist, height), self.mesh.channel.height / 2
+        reach, half = self.meshes.reach(rotation, height), self.mesh.channel.height / 2
         if reach < half:
             return ""
         return f"the plate's mesh reaches {reach:.3g} c off the middle of a channel of {half:g} c"

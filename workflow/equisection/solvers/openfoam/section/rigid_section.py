@@ -63,7 +63,7 @@ class RigidLoads:
 
 
 def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = SIMILAR) -> Mesh:
-    """Return the mesh of a case.
+    """Return the mesh of a case, of a free section turned to its twist at the release.
 
     Raises
     ------
@@ -79,7 +79,10 @@ def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing
     channel = ChannelBox(
         geometry.thickness, geometry.channel_height, geometry.upstream, geometry.downstream
     )
-    return Mesh(channel, math.radians(case.incidence_deg), refinement, spacing)
+    incidence = math.radians(case.incidence_deg)
+    if isinstance(case, UnsteadyCase):
+        incidence += case.section_start_twist
+    return Mesh(channel, incidence, refinement, spacing)
 
 
 def run_steady(

@@ -88,7 +88,7 @@ def read_section(
         _steps(loads.time), _steps(motion.time), return_indices=True, assume_unique=True
     )
     _require_every_step(loads.time[one], folder)
-    twist = motion.twist[other]
+    twist = axes.start_twist + motion.rotation[other]
     deflection = axes.deflection(motion.height[other], twist)
     known = loads.moment[one], loads.lift[one], loads.drag[one]
     return SectionHistory(

@@ -11,6 +11,7 @@ loads, springs and dampers at the latest estimate of the new position.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -40,22 +41,36 @@ _RIGID_WITHIN, _STILL_BEYOND, _STILL_PART = 0.3, 1.5, 0.75
 
 @dataclass(frozen=True)
 class BodyMotion:
-    """Time (c/V), twist (rad), nose up, and height (chords) of the centre of mass, shape (n,)."""
+    """Motion of the rigid body, shape (n,).
+
+    Attributes
+    ----------
+    time
+        s (c/V).
+    rotation
+        Rotation since the release (rad), nose up.
+    height
+        Height of the centre of mass (chords).
+    """
 
     time: NDArray[np.float64]
-    twist: NDArray[np.float64]
+    rotation: NDArray[np.float64]
     height: NDArray[np.float64]
 
 
-def write_motion(folder: Path, section: Section, incidence: float, channel_height: float) -> None:
+def write_motion(
+    folder: Path, section: Section, axes: BodyAxes, channel_height: float, heave_rate: float = 0.0
+) -> None:
     """Write ``constant/dynamicMeshDict``: the section, and the mesh that morphs around it."""
-    entries = morphing(section, incidence, channel_height)
+    entries = morphing(section, axes, channel_height, heave_rate)
     write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", entries))
     write_displacement(folder)
 
 
-def morphing(section: Section, incidence: float, channel_height: float) -> dict[str, Any]:
-    """Return the section at its rigid incidence (rad), and the mesh that morphs around it.
+def morphing(
+    section: Section, axes: BodyAxes, channel_height: float, heave_rate: float = 0.0
+) -> dict[str, Any]:
+    """Return the section, and the mesh that morphs around it.
 
     It does so up to near the channel's walls.
     """
@@ -65,25 +80,30 @@ def morphing(section: Section, incidence: float, channel_height: float) -> dict[
         "dynamicFvMesh": "dynamicMotionSolverFvMesh",
         "motionSolverLibs": ['"libsixDoFRigidBodyMotion.so"'],
         "motionSolver": "sixDoFRigidBodyMotion",
-        "sixDoFRigidBodyMotionCoeffs": rigid_body(section, incidence, within, still),
+        "sixDoFRigidBodyMotionCoeffs": rigid_body(section, axes, within, still, heave_rate),
     }
 
 
 def rigid_body(
-    section: Section, incidence: float, rigid_within: float, still: float
+    section: Section, axes: BodyAxes, rigid_within: float, still: float, heave_rate: float = 0.0
 ) -> dict[str, Any]:
-    """Return the section in its flow, released from rest with slack springs.
+    """Return the section in its flow, released from its first twist.
+
+    The springs are slack, but for that of the torsion where there is a first twist.
 
     Parameters
     ----------
     section
         The section in its flow (:meth:`equisection.beam.section.Section.in_flow`).
-    incidence
-        Rigid incidence theta_0 (rad).
+    axes
+        Its axes, with its rigid incidence and its twist at the release.
     rigid_within, still
         Up to the first distance (chords) the mesh moves with it, beyond the second it is at rest.
+    heave_rate
+        Rate of the deflection at the release (over V), up.
     """
-    axes = BodyAxes.of(section, incidence)
+    twist = axes.start_twist
+    cosine, sine = math.cos(twist), math.sin(twist)
     centre = (*axes.centre_of_mass, 0)
     about_centre = section.inertia - section.static_imbalance**2 / section.mass
     return {
@@ -93,10 +113,11 @@ def rigid_body(
         "mass": section.mass / 2,
         "centreOfMass": centre,
         "momentOfInertia": (1.0, 1.0, about_centre / 2),
-        "velocity": (0, 0, 0),
+        "velocity": (0, heave_rate, 0),
         "acceleration": (0, 0, 0),
         "angularMomentum": (0, 0, 0),
-        "torque": (0, 0, 0),
+        # of the spring; without it the first step would have half of it
+        "torque": (0, 0, section.torsional_stiffness / 2 * twist),
         "rho": "rhoInf",
         "rhoInf": 1.0,
         "g": (0, 0, 0),
@@ -118,7 +139,8 @@ def rigid_body(
                 "axis": (0, 0, 1),
                 "stiffness": section.torsional_stiffness / 2,
                 "damping": section.torsional_damping / 2,
-                "referenceOrientation": (1, 0, 0, 0, 1, 0, 0, 0, 1),
+                # where the spring is slack, seen from the release
+                "referenceOrientation": (cosine, 0.0 - sine, 0, sine, cosine, 0, 0, 0, 1),
             },
         },
     }
@@ -178,6 +200,8 @@ def motion_output() -> dict[str, Any]:
 
 def read_motion(folder: Path) -> BodyMotion:
     """Return the motion of a run so far, from what its function object wrote.
+
+    The rotation is that since the release.
 
     Raises
     ------
