@@ -32,6 +32,12 @@ OVERSET_MESHES = ("coarse", "medium", "fine")
 MeshMotion = Literal["morph", "overset"]
 MORPH: MeshMotion = "morph"
 OVERSET: MeshMotion = "overset"
+#: Mesh of the section: of blocks, or of layers at its outline with cells between.
+Mesher = Literal["blocks", "outline"]
+BLOCKS: Mesher = "blocks"
+OUTLINE: Mesher = "outline"
+#: Meshes that there are around an outline.
+OUTLINE_MESHES = ("coarse", "medium", "fine")
 #: Environment variable of the command before each program.
 PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
 #: The largest time step (c/V) that follows the flow over the plate.
@@ -65,6 +71,11 @@ class OpenFoam(SolverKeys):
         description="How the mesh follows the free section: `morph` deforms it, `overset` moves a "
         "mesh around the plate as it is above one of the channel, for large deflection and twist.",
     )
+    mesher: Mesher = Field(
+        BLOCKS,
+        description="Mesh of the rectangular section: `blocks`, or `outline`, that of any outline "
+        "(layers at the wall, quadrilaterals between), which `beam.outline` always has.",
+    )
     prefix: str = Field(
         "",
         description="Command before each program, for instance `openfoam2312` or that of a "
@@ -85,6 +96,10 @@ class OpenFoam(SolverKeys):
     def environment(self) -> dict[str, str]:
         """Return variables by which jobs find the solver on a machine."""
         return {PREFIX_VARIABLE: self.prefix} if self.prefix else {}
+
+    def has_beam_of(self, outline: object) -> bool:
+        """Tell whether the solver runs the beam of an outline: that of the rectangle alone."""
+        return outline is None
 
     def refuses_folder(self, folder: Path) -> str:
         """Return why the solver cannot work in a folder; empty if it can."""
@@ -134,6 +149,47 @@ def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
             channel,
             "allowed is a channel with solver 'openfoam', which meshes it; for free air give a "
             "wide one, for instance flow.channel: {height_chords: 20, tip_gap_chords: 10}",
+        )
+
+
+@check("solver", "beam.outline", "openfoam.mesher", "openfoam.meshes", "openfoam.mesh_motion")
+def _has_a_mesh_of_outlines(
+    solver: str, outline: object, mesher: str, meshes: Mapping[str, str], motion: str
+) -> Iterator[Problem]:
+    """Refuse what the mesh of outlines does not have."""
+    if solver != "openfoam" or (outline is None and mesher == BLOCKS):
+        return
+    why = "with beam.outline" if outline is not None else "with openfoam.mesher: outline"
+    for name, mesh in meshes.items():
+        if mesh not in OUTLINE_MESHES:
+            yield Problem(
+                f"openfoam.meshes.{name}", mesh, f"allowed are {', '.join(OUTLINE_MESHES)} {why}"
+            )
+    if motion == OVERSET:
+        yield Problem(
+            "openfoam.mesh_motion", motion, f"allowed is {MORPH} {why}; overset has no such mesh"
+        )
+
+
+@check("solver", "beam.outline", "sweep.models", "steady.beam_polar")
+def _no_beam_of_an_outline(
+    solver: str, outline: object, models: tuple[str, ...], beam_polar: str
+) -> Iterator[Problem]:
+    """Refuse a beam of an outline, which has no mesh."""
+    if solver != "openfoam" or outline is None:
+        return
+    if "3d" in models:
+        yield Problem(
+            "sweep.models",
+            list(models),
+            "allowed with beam.outline is 2d: OpenFOAM's mesh of the beam is that of a rectangle",
+        )
+    elif not beam_polar and any("corrected" in model for model in models):
+        yield Problem(
+            "sweep.models",
+            list(models),
+            "allowed with beam.outline are models without correction, or a steady.beam_polar of "
+            "this beam: OpenFOAM's mesh of the rigid beam is that of a rectangle",
         )
 
 

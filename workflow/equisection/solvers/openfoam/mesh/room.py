@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from equisection.beam.outline import outline_of, rectangle
 from equisection.config import Config
+from equisection.config.groups.openfoam_keys import OUTLINE
 from equisection.errors import SolverError
 from equisection.keys.checks import Problem
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 
 
 def problems(config: Config) -> Iterator[Problem]:
@@ -25,10 +28,17 @@ def problems(config: Config) -> Iterator[Problem]:
         given.upstream_chords,
         given.downstream_chords,
     )
+    outline = beam.outline_in_flow()
+    if outline is None and config.openfoam.mesher == OUTLINE:
+        outline = outline_of(rectangle(channel.thickness))
     angles = {*config.steady.incidence_deg, config.flow.incidence_deg}
     try:
         for angle in sorted(angles, key=abs, reverse=True):
-            Mesh(channel, math.radians(angle), 1.0).points()
+            incidence = math.radians(angle)
+            if outline is None:
+                Mesh(channel, incidence, 1.0).points()
+            else:
+                OutlineMesh(outline.as_pairs(), channel, incidence, 1.0).require_room()
     except SolverError as error:
         yield Problem(
             "flow.channel",

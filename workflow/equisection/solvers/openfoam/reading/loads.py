@@ -55,10 +55,13 @@ class Loads:
         """Return the means of drag, lift and moment."""
         return float(self.drag.mean()), float(self.lift.mean()), float(self.moment.mean())
 
-    def spread(self) -> float:
-        """Return the largest half range of a coefficient relative to its mean."""
+    def spread(self, floor: float = _FLOOR) -> float:
+        """Return the largest half range of a coefficient relative to its mean.
+
+        A mean counts as ``floor`` at least.
+        """
         return max(
-            float(np.ptp(values)) / 2 / max(abs(float(values.mean())), _FLOOR)
+            float(np.ptp(values)) / 2 / max(abs(float(values.mean())), floor)
             for values in (self.drag, self.lift, self.moment)
         )
 

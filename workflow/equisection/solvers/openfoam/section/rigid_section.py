@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import logging
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.beam.outline import outline_of, rectangle
+from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.results.surface import SectionSurface
 from equisection.solvers.openfoam import flow_setup as flow
@@ -22,6 +24,7 @@ from equisection.solvers.openfoam.dictionaries import (
 )
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.block_mesh import SIMILAR, ChannelBox, Mesh, Spacing
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 from equisection.solvers.openfoam.process import BlowUpError, run_program
 from equisection.solvers.openfoam.reading.loads import Loads
 from equisection.solvers.openfoam.reading.section_surface import (
@@ -38,9 +41,13 @@ from equisection.solvers.openfoam.rigid_flow import (
     follow_iterations,
     follow_unsteady,
     has_converged,
+    has_converged_around_outline,
     method_of_mean,
     write_at_rest,
 )
+
+#: Mesh of a section, of either mesher.
+SectionCells = Mesh | OutlineMesh
 
 logger = logging.getLogger(__name__)
 
@@ -58,7 +65,6 @@ class RigidLoads:
     lift: float
     moment: float
     method: str
-    cells: int
     surface: SectionSurface
 
 
@@ -70,22 +76,38 @@ def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing
     SolverError
         The case has no channel, which the mesh fills.
     """
+    return Mesh(_channel(case.geometry), math.radians(case.incidence_deg), refinement, spacing)
+
+
+def outline_mesh_of(case: SteadyCase | UnsteadyCase, refinement: float) -> OutlineMesh:
+    """Return the mesh of a case around its outline, or around the rectangle of its thickness.
+
+    Raises
+    ------
+    SolverError
+        The case has no channel.
+    """
     geometry = case.geometry
+    outline = geometry.outline or outline_of(rectangle(geometry.thickness)).as_pairs()
+    channel = _channel(geometry)
+    return OutlineMesh(outline, channel, math.radians(case.incidence_deg), refinement)
+
+
+def _channel(geometry: Geometry) -> ChannelBox:
     if None in (geometry.channel_height, geometry.upstream, geometry.downstream):
         raise SolverError("flow.channel: null: the mesh of OpenFOAM fills a channel; give one")
     assert geometry.channel_height is not None
     assert geometry.upstream is not None
     assert geometry.downstream is not None
-    channel = ChannelBox(
+    return ChannelBox(
         geometry.thickness, geometry.channel_height, geometry.upstream, geometry.downstream
     )
-    return Mesh(channel, math.radians(case.incidence_deg), refinement, spacing)
 
 
 def run_steady(
     installation: Installation,
     case: SteadyCase | UnsteadyCase,
-    mesh: Mesh,
+    mesh: SectionCells,
     work: Path,
     tell: Tell,
 ) -> tuple[Path, Loads, bool]:
@@ -102,7 +124,6 @@ def run_steady(
         A program failed, or the mesh is not sound.
     """
     folder = emptied(work / "steady")
-    write_mesh_dictionary(folder, mesh)
     flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium))
     write_system(
         folder,
@@ -110,16 +131,25 @@ def run_steady(
         flow.schemes(steady=True),
         flow.steady_solution(),
     )
+    if isinstance(mesh, OutlineMesh):
+        mesh.write(folder)
+        check_mesh(installation, folder)
+        return iterate(installation, "simpleFoam", folder, tell, has_converged_around_outline)
+    write_mesh_dictionary(folder, mesh)
     make_mesh(installation, folder)
     return iterate(installation, "simpleFoam", folder, tell)
 
 
 def iterate(
-    installation: Installation, program: str, folder: Path, tell: Tell
+    installation: Installation,
+    program: str,
+    folder: Path,
+    tell: Tell,
+    is_converged: Callable[[Loads], bool] = has_converged,
 ) -> tuple[Path, Loads, bool]:
     """Run a steady solver until it has converged, or for long enough; see :func:`run_steady`."""
     loads, converged = follow_iterations(
-        folder, has_converged, tell, lambda watch: run_program(installation, program, folder, watch)
+        folder, is_converged, tell, lambda watch: run_program(installation, program, folder, watch)
     )
     return folder, loads, converged
 
@@ -133,6 +163,17 @@ def make_mesh(installation: Installation, folder: Path) -> None:
         A program failed, or the mesh is not sound.
     """
     run_program(installation, "blockMesh", folder)
+    check_mesh(installation, folder)
+
+
+def check_mesh(installation: Installation, folder: Path) -> None:
+    """Have the mesh of a folder checked.
+
+    Raises
+    ------
+    SolverError
+        The program failed, or the mesh is not sound.
+    """
     run_program(installation, "checkMesh", folder)
     require_sound_mesh(folder / "log.checkMesh")
 
@@ -159,7 +200,7 @@ def require_sound_mesh(log: Path) -> None:
 def rigid_loads(
     installation: Installation,
     case: SteadyCase,
-    mesh: Mesh,
+    mesh: SectionCells,
     work: Path,
     tell: Tell,
     *,
@@ -194,7 +235,9 @@ def rigid_loads(
     return unsteady_mean(installation, folder, mesh, work, tell, coupling=coupling)
 
 
-def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Mesh) -> RigidLoads:
+def steady_mean(
+    installation: Installation, folder: Path, loads: Loads, mesh: SectionCells
+) -> RigidLoads:
     """Return the loads of a converged steady run, the means of its last iterations.
 
     Raises
@@ -205,13 +248,13 @@ def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Me
     drag, lift, moment = loads.last(WINDOW // 3).means()
     surface = surface_of_steady(installation, folder, mesh)
     method = f"steady, {loads.time.size} iterations"
-    return RigidLoads(drag, lift, moment, method, mesh.cells, surface)
+    return RigidLoads(drag, lift, moment, method, surface)
 
 
 def unsteady_mean(
     installation: Installation,
     source: Path,
-    mesh: Mesh,
+    mesh: SectionCells,
     work: Path,
     tell: Tell,
     *,
@@ -238,4 +281,4 @@ def unsteady_mean(
     )
     drag, lift, moment = record.means()
     surface = surface_of_mean(folder, mesh)
-    return RigidLoads(drag, lift, moment, method_of_mean(record), mesh.cells, surface)
+    return RigidLoads(drag, lift, moment, method_of_mean(record), surface)
