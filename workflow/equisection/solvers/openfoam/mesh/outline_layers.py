@@ -81,25 +81,30 @@ def layers_of(wall: Wall, sizes: OutlineSizes, refinement: float) -> Layers:
 
     thinner = 1.0
     for _ in range(_TRIES):
-        layers = _layers(wall, sizes, refinement, thinner)
+        rays = _rays(wall, sizes, refinement, thinner)
+        worst = wall.points[rays.base[int(np.argmin(rays.thickness))]]
+        if rays.thickness.min() < sizes.first:
+            break
+        layers = _layers(wall, rays, sizes, refinement, thinner)
         areas = corner_areas(layers.cells)
         if areas.min() > 0 and shapely.Polygon(layers.cells.points[layers.front]).is_valid:
             return layers
+        worst = layers.cells.points[layers.cells.corners[int(np.argmin(areas))][0]]
         thinner *= _THINNER
-    worst = layers.cells.points[layers.cells.corners[int(np.argmin(areas))][0]]
     raise BlowUpError(
         f"no layers of cells fit around the outline at x/c = {worst[0] + 0.5:.4g}, y/c = "
-        f"{worst[1]:.4g}: smooth it there, or leave out small parts"
+        f"{worst[1]:.4g}: widen or fill gaps and smooth the outline there"
     )
 
 
-def _layers(wall: Wall, sizes: OutlineSizes, refinement: float, thinner: float) -> Layers:
-    rays = _rays(wall, sizes, refinement, thinner)
+def _layers(
+    wall: Wall, rays: _Rays, sizes: OutlineSizes, refinement: float, thinner: float
+) -> Layers:
     number, count, base = round(sizes.layers * refinement), len(rays.base), len(wall.points)
     first = np.minimum(sizes.first / refinement, rays.thickness / number)
     grown = np.array(
         [
-            expansion(float(thickness), number, float(cell)) ** (1 / (number - 1))
+            _growth(float(thickness), number, float(cell))
             for thickness, cell in zip(rays.thickness, first, strict=True)
         ]
     )
@@ -118,6 +123,13 @@ def _layers(wall: Wall, sizes: OutlineSizes, refinement: float, thinner: float) 
     # the wall is passed counter-clockwise about the body, with the fluid on the right
     corners = np.stack([vertices[:-1], vertices[1:], after[1:], after[:-1]], axis=-1)
     return Layers(PlaneCells(np.concatenate(points), corners.reshape(-1, 4)), vertices[-1], thinner)
+
+
+def _growth(thickness: float, number: int, first: float) -> float:
+    """Return the growth from cell to cell; 1 where there is room for even ones alone."""
+    if first * number >= thickness * (1 - 1e-6):
+        return 1.0
+    return expansion(thickness, number, first) ** (1 / (number - 1))
 
 
 def _rays(wall: Wall, sizes: OutlineSizes, refinement: float, thinner: float) -> _Rays:
