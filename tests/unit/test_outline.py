@@ -97,7 +97,8 @@ def refused(points: np.ndarray | list[list[float]], *, is_airfoil: bool = False)
 def test_refusals_have_the_place() -> None:
     eight = [[-0.5, -0.1], [0.5, 0.1], [0.5, -0.1], [-0.5, 0.1]]
     assert "crosses itself at x/c = 0.5, y/c = 0" in refused(eight)
-    assert "3 different points" in refused(SQUARE[:3])
+    assert "3 points; allowed are 4 or more" in refused(SQUARE[:3])
+    assert "2 different points" in refused(SQUARE[[0, 1, 1, 0]])
     assert "not a finite number" in refused([[0, 0], [1, math.nan], [1, 1], [0, 1]])
     assert "0.001 c thick" in refused(SQUARE * (1.0, 0.001))
     assert "c high; allowed is up to 2 c" in refused(SQUARE * (1.0, 3.0))
@@ -105,6 +106,10 @@ def test_refusals_have_the_place() -> None:
     assert "an edge of 1.3 deg at x/c = 1, y/c = 0" in refused(cusp)
     two = [[-0.5, -0.1], [0, -0.1], [0, 0.1], [-0.5, -0.1], [0.1, 0.1], [0.5, 0.2]]
     assert "itself at" in refused(two)
+
+
+def test_triangle_is_closed_by_its_first_point() -> None:
+    assert outline_of(SQUARE[[0, 1, 2, 0]]).area == pytest.approx(0.5)
 
 
 def test_open_airfoil_is_refused() -> None:

@@ -23,6 +23,8 @@ Floats = NDArray[np.float64]
 
 #: Turning of a curve from one of its points to the next (deg), and their largest distance (chords).
 FINEST_TURN_DEG, LONGEST_STEP = 3.0, 0.02
+#: Fewest points, the first one again included.
+FEWEST_POINTS = 4
 #: Points nearer to each other than this are one (chords).
 _ONE_POINT = 1e-7
 #: Limits of what is meshed: thickness and height over the chord, angle of the body at a corner
@@ -231,11 +233,16 @@ def outline_of(points: Floats, *, is_airfoil: bool = False) -> Outline:
                 f"an airfoil that is open by {gap:.3g} c from {_place(points[0])} to "
                 f"{_place(points[-1])}; allowed is up to {WIDEST_GAP:g} c, a blunt trailing edge"
             )
+    if len(points) < FEWEST_POINTS:
+        raise OutlineError(
+            f"{len(points)} points; allowed are {FEWEST_POINTS} or more, of a triangle with the "
+            "first one again at the end"
+        )
     clean = _without_doubles(points, _ONE_POINT)
     if len(clean) > 1 and math.dist(clean[0], clean[-1]) < _ONE_POINT:
         clean = clean[:-1]
-    if len(clean) < 4:
-        raise OutlineError(f"{len(clean)} different points; allowed are four or more")
+    if len(clean) < FEWEST_POINTS - 1:
+        raise OutlineError(f"{len(clean)} different points; allowed are three or more")
     _require_size(clean)
     _require_one_loop(clean)
     if is_airfoil:

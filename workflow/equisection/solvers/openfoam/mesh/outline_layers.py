@@ -129,7 +129,7 @@ def _growth(thickness: float, number: int, first: float) -> float:
     """Return the growth from cell to cell; 1 where there is room for even ones alone."""
     if first * number >= thickness * (1 - 1e-6):
         return 1.0
-    return expansion(thickness, number, first) ** (1 / (number - 1))
+    return math.exp(math.log(expansion(thickness, number, first)) / (number - 1))
 
 
 def _rays(wall: Wall, sizes: OutlineSizes, refinement: float, thinner: float) -> _Rays:
