@@ -76,6 +76,11 @@ class OpenFoam(SolverKeys):
         description="Mesh of the rectangular section: `blocks`, or `outline`, that of any outline "
         "(layers at the wall, quadrilaterals between), which `beam.outline` always has.",
     )
+    far_field_chords: Annotated[float, Field(ge=10, le=1000, allow_inf_nan=False), NUMBER] = Field(
+        30.0,
+        description="Distance of the far field (chords), to every side, of a section in free air "
+        "(`flow.channel: null`), which needs the mesh of outlines.",
+    )
     prefix: str = Field(
         "",
         description="Command before each program, for instance `openfoam2312` or that of a "
@@ -141,14 +146,33 @@ def _root_is_on_a_wall(
         )
 
 
-@check("solver", "flow.channel")
-def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
-    if solver == "openfoam" and channel is None:
+@check("solver", "flow.channel", "beam.outline", "openfoam.mesher")
+def _needs_a_channel(
+    solver: str, channel: object, outline: object, mesher: str
+) -> Iterator[Problem]:
+    if solver == "openfoam" and channel is None and outline is None and mesher == BLOCKS:
         yield Problem(
             "flow.channel",
             channel,
-            "allowed is a channel with solver 'openfoam', which meshes it; for free air give a "
-            "wide one, for instance flow.channel: {height_chords: 20, tip_gap_chords: 10}",
+            "allowed is a channel with solver 'openfoam', which meshes it; for a section in free "
+            "air openfoam.mesher: outline, or a wide channel, for instance flow.channel: "
+            "{height_chords: 20, tip_gap_chords: 10}",
+        )
+
+
+@check("solver", "flow.channel", "beam.outline", "sweep.models", "steady.beam_polar")
+def _no_beam_in_free_air(
+    solver: str, channel: object, outline: object, models: tuple[str, ...], beam_polar: str
+) -> Iterator[Problem]:
+    """Refuse a beam without a channel, which its mesh fills."""
+    if solver != "openfoam" or channel is not None or outline is not None:
+        return
+    if "3d" in models or not beam_polar:
+        yield Problem(
+            "flow.channel",
+            channel,
+            "allowed with solver 'openfoam' is a channel for the beam: leave out the model 3d, and "
+            "give steady.beam_polar or beam.outline",
         )
 
 

@@ -56,6 +56,7 @@ class Adapter:
             section.velocity_relaxation,
             section.mesh_motion,
             "" if config.beam.outline is None and section.mesher == BLOCKS else _mesher(),
+            section.far_field_chords if config.flow.channel is None else 0.0,
         )
         return cls(settings, Allocation(section.ranks))
 
@@ -105,7 +106,7 @@ class Adapter:
         preset = PRESETS[self._settings.mesh]
         if self._settings.mesher:
             require_mesher(self._settings.mesher)
-            return rigid_section.outline_mesh_of(case, preset.refinement)
+            return rigid_section.outline_mesh_of(case, preset.refinement, self._settings.far_field)
         if case.geometry.outline is not None:
             raise SolverError("the case has an outline and no mesher of outlines; write it anew")
         return rigid_section.mesh_of(case, preset.refinement, preset.spacing)

@@ -79,17 +79,31 @@ def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing
     return Mesh(_channel(case.geometry), math.radians(case.incidence_deg), refinement, spacing)
 
 
-def outline_mesh_of(case: SteadyCase | UnsteadyCase, refinement: float) -> OutlineMesh:
+def outline_mesh_of(
+    case: SteadyCase | UnsteadyCase, refinement: float, far_field: float = 0.0
+) -> OutlineMesh:
     """Return the mesh of a case around its outline, or around the rectangle of its thickness.
+
+    Parameters
+    ----------
+    case
+        The case.
+    refinement
+        Refinement of each direction.
+    far_field
+        Distance of the far field (chords) in free air.
 
     Raises
     ------
     SolverError
-        The case has no channel.
+        The case has neither a channel nor a far field.
     """
     geometry = case.geometry
     outline = geometry.outline or outline_of(rectangle(geometry.thickness)).as_pairs()
-    channel = _channel(geometry)
+    if geometry.channel_height is None and far_field:
+        channel = ChannelBox(geometry.thickness, 2 * far_field, far_field, far_field)
+    else:
+        channel = _channel(geometry)
     return OutlineMesh(outline, channel, math.radians(case.incidence_deg), refinement)
 
 
