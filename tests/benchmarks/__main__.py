@@ -24,6 +24,7 @@ from tests.benchmarks import (  # noqa: E402
     many_cases,
     modes,
     openfoam,
+    outlines,
     plate,
 )
 from tests.benchmarks.measure import Row  # noqa: E402
@@ -36,6 +37,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
     "openfoam": openfoam.rows,
+    "outlines": outlines.rows,
     "plate": plate.rows,
 }
 

@@ -1,8 +1,6 @@
 """Meshes of random polygons: how many are sound, and what they cost.
 
-::
-
-    python -m tests.benchmarks.outlines [NUMBER]
+Every polygon without a sound mesh is named on the error output, with the reason.
 """
 
 from __future__ import annotations
@@ -11,6 +9,7 @@ import re
 import resource
 import sys
 import tempfile
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -20,14 +19,19 @@ from equisection.beam.outline import outline_of, placed
 from equisection.errors import EquisectionError
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.dictionaries import control, write_system
-from equisection.solvers.openfoam.installation import find
+from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
-from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
-from equisection.solvers.openfoam.process import run_program
+from equisection.solvers.openfoam.mesh.outline_mesh import LOG, OutlineMesh
+from equisection.solvers.openfoam.section.rigid_section import check_mesh
+from tests.benchmarks.measure import Row, limit
 
-#: Corners of a polygon, fewest and most, and incidence (deg).
+#: Number of polygons, and of those that are to have a sound mesh.
+POLYGONS, WANTED = 200, 195
+#: Corners of a polygon, fewest and most, incidence (deg), and channel.
 CORNERS, INCIDENCE_DEG = (3, 12), 5.0
 CHANNEL = ChannelBox(0.1, 4.0, 5.0, 15.0)
+#: Processor seconds and megabytes of a mesh, at the most.
+SECONDS, MEGABYTES = 5.0, 400.0
 
 
 def random_polygon(generator: np.random.Generator) -> NDArray[np.float64]:
@@ -41,48 +45,36 @@ def random_polygon(generator: np.random.Generator) -> NDArray[np.float64]:
     return points / points.max(axis=0) * np.array([1.0, height])
 
 
-def main() -> None:
-    """Print a line for each polygon without a sound mesh, and the sums."""
-    number = int(sys.argv[1]) if len(sys.argv) > 1 else 200
+def cells_of(installation: Installation, points: NDArray[np.float64], folder: Path) -> int:
+    """Return the number of cells of a mesh that ``checkMesh`` finds sound."""
+    outline = outline_of(placed(points))
+    OutlineMesh(outline.as_pairs(), CHANNEL, np.radians(INCIDENCE_DEG), 1.0).write(folder)
+    entries = control("simpleFoam", 1, 1, 1)
+    write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
+    check_mesh(installation, folder)
+    found = re.match(r"\d+", (folder / LOG).read_text().splitlines()[-1])
+    assert found
+    return int(found[0])
+
+
+def rows(polygons: int = POLYGONS) -> Iterator[Row]:
+    """Yield number of sound meshes, their cells, and what the dearest mesh takes."""
     generator, installation = np.random.default_rng(1), find()
-    sound, refused, cells, oblique = 0, 0, [], []
-    for one in range(number):
+    cells, seconds = [], []
+    for number in range(polygons):
         points = random_polygon(generator)
-        try:
-            outline = outline_of(placed(points))
-            with tempfile.TemporaryDirectory() as place:
-                folder = Path(place)
-                mesh = OutlineMesh(
-                    outline.as_pairs(),
-                    ChannelBox(0.1, 4.0, 5.0, 15.0),
-                    np.radians(INCIDENCE_DEG),
-                    1.0,
-                )
-                mesh.write(folder)
-                cells.append(int((folder / "log.outline").read_text().split()[0]))
-                entries = control("simpleFoam", 1, 1, 1)
-                write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
-                run_program(installation, "checkMesh", folder)
-                said = (folder / "log.checkMesh").read_text()
-        except EquisectionError as error:
-            refused += 1
-            print(f"{one}: refused: {error}", flush=True)
-            continue
-        angle = re.search(r"non-orthogonality Max: (\S+)", said)
-        oblique.append(float(angle[1]) if angle else np.nan)
-        if "Mesh OK." in said:
-            sound += 1
-        else:
-            faults = [line.strip(" *") for line in said.splitlines() if "***" in line]
-            print(f"{one}: not sound: {'; '.join(faults)}", flush=True)
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    seconds = (used.ru_utime + used.ru_stime) / number
-    print(
-        f"{sound} of {number} sound, {refused} refused; {np.median(cells):.0f} cells (median), "
-        f"{np.max(oblique):.0f} deg oblique at most; {seconds:.1f} "
-        f"processor seconds each with checkMesh, {used.ru_maxrss / 1024:.0f} MB at most"
-    )
-
-
-if __name__ == "__main__":
-    main()
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        with tempfile.TemporaryDirectory() as place:
+            try:
+                cells.append(cells_of(installation, points, Path(place)))
+            except EquisectionError as error:
+                print(f"polygon {number}: {error}", file=sys.stderr, flush=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        seconds.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    least = WANTED * polygons // POLYGONS
+    sound = f"{len(cells)} of {polygons}"
+    yield Row("random polygons with a sound mesh", sound, f">= {least}", len(cells) >= least)
+    yield Row("cells", f"{np.min(cells)} to {np.max(cells)}, median {np.median(cells):.0f}")
+    yield limit("mesh and check of one, median", float(np.median(seconds)), SECONDS, "processor s")
+    memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+    yield limit("memory of one, most", memory, MEGABYTES, "MB")

@@ -47,7 +47,9 @@ SHAPES = {
     "rounded": outline_of(shapes.rectangle(0.04, 0.02)),
     "naca 0012": outline_of(placed(shapes.naca("0012"), 1.0), is_airfoil=True),
     "naca 4412": outline_of(placed(shapes.naca("4412"), 1.0), is_airfoil=True),
-    "deck": polygon([[0, 0.03], [0.12, 0], [0.88, 0], [1, 0.03], [1, 0.045], [0.5, 0.06], [0, 0.045]]),
+    "deck": polygon(
+        [[0, 0.03], [0.12, 0], [0.88, 0], [1, 0.03], [1, 0.045], [0.5, 0.06], [0, 0.045]]
+    ),
     # girders as deep as 0.2 of the width (Tacoma), and a panel on its torque tube
     "h": polygon(
         [[0, 0], [0.02, 0], [0.02, 0.09], [0.98, 0.09], [0.98, 0], [1, 0],
