@@ -84,7 +84,6 @@ def test_meshes_are_sound(installation: Installation, tmp_path: Path, name: str)
     folder = made(installation, mesh, tmp_path)
     found = quality(folder / "log.checkMesh")
     assert found["max_non_orthogonality_deg"] < 80.0
-    assert found["max_skewness"] < 3.0
     points, corners = read_cells(folder)
     areas = cell_areas(points, corners)
     assert areas.min() > 0

@@ -9,9 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from tests.sample_cases import GEOMETRY, STEADY
 
 from equisection.beam import outline as shapes
 from equisection.beam.outline import Outline, outline_of, placed
+from equisection.cases import SteadyCase, case_hash
 from equisection.config import load_config
 from equisection.errors import ConfigError, SolverError
 from equisection.solvers.openfoam.adapter import Adapter
@@ -30,6 +32,8 @@ from equisection.solvers.openfoam.mesh.plane_cells import (
 from equisection.solvers.openfoam.mesh.poly_mesh import read_poly_mesh
 from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.reading.section_surface import contour_of_outline
+from equisection.solvers.openfoam.section.rigid_section import outline_mesh_of
+from equisection.solvers.openfoam.settings import Settings
 from equisection.study.plan import steady_dimensions
 
 SIZES = OutlineSizes()
@@ -251,6 +255,35 @@ def test_outline_decides_the_mesher() -> None:
     plate = load_config({**WING, "beam": {}, "structure": {}, "openfoam": {"mesher": "outline"}})
     assert "mesher" in Adapter.from_config(plate, "coarse").settings("2d")
     assert "mesher" not in Adapter.from_config(plate, "coarse").settings("3d")
+
+
+def test_beam_of_an_outline_is_not_taken_for_a_rectangle(tmp_path: Path) -> None:
+    geometry = GEOMETRY.model_copy(update={"outline": SHAPES["airfoil"].as_pairs()})
+    case = STEADY.model_copy(update={"geometry": geometry, "dimension": "3d"})
+    solver = Adapter(Settings("coarse", 2))
+    with pytest.raises(SolverError, match="mesh of the beam is that of a rectangle"):
+        solver.plate_grid(case, tmp_path)
+
+
+def test_case_keeps_its_outline_and_its_hash() -> None:
+    """An outline makes another case; without one the case is written as before."""
+    assert "outline" not in STEADY.model_dump()["geometry"]
+    geometry = GEOMETRY.model_copy(update={"outline": SHAPES["airfoil"].as_pairs()})
+    case = STEADY.model_copy(update={"geometry": geometry})
+    assert case_hash(case) != case_hash(STEADY)
+    assert SteadyCase.model_validate_json(case.model_dump_json()) == case
+
+
+def test_far_field_takes_the_place_of_the_channel() -> None:
+    free = {"channel_height": None, "tip_gap": None, "upstream": None, "downstream": None}
+    case = STEADY.model_copy(update={"geometry": GEOMETRY.model_copy(update=free)})
+    assert outline_mesh_of(case, 1.0, 30.0).channel == ChannelBox(0.04, 60.0, 30.0, 30.0)
+    with pytest.raises(SolverError, match=r"flow\.channel: null"):
+        outline_mesh_of(case, 1.0)
+    flow = {"channel": None}
+    settings = Adapter.from_config(load_config({**WING, "flow": flow}), "coarse").settings("2d")
+    assert settings["far_field"] == 30.0
+    assert "far_field" not in Adapter.from_config(load_config(WING), "coarse").settings("2d")
 
 
 @pytest.mark.parametrize(

@@ -160,6 +160,7 @@ class Adapter:
         from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
+        _require_rectangle(case)
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         return PlateFlow(installation, case, mesh, self._settings.coupling, self._ranks, place)
 
@@ -202,6 +203,7 @@ class Adapter:
         from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
+        _require_rectangle(case)
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         coupling, ranks = self._settings.coupling, self._ranks
         run = PlateRun(installation, case, mesh, coupling, place, ranks)
@@ -214,6 +216,21 @@ def _mesher() -> str:
     from equisection.solvers.openfoam.mesh.outline_mesh import mesher  # noqa: PLC0415
 
     return mesher()
+
+
+def _require_rectangle(case: SteadyCase | UnsteadyCase) -> None:
+    """Refuse a beam of an outline.
+
+    Raises
+    ------
+    SolverError
+        The case has one.
+    """
+    if case.geometry.outline is not None:
+        raise SolverError(
+            "OpenFOAM's mesh of the beam is that of a rectangle: take beam.outline out, or run the "
+            "section alone (sweep.models: [2d])"
+        )
 
 
 def _require_own_loads(case: UnsteadyCase) -> None:
