@@ -102,6 +102,10 @@ def test_refusals_have_the_place() -> None:
     assert "not a finite number" in refused([[0, 0], [1, math.nan], [1, 1], [0, 1]])
     assert "0.001 c thick" in refused(SQUARE * (1.0, 0.001))
     assert "c high; allowed is up to 2 c" in refused(SQUARE * (1.0, 3.0))
+    angle = np.linspace(0, 2 * np.pi, 1001)[:-1]
+    noise = np.stack([np.cos(angle), np.sin(angle)], axis=-1) / 2
+    noise[::2] *= 1.01
+    assert "1000 vertices turn by more than 3.5 deg" in refused(noise)
     cusp = [[0.5, 0.0], [-0.4, 0.01], [-0.5, 0.0], [-0.4, -0.01]]
     assert "an edge of 1.3 deg at x/c = 1, y/c = 0" in refused(cusp)
     two = [[-0.5, -0.1], [0, -0.1], [0, 0.1], [-0.5, -0.1], [0.1, 0.1], [0.5, 0.2]]

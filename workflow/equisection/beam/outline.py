@@ -30,6 +30,9 @@ _ONE_POINT = 1e-7
 #: Limits of what is meshed: thickness and height over the chord, angle of the body at a corner
 #: (deg), gap at the trailing edge of an airfoil (chords).
 THINNEST, HIGHEST, SHARPEST_DEG, WIDEST_GAP = 2e-3, 2.0, 2.0, 0.1
+#: Most corners, and the turning (deg) from which a vertex counts as one: more are noise, which no
+#: cells follow.
+MOST_CORNERS, KINK_DEG = 500, 3.5
 #: Extent along the chord over the chord that is given: beyond, the units are not one.
 _LIKE_CHORD = 1.25
 #: Angle of the fluid in a notch (deg) below which it has no layers of cells, and the radius
@@ -257,6 +260,12 @@ def outline_of(points: Floats, *, is_airfoil: bool = False) -> Outline:
         _require_one_loop(clean)
     if signed_area(clean) < 0:
         clean = clean[::-1]
+    corners = int((np.abs(turning_deg(clean)) > KINK_DEG).sum())
+    if corners > MOST_CORNERS:
+        raise OutlineError(
+            f"{corners} vertices turn by more than {KINK_DEG:g} deg; allowed are {MOST_CORNERS}: "
+            "smooth it, or leave out points"
+        )
     clean = _without_notches(clean)
     _require_blunt(clean)
     return Outline(np.round(clean, _DIGITS) + 0.0)

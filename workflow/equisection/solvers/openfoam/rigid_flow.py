@@ -19,6 +19,7 @@ from equisection.files import write_text
 from equisection.solvers.openfoam.dictionaries import dictionary
 from equisection.solvers.openfoam.process import Every, Watch
 from equisection.solvers.openfoam.reading.loads import (
+    FLOOR,
     Loads,
     first_known,
     read_loads,
@@ -44,11 +45,15 @@ Tell = Callable[[float, float], None]
 
 @dataclass(frozen=True)
 class RigidFlowRecord:
-    """Time left out, and shortest and longest record, of a rigid unsteady run (c/V)."""
+    """Time left out, and shortest and longest record, of a rigid unsteady run (c/V).
+
+    A mean counts as ``floor`` at least where the difference of two halves is judged.
+    """
 
     discarded: float
     shortest: float
     longest: float
+    floor: float = FLOOR
 
     @property
     def end(self) -> float:
@@ -135,7 +140,10 @@ def follow_unsteady(
     def known(loads: Loads) -> Loads | None:
         require_reasonable(loads, folder)
         return first_known(
-            loads, lambda part: part.since(record.discarded).drift() <= KNOWN, shortest, LOOKS_EVERY
+            loads,
+            lambda part: part.since(record.discarded).drift(record.floor) <= KNOWN,
+            shortest,
+            LOOKS_EVERY,
         )
 
     def watch(time: float) -> bool:
@@ -150,11 +158,11 @@ def follow_unsteady(
     return (loads if part is None else part).since(record.discarded)
 
 
-def method_of_mean(record: Loads) -> str:
+def method_of_mean(record: Loads, floor: float = FLOOR) -> str:
     """Return the origin of a record's means in words."""
     return (
         f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
-        f"{100 * record.drift():.2g} % apart"
+        f"{100 * record.drift(floor):.2g} % apart"
     )
 
 

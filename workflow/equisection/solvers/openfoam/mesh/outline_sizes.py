@@ -53,6 +53,5 @@ class OutlineSizes:
 
 #: Number of cells at refinement 1 in a channel of 4 c, of a section of the usual shapes.
 TYPICAL_CELLS = 11_000
-#: Turning of a vertex (deg) from which a cell of the wall ends there, and from which it is a corner
-#: with small cells.
-KINK_DEG, CORNER_DEG = 3.5, 25.0
+#: Turning of a vertex (deg) from which it is a corner with small cells.
+CORNER_DEG = 25.0

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.beam.outline import turning_deg
-from equisection.solvers.openfoam.mesh.outline_sizes import CORNER_DEG, KINK_DEG, OutlineSizes
+from equisection.beam.outline import KINK_DEG, turning_deg
+from equisection.solvers.openfoam.mesh.outline_sizes import CORNER_DEG, OutlineSizes
 
 Floats = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from equisection.beam.outline import outline_of, rectangle
@@ -33,6 +33,7 @@ from equisection.solvers.openfoam.reading.section_surface import (
     surface_of_steady,
 )
 from equisection.solvers.openfoam.rigid_flow import (
+    FLOOR_OF_OUTLINE,
     MOST,
     STEP,
     WINDOW,
@@ -287,12 +288,13 @@ def unsteady_mean(
     folder = emptied(work / "unsteady")
     copy_flow(source, folder)
     write_at_rest(folder)
-    entries = control("pimpleFoam", RECORD.end, STEP, RECORD.end)
-    entries["functions"] |= averaging(RECORD.discarded, SAMPLED)
+    wanted = replace(RECORD, floor=FLOOR_OF_OUTLINE) if isinstance(mesh, OutlineMesh) else RECORD
+    entries = control("pimpleFoam", wanted.end, STEP, wanted.end)
+    entries["functions"] |= averaging(wanted.discarded, SAMPLED)
     write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution(coupling))
     record = follow_unsteady(
-        folder, RECORD, tell, lambda watch: run_program(installation, "pimpleFoam", folder, watch)
+        folder, wanted, tell, lambda watch: run_program(installation, "pimpleFoam", folder, watch)
     )
     drag, lift, moment = record.means()
     surface = surface_of_mean(folder, mesh)
-    return RigidLoads(drag, lift, moment, method_of_mean(record), surface)
+    return RigidLoads(drag, lift, moment, method_of_mean(record, wanted.floor), surface)
