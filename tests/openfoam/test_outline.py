@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -179,12 +178,3 @@ def test_airfoil_from_digits_to_verdict(installation: Installation, tmp_path: Pa
     result = SectionRun(installation, case, mesh, Coupling(), tmp_path).run(nothing)
     assert result.verdict["regime"] == "growing"
     assert result.incidence[-1] > math.radians(8.0)
-
-
-@pytest.mark.skipif("EQUISECTION_LONG" not in os.environ, reason="three minutes and more")
-def test_rectangle_over_its_meshes(installation: Installation, tmp_path: Path) -> None:
-    loads = [
-        rigid(installation, tmp_path / f"{r:g}", "rectangle", 2.5, r) for r in (1.0, math.sqrt(2.0))
-    ]
-    assert loads[0].lift == pytest.approx(loads[1].lift, rel=0.01)
-    assert loads[0].moment == pytest.approx(loads[1].moment, rel=0.01)

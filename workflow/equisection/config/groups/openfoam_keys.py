@@ -133,10 +133,12 @@ def _follows_the_flow(solver: str, step: float) -> Iterator[Problem]:
         )
 
 
-@check("solver", "flow.root_on_wall", "steady.beam_polar", "sweep.models")
+@check("solver", "flow.root_on_wall", "steady.beam_polar", "sweep.models", "beam.outline")
 def _root_is_on_a_wall(
-    solver: str, root_on_wall: bool, beam_polar: str, models: tuple[str, ...]
+    solver: str, root_on_wall: bool, beam_polar: str, models: tuple[str, ...], outline: object
 ) -> Iterator[Problem]:
+    if outline is not None:  # whose beam has no mesh
+        return
     if solver == "openfoam" and not root_on_wall and ("3d" in models or not beam_polar):
         yield Problem(
             "flow.root_on_wall",
