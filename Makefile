@@ -100,13 +100,16 @@ drawing: $(ENV)/run
 bench: $(ENV)/test
 	$(BIN)/python -m tests.benchmarks
 
-# Debian and Ubuntu have it packaged; as root, or with sudo. Elsewhere see docs/openfoam.md.
-openfoam:
-	@command -v simpleFoam >/dev/null && { echo "OpenFOAM is there: $$(command -v simpleFoam)"; exit 0; }; \
+# Debian and Ubuntu have it packaged; as root, or with sudo. Elsewhere see docs/openfoam.md. gmsh, which
+# meshes outlines, comes from Python's packages and needs libraries of the system.
+GMSH_NEEDS := libglu1-mesa libxcursor1 libxft2 libxinerama1 libxrender1 libfontconfig1 libgomp1
+openfoam: $(ENV)/openfoam
+	@command -v simpleFoam >/dev/null && $(BIN)/python -c 'import gmsh' 2>/dev/null && \
+		{ echo "OpenFOAM is there: $$(command -v simpleFoam)"; exit 0; }; \
 	command -v apt-get >/dev/null || \
 		{ echo "error: no apt-get here; docs/openfoam.md says how else to install OpenFOAM" >&2; exit 1; }; \
 	as_root=$$([ $$(id -u) -eq 0 ] || echo sudo); \
-	$$as_root apt-get update --quiet && $$as_root apt-get install --quiet --yes openfoam
+	$$as_root apt-get update --quiet && $$as_root apt-get install --quiet --yes openfoam $(GMSH_NEEDS)
 
 # A scheduler of one machine, for the tests; Debian and Ubuntu, as root or with sudo. Snakemake's part
 # has a folder of its own, since it would cost every start of Snakemake some time.
@@ -132,8 +135,12 @@ $(ENV)/run: $(ENV)/python-is-new-enough envs/constraints.txt pyproject.toml
 	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable .
 	@touch $@
 
+$(ENV)/openfoam: $(ENV)/run
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[openfoam]'
+	@touch $@
+
 $(ENV)/test: $(ENV)/run
-	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[test]'
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[test,openfoam]'
 	@touch $@
 
 $(ENV)/docs: $(ENV)/run

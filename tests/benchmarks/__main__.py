@@ -25,6 +25,7 @@ from tests.benchmarks import (  # noqa: E402
     many_cases,
     modes,
     openfoam,
+    outlines,
     plate,
 )
 from tests.benchmarks.measure import Row  # noqa: E402
@@ -38,6 +39,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "early-verdict": early_verdict.rows,
     "flips": flips.rows,
     "openfoam": openfoam.rows,
+    "outlines": outlines.rows,
     "plate": plate.rows,
 }
 

@@ -21,6 +21,10 @@ class PolarFileError(EquisectionError):
     """A polar file cannot be used; the message names file and line."""
 
 
+class OutlineError(EquisectionError):
+    """An outline cannot be used; the message has file or key, and the place on it."""
+
+
 class IncidenceOutOfRangeError(EquisectionError):
     """A case left the range of incidence that its polar covers."""
 

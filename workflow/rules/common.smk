@@ -113,8 +113,10 @@ def code(script, *further):
 
 
 def solver_input_files():
-    """Return the files that the configured solver reads, for instance section polars."""
-    return given(CONFIG.solver_section.input_files())
+    """Return the files that the configured solver reads, for instance section polars, and the
+    beam's outline.
+    """
+    return given(CONFIG.solver_section.input_files() + CONFIG.beam.input_files)
 
 
 def kept_files():

@@ -14,15 +14,19 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Annotated, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Literal, get_args
 
 from pydantic import Field, JsonValue, ValidationInfo, model_validator
 
+from equisection.beam.outline_keys import OutlineKeys
 from equisection.beam.supports import Lump, Support
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.group_file import read_group
 from equisection.keys.values import NULLABLE, NUMBER, Number, Positive
+
+if TYPE_CHECKING:
+    from equisection.beam.outline import Outline
 
 Boundary = Literal[
     "clamped-free",
@@ -151,6 +155,11 @@ class Beam(KeyGroup):
     lumps: tuple[Lump, ...] = Field(
         (), description="Lumped masses along the span; needs `structure.method: beam`."
     )
+    outline: Annotated[OutlineKeys | None, NULLABLE] = Field(
+        None,
+        description="Outline of the section in the flow, which OpenFOAM meshes; `null` is the "
+        "rectangle of `thickness`. The embedded solver knows a section by its polars alone.",
+    )
 
     @model_validator(mode="after")
     def _agree(self, info: ValidationInfo) -> Beam:
@@ -167,6 +176,28 @@ class Beam(KeyGroup):
             The file has no section ``beam`` or cannot be read, or one line for each problem.
         """
         return read_group(Path(path), "beam", cls)
+
+    def outline_in_flow(self, directory: Path = Path()) -> Outline | None:
+        """Return the outline in the flow; None for the rectangle of ``thickness``.
+
+        Parameters
+        ----------
+        directory
+            Folder that the outline's file is seen from.
+
+        Raises
+        ------
+        OutlineError
+            The file cannot be read, or the outline not be used.
+        """
+        if self.outline is None:
+            return None
+        return self.outline.outline(self.chord, self.thickness, self.elastic_axis, directory)
+
+    @property
+    def input_files(self) -> list[str]:
+        """Files that decide the beam."""
+        return [self.outline.file] if self.outline is not None and self.outline.file else []
 
     @property
     def shear_modulus(self) -> float:
@@ -294,6 +325,20 @@ def _slender(length: float, chord: float) -> Iterator[Problem]:
     if length <= chord:
         yield Problem(
             "beam.length", length, f"allowed is a number above the chord, beam.chord = {chord:g} m"
+        )
+
+
+@check("beam.outline", "beam.cross_section")
+def _structure_of_an_outline(
+    outline: OutlineKeys | None, given: CrossSection | None
+) -> Iterator[Problem]:
+    """Refuse to take the structure of another shape for that of a homogeneous rectangle."""
+    if outline is not None and given is None and (outline.naca or outline.file):
+        yield Problem(
+            "beam.cross_section",
+            given,
+            "allowed with beam.outline are rigidities and masses of the section: without them the "
+            "structure would be that of a homogeneous rectangle of beam.thickness",
         )
 
 

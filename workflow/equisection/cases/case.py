@@ -43,7 +43,13 @@ class SolverBlock(Block):
 
 
 class Geometry(Block):
-    """Plate and channel in chords; ``channel_height`` and ``tip_gap`` None in free air."""
+    """Plate and channel in chords; ``channel_height`` and ``tip_gap`` None in free air.
+
+    ``outline`` has the vertices of the section's contour over the chord, from mid-chord and
+    counter-clockwise; None is the rectangle of the thickness.
+    """
+
+    left_out = frozenset({"outline"})
 
     chord: float  # m
     span: float  # L/c
@@ -53,6 +59,7 @@ class Geometry(Block):
     tip_gap: float | None
     upstream: float | None
     downstream: float | None
+    outline: tuple[tuple[float, float], ...] | None = None
 
 
 class Medium(Block):

@@ -8,14 +8,16 @@ from __future__ import annotations
 
 import difflib
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from equisection.config.groups import FLAT_PLATE
+from equisection.config.groups import FLAT_PLATE, Beam
 from equisection.config.model import Config
 from equisection.errors import ConfigError
 from equisection.keys.checks import Problem
 
+#: Key of the outline's file.
+OUTLINE = "beam.outline.file"
 #: May be missing where cases are computed: a project need not keep any.
 _USUAL_REUSE = Config.model_fields["reuse"].default
 
@@ -56,6 +58,7 @@ def find_files(config: Config, project: Path, directory: Path | None = None) -> 
     }
     return config.model_copy(
         update={
+            "beam": _with_outline(config.beam, found),
             "reuse": found(config.reuse),
             "steady": config.steady.model_copy(
                 update={"beam_polar": found(config.steady.beam_polar)}
@@ -65,11 +68,18 @@ def find_files(config: Config, project: Path, directory: Path | None = None) -> 
     )
 
 
+def _with_outline(beam: Beam, found: Callable[[str], str]) -> Beam:
+    if beam.outline is None or not beam.outline.file:
+        return beam
+    outline = beam.outline.model_copy(update={"file": found(beam.outline.file)})
+    return beam.model_copy(update={"outline": outline})
+
+
 def named_files(config: Config) -> dict[str, str]:
-    """Return the polars that a configuration names, by their keys."""
-    named = {}
+    """Return the outline and the polars that a configuration names, by their keys."""
+    named = dict(zip([OUTLINE], config.beam.input_files, strict=False))
     if config.solver == "embedded":
-        named = {f"embedded.polars.{name}": path for name, path in config.embedded.polars.items()}
+        named |= {f"embedded.polars.{name}": path for name, path in config.embedded.polars.items()}
     if config.steady.beam_polar:
         named["steady.beam_polar"] = config.steady.beam_polar
     return named
@@ -102,7 +112,7 @@ def check_files(
     problems = [
         Problem(key, path, _advice(path, directory, seen, key))
         for key, path in named.items()
-        if not (path == FLAT_PLATE and key != "steady.beam_polar")
+        if not (path == FLAT_PLATE and key not in ("steady.beam_polar", OUTLINE))
         and not _is_file(directory / path)
     ]
     if config.reuse and not _is_folder(directory / config.reuse):
@@ -163,9 +173,11 @@ def _is_folder(path: Path) -> bool:
 
 def _advice(polar: str, directory: Path, seen: str, key: str) -> str:
     place = directory / polar
-    built_in = key != "steady.beam_polar"
+    built_in = key not in ("steady.beam_polar", OUTLINE)
     what = "a folder" if "\0" not in polar and place.is_dir() else "no such file"
     allowed = f"a CSV file or {FLAT_PLATE}" if built_in else "a CSV file"
+    if key == OUTLINE:
+        return f"{what}, seen from {seen}; allowed is an airfoil (.dat) or a polygon (.csv)"
     answer = f"{what}, seen from {seen}; allowed is {allowed}"
     if polar == FLAT_PLATE:
         return f"{answer}; {FLAT_PLATE} is a polar of the section, in embedded.polars"

@@ -36,8 +36,10 @@ def _tables(path: str, section: Fragment, default: object) -> Iterator[str]:
 
 def _row(key: str, fragment: Fragment, defaults: dict[str, Any], is_section: bool) -> str:
     name = key.rpartition(".")[2]
-    if name not in defaults:
+    if name not in defaults and "default" not in fragment:
         default = "none, needed"
+    elif name not in defaults:  # of a section that is null by default
+        default = f"`{_all_of(fragment['default'])}`"
     elif is_section and isinstance(defaults[name], dict):
         default = "that of its keys"
     else:

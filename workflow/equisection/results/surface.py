@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import xarray as xr
@@ -19,8 +19,9 @@ from equisection.errors import ResultFileError
 
 Floats = NDArray[np.float64]
 
-#: Outward normals of the sides, and the directions in which friction counts as positive: towards
-#: the trailing edge along the chord, and upwards at the edges.
+_NOTHING = np.empty(0)
+#: Outward normals of the sides of a rectangle, and the directions in which friction counts as
+#: positive: towards the trailing edge along the chord, and upwards at the edges.
 NORMALS = {
     "upper": (0.0, 1.0),
     "lower": (0.0, -1.0),
@@ -54,6 +55,11 @@ class SectionSurface:
         side where the flow at the wall is reversed.
     y_plus
         y+ of the middle of the first cell.
+    normal_x, normal_y
+        Outward normal of the face, of an outline that is no rectangle; empty for one, whose sides
+        have theirs. The outline's sides are the upper and the lower one, from the foremost to the
+        rearmost point of the contour, with the faces in this order, and friction is positive along
+        them.
     """
 
     x: Floats
@@ -63,11 +69,20 @@ class SectionSurface:
     pressure: Floats
     friction: Floats
     y_plus: Floats
+    normal_x: Floats = field(default_factory=lambda: _NOTHING)
+    normal_y: Floats = field(default_factory=lambda: _NOTHING)
 
     def variables(self) -> dict[str, tuple[str, NDArray[np.generic], dict[str, str]]]:
         """Return the variables that are written to file, over ``face``."""
         along = "positive towards the trailing edge, at the edges upwards"
+        normals: dict[str, tuple[str, NDArray[np.generic], dict[str, str]]] = {}
+        if self.normal_x.size:
+            normals = {
+                "normal_x": ("face", self.normal_x, _says("outward normal, along the chord")),
+                "normal_y": ("face", self.normal_y, _says("outward normal, across the chord")),
+            }
         return {
+            **normals,
             "x": ("face", self.x, _says("x/c of the face from the leading edge along the chord")),
             "y": ("face", self.y, _says("y/c of the face from the chord line, up")),
             "length": ("face", self.length, _says("length of the face over the chord")),
@@ -88,7 +103,22 @@ class SectionSurface:
             self.pressure[here],
             self.friction[here],
             self.y_plus[here],
+            self.normal_x[here] if self.normal_x.size else _NOTHING,
+            self.normal_y[here] if self.normal_y.size else _NOTHING,
         )
+
+    def normals_and_tangents(self) -> tuple[Floats, Floats]:
+        """Return the outward normal, and the direction of positive friction, of each face, (n, 2).
+
+        On the upper side of an outline that is a quarter turn clockwise from the normal.
+        """
+        sides = [str(side) for side in self.side]
+        if not self.normal_x.size:
+            normal = np.array([NORMALS[side] for side in sides])
+            return normal, np.array([TANGENTS[side] for side in sides])
+        normal = np.stack([self.normal_x, self.normal_y], axis=-1)
+        sense = np.where(self.side == "upper", 1.0, -1.0)
+        return normal, sense[:, None] * np.stack([self.normal_y, -self.normal_x], axis=-1)
 
     def reattachment(self, side: str) -> float:
         """Return x/c where the bubble of a side ends; see :func:`reattachment`."""
@@ -100,9 +130,7 @@ class SectionSurface:
 
         The traction on a face is -c_p n + c_f t; a no-slip wall has no other.
         """
-        sides = [str(side) for side in self.side]
-        normal = np.array([NORMALS[side] for side in sides])
-        tangent = np.array([TANGENTS[side] for side in sides])
+        normal, tangent = self.normals_and_tangents()
         traction = self.friction[:, None] * tangent - self.pressure[:, None] * normal
         force = traction * self.length[:, None]
         along, across = force.sum(axis=0)
@@ -156,7 +184,10 @@ def surface_from_dataset(dataset: xr.Dataset) -> SectionSurface | None:
     side = known_sides(dataset, NORMALS)
     names = ("x", "y", "length", "cp", "cf", "y_plus")
     x, y, length, pressure, friction, y_plus = (dataset[name].values for name in names)
-    return SectionSurface(x, y, length, side, pressure, friction, y_plus)
+    normal = [
+        dataset[name].values if name in dataset else _NOTHING for name in ("normal_x", "normal_y")
+    ]
+    return SectionSurface(x, y, length, side, pressure, friction, y_plus, *normal)
 
 
 def known_sides(dataset: xr.Dataset, allowed: Collection[str]) -> NDArray[np.str_]:

@@ -21,6 +21,7 @@ from equisection.config import Config, check_files, find_files, load_config, nam
 from equisection.errors import ConfigError
 from equisection.provenance import COMMAND_VARIABLE, CONFIG_VARIABLE, refused_by_git
 from equisection.solvers.registry import check_provided
+from equisection.study.given_outline import check_outline
 from equisection.study.given_polars import check_polars
 
 #: Where the folders of runs are, and in it the store of all results by their hash.
@@ -112,6 +113,7 @@ def checked_config(raw: Mapping[str, Any], project: Path, results: Path = RESULT
     """
     config = find_files(load_config(raw), project)
     check_files(config, project=project, results=results)
+    check_outline(config)
     check_polars(config)
     check_provided(config)
     return config

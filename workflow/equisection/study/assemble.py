@@ -158,16 +158,17 @@ def _require_samples(case: UnsteadyCase) -> None:
 
 def _geometry(config: Config) -> Geometry:
     beam, flow = config.beam, config.flow
-    channel = flow.channel
+    channel, outline = flow.channel, beam.outline_in_flow()
     return Geometry(
         chord=beam.chord,
         span=beam.length / beam.chord,
-        thickness=beam.thickness / beam.chord,
+        thickness=beam.thickness / beam.chord if outline is None else outline.thickness,
         root_on_wall=flow.root_on_wall,
         channel_height=channel.height_chords if channel else None,
         tip_gap=channel.tip_gap_chords if channel else None,
         upstream=channel.upstream_chords if channel else None,
         downstream=channel.downstream_chords if channel else None,
+        outline=None if outline is None else outline.as_pairs(),
     )
 
 

@@ -53,7 +53,7 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
             yield _unreadable(f"embedded.polars.{name}", path, error)
             continue
         if name == config.steady.resolution:
-            yield from _of_another_section(config, name, path, valid)
+            yield from _of_another_section(config, name, path, valid, directory)
         rows = points.rows
         last = max(row.incidence_deg for row in rows)
         first = -last if config.embedded.symmetric else min(row.incidence_deg for row in rows)
@@ -67,10 +67,12 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
 
 
 def _of_another_section(
-    config: Config, name: str, path: str, valid: dict[str, float | bool]
+    config: Config, name: str, path: str, valid: dict[str, float | bool], directory: Path
 ) -> Iterator[Problem]:
     """Refuse the polar of a section that is much thinner."""
-    ratio, of_polar = config.beam.thickness / config.beam.chord, valid.get("h/c", math.inf)
+    outline = config.beam.outline_in_flow(directory)
+    own = config.beam.thickness / config.beam.chord if outline is None else outline.thickness
+    ratio, of_polar = own, valid.get("h/c", math.inf)
     if ratio > _LIKE_THICKNESS * of_polar:
         yield Problem(
             f"embedded.polars.{name}",

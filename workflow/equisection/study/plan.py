@@ -227,8 +227,11 @@ def has_both(config: Config) -> bool:
 
 
 def steady_dimensions(config: Config) -> tuple[str, ...]:
-    """Return the dimensions of the steady cases; a beam whose polar is given has none."""
-    if config.steady.beam_polar:
+    """Return the dimensions of the steady cases; a beam whose polar is given has none.
+
+    Nor has one of an outline that the solver runs as a section alone.
+    """
+    if config.steady.beam_polar or not config.solver_section.has_beam_of(config.beam.outline):
         return ("2d",)
     return SOLVERS[config.solver].dimensions
 

@@ -32,6 +32,12 @@ OVERSET_MESHES = ("coarse", "medium", "fine")
 MeshMotion = Literal["morph", "overset"]
 MORPH: MeshMotion = "morph"
 OVERSET: MeshMotion = "overset"
+#: Mesh of the section: of blocks, or of layers at its outline with cells between.
+Mesher = Literal["blocks", "outline"]
+BLOCKS: Mesher = "blocks"
+OUTLINE: Mesher = "outline"
+#: Meshes that there are around an outline.
+OUTLINE_MESHES = ("coarse", "medium", "fine")
 #: Environment variable of the command before each program.
 PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
 #: The largest time step (c/V) that follows the flow over the plate.
@@ -65,6 +71,16 @@ class OpenFoam(SolverKeys):
         description="How the mesh follows the free section: `morph` deforms it, `overset` moves a "
         "mesh around the plate as it is above one of the channel, for large deflection and twist.",
     )
+    mesher: Mesher = Field(
+        BLOCKS,
+        description="Mesh of the rectangular section: `blocks`, or `outline`, that of any outline "
+        "(layers at the wall, quadrilaterals between), which `beam.outline` always has.",
+    )
+    far_field_chords: Annotated[float, Field(ge=10, le=1000, allow_inf_nan=False), NUMBER] = Field(
+        30.0,
+        description="Distance of the far field (chords), to every side, of a section in free air "
+        "(`flow.channel: null`), which needs the mesh of outlines.",
+    )
     prefix: str = Field(
         "",
         description="Command before each program, for instance `openfoam2312` or that of a "
@@ -85,6 +101,10 @@ class OpenFoam(SolverKeys):
     def environment(self) -> dict[str, str]:
         """Return variables by which jobs find the solver on a machine."""
         return {PREFIX_VARIABLE: self.prefix} if self.prefix else {}
+
+    def has_beam_of(self, outline: object) -> bool:
+        """Tell whether the solver runs the beam of an outline: that of the rectangle alone."""
+        return outline is None
 
     def refuses_folder(self, folder: Path) -> str:
         """Return why the solver cannot work in a folder; empty if it can."""
@@ -113,10 +133,12 @@ def _follows_the_flow(solver: str, step: float) -> Iterator[Problem]:
         )
 
 
-@check("solver", "flow.root_on_wall", "steady.beam_polar", "sweep.models")
+@check("solver", "flow.root_on_wall", "steady.beam_polar", "sweep.models", "beam.outline")
 def _root_is_on_a_wall(
-    solver: str, root_on_wall: bool, beam_polar: str, models: tuple[str, ...]
+    solver: str, root_on_wall: bool, beam_polar: str, models: tuple[str, ...], outline: object
 ) -> Iterator[Problem]:
+    if outline is not None:  # whose beam has no mesh
+        return
     if solver == "openfoam" and not root_on_wall and ("3d" in models or not beam_polar):
         yield Problem(
             "flow.root_on_wall",
@@ -126,14 +148,74 @@ def _root_is_on_a_wall(
         )
 
 
-@check("solver", "flow.channel")
-def _needs_a_channel(solver: str, channel: object) -> Iterator[Problem]:
-    if solver == "openfoam" and channel is None:
+@check("solver", "flow.channel", "beam.outline", "openfoam.mesher")
+def _needs_a_channel(
+    solver: str, channel: object, outline: object, mesher: str
+) -> Iterator[Problem]:
+    if solver == "openfoam" and channel is None and outline is None and mesher == BLOCKS:
         yield Problem(
             "flow.channel",
             channel,
-            "allowed is a channel with solver 'openfoam', which meshes it; for free air give a "
-            "wide one, for instance flow.channel: {height_chords: 20, tip_gap_chords: 10}",
+            "allowed is a channel with solver 'openfoam', which meshes it; for a section in free "
+            "air openfoam.mesher: outline, or a wide channel, for instance flow.channel: "
+            "{height_chords: 20, tip_gap_chords: 10}",
+        )
+
+
+@check("solver", "flow.channel", "beam.outline", "sweep.models", "steady.beam_polar")
+def _no_beam_in_free_air(
+    solver: str, channel: object, outline: object, models: tuple[str, ...], beam_polar: str
+) -> Iterator[Problem]:
+    """Refuse a beam without a channel, which its mesh fills."""
+    if solver != "openfoam" or channel is not None or outline is not None:
+        return
+    if "3d" in models or not beam_polar:
+        yield Problem(
+            "flow.channel",
+            channel,
+            "allowed with solver 'openfoam' is a channel for the beam: leave out the model 3d, and "
+            "give steady.beam_polar or beam.outline",
+        )
+
+
+@check("solver", "beam.outline", "openfoam.mesher", "openfoam.meshes", "openfoam.mesh_motion")
+def _has_a_mesh_of_outlines(
+    solver: str, outline: object, mesher: str, meshes: Mapping[str, str], motion: str
+) -> Iterator[Problem]:
+    """Refuse what the mesh of outlines does not have."""
+    if solver != "openfoam" or (outline is None and mesher == BLOCKS):
+        return
+    why = "with beam.outline" if outline is not None else "with openfoam.mesher: outline"
+    for name, mesh in meshes.items():
+        if mesh not in OUTLINE_MESHES:
+            yield Problem(
+                f"openfoam.meshes.{name}", mesh, f"allowed are {', '.join(OUTLINE_MESHES)} {why}"
+            )
+    if motion == OVERSET:
+        yield Problem(
+            "openfoam.mesh_motion", motion, f"allowed is {MORPH} {why}; overset has no such mesh"
+        )
+
+
+@check("solver", "beam.outline", "sweep.models", "steady.beam_polar")
+def _no_beam_of_an_outline(
+    solver: str, outline: object, models: tuple[str, ...], beam_polar: str
+) -> Iterator[Problem]:
+    """Refuse a beam of an outline, which has no mesh."""
+    if solver != "openfoam" or outline is None:
+        return
+    if "3d" in models:
+        yield Problem(
+            "sweep.models",
+            list(models),
+            "allowed with beam.outline is 2d: OpenFOAM's mesh of the beam is that of a rectangle",
+        )
+    elif not beam_polar and any("corrected" in model for model in models):
+        yield Problem(
+            "sweep.models",
+            list(models),
+            "allowed with beam.outline are models without correction, or a steady.beam_polar of "
+            "this beam: OpenFOAM's mesh of the rigid beam is that of a rectangle",
         )
 
 

@@ -27,3 +27,8 @@ class SolverKeys(KeyGroup):
         """Return why the solver cannot work in a folder; empty if it can."""
         del folder
         return ""
+
+    def has_beam_of(self, outline: object) -> bool:
+        """Tell whether the solver runs the beam, and not its section alone, of an outline."""
+        del outline
+        return True

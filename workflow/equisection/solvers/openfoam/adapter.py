@@ -16,7 +16,7 @@ import numpy as np
 
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import Config
-from equisection.config.groups.openfoam_keys import MORPH
+from equisection.config.groups.openfoam_keys import BLOCKS, MORPH
 from equisection.errors import SolverError
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
@@ -29,7 +29,7 @@ from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Pro
 
 if TYPE_CHECKING:
     from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow
-    from equisection.solvers.openfoam.section.rigid_section import RigidLoads
+    from equisection.solvers.openfoam.section.rigid_section import RigidLoads, SectionCells
 
 logger = logging.getLogger(__name__)
 
@@ -55,6 +55,8 @@ class Adapter:
             section.outer_correctors,
             section.velocity_relaxation,
             section.mesh_motion,
+            "" if config.beam.outline is None and section.mesher == BLOCKS else _mesher(),
+            section.far_field_chords if config.flow.channel is None else 0.0,
         )
         return cls(settings, Allocation(section.ranks))
 
@@ -75,8 +77,12 @@ class Adapter:
 
         settings = self._settings.of_dimension(dimension)
         preset = PRESETS[settings.mesh]
-        cells = preset.cells if dimension == "2d" else preset.plate_cells
+        cells = str(preset.cells if dimension == "2d" else preset.plate_cells)
+        if settings.mesher:
+            cells = f"about {preset.outline_cells}"
         mesh = f"{cells} cells ({settings.mesh})"
+        if settings.mesher:
+            mesh += f" around the outline ({settings.mesher})"
         if settings.mesh_motion != MORPH:
             mesh += ", the free section on overset meshes"
         return f"OpenFOAM {find().version()}, k-omega SST, {mesh}"
@@ -87,17 +93,29 @@ class Adapter:
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
+        if self._settings.mesher:
+            return preset.outline_cells
         return preset.cells if preset.is_similar else None
+
+    def _mesh(self, case: SteadyCase | UnsteadyCase) -> SectionCells:
+        """Return the mesh of a section."""
+        from equisection.solvers.openfoam.mesh.outline_mesh import require_mesher  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
+        from equisection.solvers.openfoam.section import rigid_section  # noqa: PLC0415
+
+        preset = PRESETS[self._settings.mesh]
+        if self._settings.mesher:
+            require_mesher(self._settings.mesher)
+            return rigid_section.outline_mesh_of(case, preset.refinement, self._settings.far_field)
+        if case.geometry.outline is not None:
+            raise SolverError("the case has an outline and no mesher of outlines; write it anew")
+        return rigid_section.mesh_of(case, preset.refinement, preset.spacing)
 
     def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
         """Return the mesh of a rigid section, with its Courant number at a time step (c/V)."""
-        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
         from equisection.solvers.openfoam.reading.meshed_section import section_mesh  # noqa: PLC0415
-        from equisection.solvers.openfoam.section.rigid_section import mesh_of  # noqa: PLC0415
 
-        preset = PRESETS[self._settings.mesh]
-        mesh = mesh_of(case, preset.refinement, preset.spacing)
-        return section_mesh(find(), case, mesh, time_step, work)
+        return section_mesh(find(), case, self._mesh(case), time_step, work)
 
     def plate_grid(self, case: SteadyCase, work: Path) -> PlateGrid:
         """Return the mesh of a rigid plate."""
@@ -127,11 +145,9 @@ class Adapter:
     def _rigid_section(
         self, installation: Installation, case: SteadyCase, place: Path, tell: Progress
     ) -> SteadyResult:
-        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
-        from equisection.solvers.openfoam.section.rigid_section import mesh_of, rigid_loads  # noqa: PLC0415
+        from equisection.solvers.openfoam.section.rigid_section import rigid_loads  # noqa: PLC0415
 
-        preset = PRESETS[self._settings.mesh]
-        mesh = mesh_of(case, preset.refinement, preset.spacing)
+        mesh = self._mesh(case)
         loads = rigid_loads(installation, case, mesh, place, tell, coupling=self._settings.coupling)
         return _result(loads)
 
@@ -144,6 +160,7 @@ class Adapter:
         from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
+        _require_rectangle(case)
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         return PlateFlow(installation, case, mesh, self._settings.coupling, self._ranks, place)
 
@@ -169,14 +186,11 @@ class Adapter:
     def _free_section(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
     ) -> UnsteadyResult:
-        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
         from equisection.solvers.openfoam.section.free_section import SectionRun  # noqa: PLC0415
         from equisection.solvers.openfoam.section.overset_section import OversetRun  # noqa: PLC0415
-        from equisection.solvers.openfoam.section.rigid_section import mesh_of  # noqa: PLC0415
 
         _require_own_loads(case)  # before the steady flow, which takes long
-        preset = PRESETS[self._settings.mesh]
-        mesh = mesh_of(case, preset.refinement, preset.spacing)
+        mesh = self._mesh(case)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
         run = kind(installation, case, mesh, self._settings.coupling, place)
         _ = run.axes  # refuses what it does not have, the same
@@ -189,11 +203,34 @@ class Adapter:
         from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
+        _require_rectangle(case)
         mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
         coupling, ranks = self._settings.coupling, self._ranks
         run = PlateRun(installation, case, mesh, coupling, place, ranks)
         _ = run.points  # refuses what it does not have before the steady flow, which takes long
         return run.run(tell)
+
+
+def _mesher() -> str:
+    """Return the mesher of outlines that is installed."""
+    from equisection.solvers.openfoam.mesh.outline_mesh import mesher  # noqa: PLC0415
+
+    return mesher()
+
+
+def _require_rectangle(case: SteadyCase | UnsteadyCase) -> None:
+    """Refuse a beam of an outline.
+
+    Raises
+    ------
+    SolverError
+        The case has one.
+    """
+    if case.geometry.outline is not None:
+        raise SolverError(
+            "OpenFOAM's mesh of the beam is that of a rectangle: take beam.outline out, or run the "
+            "section alone (sweep.models: [2d])"
+        )
 
 
 def _require_own_loads(case: UnsteadyCase) -> None:

@@ -23,12 +23,18 @@ class Settings:
         Under-relaxation of the velocity in these iterations; 1 is none.
     mesh_motion
         Way in which the mesh follows the free section.
+    mesher
+        Mesher of outlines with its version; empty for the section's mesh of blocks.
+    far_field
+        Distance of the far field (chords) from a section in free air; 0 in a channel.
     """
 
     mesh: str
     outer_correctors: int
     velocity_relaxation: float = Coupling.velocity_relaxation
     mesh_motion: str = MORPH
+    mesher: str = ""
+    far_field: float = 0.0
 
     @property
     def coupling(self) -> Coupling:
@@ -42,7 +48,8 @@ class Settings:
         """
         if dimension == "2d":
             return self
-        return replace(self, mesh=self.mesh.removeprefix(ON_CELLS_OF_PLATE), mesh_motion=MORPH)
+        mesh = self.mesh.removeprefix(ON_CELLS_OF_PLATE)
+        return replace(self, mesh=mesh, mesh_motion=MORPH, mesher="", far_field=0.0)
 
     def of_case(self) -> dict[str, Any]:
         """Return the settings as a case holds them, without those at their defaults.

@@ -16,14 +16,14 @@ Numbers = NDArray[np.int64]
 
 @dataclass(frozen=True)
 class PolyMesh:
-    """A mesh of quadrilateral faces.
+    """A mesh of faces with three or four corners.
 
     Attributes
     ----------
     points : (n, 3) array
         Points.
     faces : (m, 4) array
-        Points of each face, in order around it.
+        Points of each face, in order around it; the last two of a triangle are one.
     owner : (m,) array
         Cell that each face belongs to; one on its other side has a higher number.
     patches
@@ -37,18 +37,23 @@ class PolyMesh:
 
 
 def read_poly_mesh(folder: Path) -> PolyMesh:
-    """Return the mesh of a case, written in binary."""
+    """Return the mesh of a case, written by OpenFOAM in binary, or by this project as text."""
     place = folder / "constant" / "polyMesh"
-    _, corners = _content(place / "faces")
     return PolyMesh(
         points=np.asarray(_content(place / "points"), dtype=float),
-        faces=np.asarray(corners, dtype=np.int64).reshape(-1, 4),
+        faces=_faces(_content(place / "faces")),
         owner=np.asarray(_content(place / "owner"), dtype=np.int64),
         patches={
             name: slice(patch["startFace"], patch["startFace"] + patch["nFaces"])
             for name, patch in _content(place / "boundary")
         },
     )
+
+
+def _faces(content: Any) -> Numbers:
+    if isinstance(content, tuple):  # places and corners, in binary
+        return np.asarray(content[1], dtype=np.int64).reshape(-1, 4)
+    return np.array([face if len(face) == 4 else face[[0, 1, 2, 2]] for face in content])
 
 
 def _content(path: Path) -> Any:

@@ -10,6 +10,7 @@ from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
 from equisection.solvers.openfoam.mesh.beam_mesh import plate_cells
 from equisection.solvers.openfoam.mesh.block_mesh import OF_PLATE, SIMILAR, Spacing
 from equisection.solvers.openfoam.mesh.near_wall_spacing import BY_CELL_SIZE
+from equisection.solvers.openfoam.mesh.outline_sizes import TYPICAL_CELLS
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,11 @@ class Preset:
     def plate_cells(self) -> int:
         """Number of cells of the plate's mesh, with a gap between tip and wall."""
         return plate_cells(OF_PLATE, self.plate)
+
+    @property
+    def outline_cells(self) -> int:
+        """Number of cells around an outline, roughly."""
+        return round(TYPICAL_CELLS * self.refinement**2)
 
     @property
     def is_similar(self) -> bool:

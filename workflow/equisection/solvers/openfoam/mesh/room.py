@@ -5,10 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from equisection.beam.outline import outline_of, rectangle
 from equisection.config import Config
+from equisection.config.groups.openfoam_keys import OUTLINE
 from equisection.errors import SolverError
 from equisection.keys.checks import Problem
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 
 
 def problems(config: Config) -> Iterator[Problem]:
@@ -16,9 +19,9 @@ def problems(config: Config) -> Iterator[Problem]:
 
     An overset mesh needs less room than that of the rigid section, which every run has.
     """
-    given = config.flow.channel
-    assert given is not None  # the configuration's own check
-    beam = config.beam
+    given, beam = config.flow.channel, config.beam
+    if given is None:  # in free air, whose far field is further than any mesh around a section
+        return
     channel = ChannelBox(
         beam.thickness / beam.chord,
         given.height_chords,
@@ -26,10 +29,17 @@ def problems(config: Config) -> Iterator[Problem]:
         given.downstream_chords,
     )
     released = config.flow.incidence_deg + config.unsteady.start.twist_deg
+    outline = beam.outline_in_flow()
+    if outline is None and config.openfoam.mesher == OUTLINE:
+        outline = outline_of(rectangle(channel.thickness))
     angles = {*config.steady.incidence_deg, config.flow.incidence_deg, released}
     try:
         for angle in sorted(angles, key=abs, reverse=True):
-            Mesh(channel, math.radians(angle), 1.0).points()
+            incidence = math.radians(angle)
+            if outline is None:
+                Mesh(channel, incidence, 1.0).points()
+            else:
+                OutlineMesh(outline.as_pairs(), channel, incidence, 1.0).require_room()
     except SolverError as error:
         yield Problem(
             "flow.channel",

@@ -18,7 +18,7 @@ Floats = NDArray[np.float64]
 #: Coefficients beyond this are those of a flow that has blown up.
 BEYOND_REASON = 1e3
 #: A coefficient counts as this large at least where a relative change of it is judged.
-_FLOOR = 0.02
+FLOOR = 0.02
 #: Samples of an impulsive start.
 _IMPULSIVE = 20
 
@@ -55,19 +55,25 @@ class Loads:
         """Return the means of drag, lift and moment."""
         return float(self.drag.mean()), float(self.lift.mean()), float(self.moment.mean())
 
-    def spread(self) -> float:
-        """Return the largest half range of a coefficient relative to its mean."""
+    def spread(self, floor: float = FLOOR) -> float:
+        """Return the largest half range of a coefficient relative to its mean.
+
+        A mean counts as ``floor`` at least.
+        """
         return max(
-            float(np.ptp(values)) / 2 / max(abs(float(values.mean())), _FLOOR)
+            float(np.ptp(values)) / 2 / max(abs(float(values.mean())), floor)
             for values in (self.drag, self.lift, self.moment)
         )
 
-    def drift(self) -> float:
-        """Return the largest difference of the means of both halves relative to the mean."""
+    def drift(self, floor: float = FLOOR) -> float:
+        """Return the largest difference of the means of both halves relative to the mean.
+
+        A mean counts as ``floor`` at least.
+        """
         half = self.time.size // 2
         return max(
             abs(float(values[half:].mean() - values[:half].mean()))
-            / max(abs(float(values.mean())), _FLOOR)
+            / max(abs(float(values.mean())), floor)
             for values in (self.drag, self.lift, self.moment)
         )
 

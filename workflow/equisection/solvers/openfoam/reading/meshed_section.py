@@ -14,10 +14,9 @@ from equisection.errors import SolverError
 from equisection.results.section_mesh import SectionMesh
 from equisection.solvers.openfoam.case_folder import states
 from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.mesh.block_mesh import Mesh
 from equisection.solvers.openfoam.mesh.poly_mesh import PolyMesh, read_poly_mesh
 from equisection.solvers.openfoam.process import run_program
-from equisection.solvers.openfoam.section.rigid_section import run_steady
+from equisection.solvers.openfoam.section.rigid_section import SectionCells, run_steady
 
 #: What ``checkMesh`` says of the mesh, by our names.
 _QUALITY = {
@@ -34,7 +33,7 @@ Floats = NDArray[np.float64]
 
 
 def section_mesh(
-    installation: Installation, case: SteadyCase, mesh: Mesh, time_step: float, work: Path
+    installation: Installation, case: SteadyCase, mesh: SectionCells, time_step: float, work: Path
 ) -> SectionMesh:
     """Return the mesh of a case, and the Courant number of its steady flow at a time step (c/V).
 
@@ -87,7 +86,8 @@ def quality(log: Path) -> dict[str, float]:
 def read_cells(folder: Path) -> tuple[Floats, NDArray[np.int64]]:
     """Return points (n, 2) and corners of the cells (m, 4) of the layer of lowest z.
 
-    A cell has one face in the plane that bounds the mesh there, which shows the cell.
+    A cell has one face in the plane that bounds the mesh there, which shows the cell. The last two
+    corners of a triangle are one.
     """
     return cells_of_first_layer(read_poly_mesh(folder))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from equisection.solvers.openfoam.case_folder import states
 from equisection.solvers.openfoam.dictionaries import PLATE
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.block_mesh import Mesh
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 from equisection.solvers.openfoam.mesh.poly_mesh import PolyMesh, read_poly_mesh
 from equisection.solvers.openfoam.process import run_program
 
@@ -24,7 +26,9 @@ Floats = NDArray[np.float64]
 _AT_WALL = ("wallShearStress", "yPlus")
 
 
-def surface_of_steady(installation: Installation, folder: Path, mesh: Mesh) -> SectionSurface:
+def surface_of_steady(
+    installation: Installation, folder: Path, mesh: Mesh | OutlineMesh
+) -> SectionSurface:
     """Return the surface data of the last state of a steady run.
 
     Raises
@@ -80,12 +84,12 @@ def averaging(start: float, every: int, fields: Sequence[str] = ("p",)) -> dict[
     return {**at_wall, "means": mean}
 
 
-def surface_of_mean(folder: Path, mesh: Mesh) -> SectionSurface:
+def surface_of_mean(folder: Path, mesh: Mesh | OutlineMesh) -> SectionSurface:
     """Return the surface data of the means of an unsteady run."""
     return _read(folder, mesh, "Mean")
 
 
-def _read(folder: Path, mesh: Mesh, suffix: str) -> SectionSurface:
+def _read(folder: Path, mesh: Mesh | OutlineMesh, suffix: str) -> SectionSurface:
     """Return the surface data from the fields of the last state.
 
     ``wallShearStress`` is what the wall does to the flow; its negative acts on the wall. The
@@ -95,6 +99,10 @@ def _read(folder: Path, mesh: Mesh, suffix: str) -> SectionSurface:
     faces = poly.patches[PLATE]
     pressure = np.asarray(FoamFieldFile(state / f"p{suffix}").internal_field)[poly.owner[faces]]
     friction = -on_plate(state / f"wallShearStress{suffix}")[:, :2]
+    if isinstance(mesh, OutlineMesh):
+        return _of_outline(
+            poly, mesh.incidence, pressure, friction, on_plate(state / f"yPlus{suffix}")
+        )
     x, y, length, side = _contour(poly, faces, mesh.incidence)
     tangent = _to_flow(np.array([TANGENTS[name] for name in side]), mesh.incidence)
     order = np.lexsort((y, x, side))
@@ -107,6 +115,62 @@ def _read(folder: Path, mesh: Mesh, suffix: str) -> SectionSurface:
         friction=2.0 * (friction * tangent).sum(axis=1)[order],
         y_plus=on_plate(state / f"yPlus{suffix}")[order],
     )
+
+
+def _of_outline(
+    poly: PolyMesh, incidence: float, pressure: Floats, friction: Floats, y_plus: Floats
+) -> SectionSurface:
+    """Return the surface data of the patch in the order of each side, from nose to tail."""
+    order, side, first, last = contour_of_outline(poly, incidence)
+    edge = last - first
+    length = np.hypot(*edge.T)
+    middle = (first + last) / 2
+    surface = SectionSurface(
+        x=middle[:, 0] + 0.5,
+        y=middle[:, 1],
+        length=length,
+        side=side,
+        pressure=2.0 * pressure[order],
+        friction=np.zeros(len(order)),
+        y_plus=y_plus[order],
+        normal_x=edge[:, 1] / length,
+        normal_y=-edge[:, 0] / length,
+    )
+    tangent = _to_flow(surface.normals_and_tangents()[1], incidence)
+    return replace(surface, friction=2.0 * (friction[order] * tangent).sum(axis=1))
+
+
+def contour_of_outline(
+    poly: PolyMesh, incidence: float
+) -> tuple[NDArray[np.int64], NDArray[np.str_], Floats, Floats]:
+    """Return the faces of the section's patch along its contour, in the frame of the section.
+
+    Returns
+    -------
+    tuple
+        Numbers of the faces in the patch, and side of each, the upper one first and each from the
+        foremost to the rearmost point; and both ends of each (n, 2), counter-clockwise about the
+        body.
+    """
+    corners = poly.faces[poly.patches[PLATE]]
+    z = poly.points[corners][:, :, 2]
+    # the two corners of a face in the lower plane, the later one first: the patch's faces are
+    # passed with the flow on their left, the body is to be
+    low = corners[z < z.min() + 1e-9].reshape(-1, 2)
+    places = to_section(poly.points[:, :2], incidence)
+    behind = dict(zip(low[:, 1].tolist(), range(len(low)), strict=True))
+    nodes = low[:, 0]
+    tail = nodes[np.lexsort((np.abs(places[nodes, 1]), -places[nodes, 0].round(9)))[0]]
+    nose = nodes[np.lexsort((np.abs(places[nodes, 1]), places[nodes, 0].round(9)))[0]]
+    loop, node, turn = [], int(tail), 0
+    for _ in range(len(low)):
+        face = behind[node]
+        loop.append(face)
+        node = int(low[face, 0])
+        turn = len(loop) if node == nose else turn
+    order = np.array([*loop[:turn][::-1], *loop[turn:]])
+    side = np.where(np.arange(len(order)) < turn, "upper", "lower")
+    return order, side, places[low[order, 1]], places[low[order, 0]]
 
 
 def on_plate(path: Path) -> Floats:

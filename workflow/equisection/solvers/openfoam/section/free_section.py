@@ -42,7 +42,7 @@ from equisection.solvers.openfoam.reading.loads import (
 )
 from equisection.solvers.openfoam.rigid_flow import WINDOW, Tell
 from equisection.solvers.openfoam.section.body_axes import BodyAxes, moment_about
-from equisection.solvers.openfoam.section.rigid_section import run_steady
+from equisection.solvers.openfoam.section.rigid_section import SectionCells, run_steady
 from equisection.solvers.openfoam.section.section_history import SectionHistory, read_section
 from equisection.solvers.openfoam.section.section_motion import motion_output, write_motion
 from equisection.solvers.openfoam.time_spent import spent
@@ -66,7 +66,7 @@ _AT_RELEASE = "release.json"
 
 
 @dataclass(frozen=True)
-class SectionRun(FreeRun[Mesh]):
+class SectionRun(FreeRun[SectionCells]):
     """The run of one case of the section."""
 
     @property
@@ -176,7 +176,8 @@ class SectionRun(FreeRun[Mesh]):
             faults = f"a face is {quality.non_orthogonality_deg:.0f} deg oblique"
         if not faults:
             return ""
-        return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
+        further = "; openfoam.mesh_motion: overset goes further"
+        return f"the mesh has tangled ({faults}){further if isinstance(self.mesh, Mesh) else ''}"
 
     def _watch(self, start: float, tell: Tell) -> Watch:
         case, due, iterations = self.case, Every(LOOKS_EVERY, last_look(start)), IterationsCheck()

@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import logging
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.beam.outline import outline_of, rectangle
+from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.results.surface import SectionSurface
 from equisection.solvers.openfoam import flow_setup as flow
@@ -22,6 +24,7 @@ from equisection.solvers.openfoam.dictionaries import (
 )
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.block_mesh import SIMILAR, ChannelBox, Mesh, Spacing
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 from equisection.solvers.openfoam.process import BlowUpError, run_program
 from equisection.solvers.openfoam.reading.loads import Loads
 from equisection.solvers.openfoam.reading.section_surface import (
@@ -30,6 +33,7 @@ from equisection.solvers.openfoam.reading.section_surface import (
     surface_of_steady,
 )
 from equisection.solvers.openfoam.rigid_flow import (
+    FLOOR_OF_OUTLINE,
     MOST,
     STEP,
     WINDOW,
@@ -38,9 +42,13 @@ from equisection.solvers.openfoam.rigid_flow import (
     follow_iterations,
     follow_unsteady,
     has_converged,
+    has_converged_around_outline,
     method_of_mean,
     write_at_rest,
 )
+
+#: Mesh of a section, of either mesher.
+SectionCells = Mesh | OutlineMesh
 
 logger = logging.getLogger(__name__)
 
@@ -58,7 +66,6 @@ class RigidLoads:
     lift: float
     moment: float
     method: str
-    cells: int
     surface: SectionSurface
 
 
@@ -70,25 +77,60 @@ def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing
     SolverError
         The case has no channel, which the mesh fills.
     """
+    return Mesh(_channel(case.geometry), _incidence(case), refinement, spacing)
+
+
+def outline_mesh_of(
+    case: SteadyCase | UnsteadyCase, refinement: float, far_field: float = 0.0
+) -> OutlineMesh:
+    """Return the mesh of a case around its outline, or around the rectangle of its thickness.
+
+    That of a free section is turned to its twist at the release.
+
+    Parameters
+    ----------
+    case
+        The case.
+    refinement
+        Refinement of each direction.
+    far_field
+        Distance of the far field (chords) in free air.
+
+    Raises
+    ------
+    SolverError
+        The case has neither a channel nor a far field.
+    """
     geometry = case.geometry
+    outline = geometry.outline or outline_of(rectangle(geometry.thickness)).as_pairs()
+    if geometry.channel_height is None and far_field:
+        channel = ChannelBox(geometry.thickness, 2 * far_field, far_field, far_field)
+    else:
+        channel = _channel(geometry)
+    return OutlineMesh(outline, channel, _incidence(case), refinement)
+
+
+def _channel(geometry: Geometry) -> ChannelBox:
     if None in (geometry.channel_height, geometry.upstream, geometry.downstream):
         raise SolverError("flow.channel: null: the mesh of OpenFOAM fills a channel; give one")
     assert geometry.channel_height is not None
     assert geometry.upstream is not None
     assert geometry.downstream is not None
-    channel = ChannelBox(
+    return ChannelBox(
         geometry.thickness, geometry.channel_height, geometry.upstream, geometry.downstream
     )
-    incidence = math.radians(case.incidence_deg)
-    if isinstance(case, UnsteadyCase):
-        incidence += case.section_start_twist
-    return Mesh(channel, incidence, refinement, spacing)
+
+
+def _incidence(case: SteadyCase | UnsteadyCase) -> float:
+    """Return the incidence of the mesh (rad), of a free section with its twist at the release."""
+    released = case.section_start_twist if isinstance(case, UnsteadyCase) else 0.0
+    return math.radians(case.incidence_deg) + released
 
 
 def run_steady(
     installation: Installation,
     case: SteadyCase | UnsteadyCase,
-    mesh: Mesh,
+    mesh: SectionCells,
     work: Path,
     tell: Tell,
 ) -> tuple[Path, Loads, bool]:
@@ -105,7 +147,6 @@ def run_steady(
         A program failed, or the mesh is not sound.
     """
     folder = emptied(work / "steady")
-    write_mesh_dictionary(folder, mesh)
     flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium))
     write_system(
         folder,
@@ -113,16 +154,25 @@ def run_steady(
         flow.schemes(steady=True),
         flow.steady_solution(),
     )
+    if isinstance(mesh, OutlineMesh):
+        mesh.write(folder)
+        check_mesh(installation, folder)
+        return iterate(installation, "simpleFoam", folder, tell, has_converged_around_outline)
+    write_mesh_dictionary(folder, mesh)
     make_mesh(installation, folder)
     return iterate(installation, "simpleFoam", folder, tell)
 
 
 def iterate(
-    installation: Installation, program: str, folder: Path, tell: Tell
+    installation: Installation,
+    program: str,
+    folder: Path,
+    tell: Tell,
+    is_converged: Callable[[Loads], bool] = has_converged,
 ) -> tuple[Path, Loads, bool]:
     """Run a steady solver until it has converged, or for long enough; see :func:`run_steady`."""
     loads, converged = follow_iterations(
-        folder, has_converged, tell, lambda watch: run_program(installation, program, folder, watch)
+        folder, is_converged, tell, lambda watch: run_program(installation, program, folder, watch)
     )
     return folder, loads, converged
 
@@ -136,6 +186,17 @@ def make_mesh(installation: Installation, folder: Path) -> None:
         A program failed, or the mesh is not sound.
     """
     run_program(installation, "blockMesh", folder)
+    check_mesh(installation, folder)
+
+
+def check_mesh(installation: Installation, folder: Path) -> None:
+    """Have the mesh of a folder checked.
+
+    Raises
+    ------
+    SolverError
+        The program failed, or the mesh is not sound.
+    """
     run_program(installation, "checkMesh", folder)
     require_sound_mesh(folder / "log.checkMesh")
 
@@ -162,7 +223,7 @@ def require_sound_mesh(log: Path) -> None:
 def rigid_loads(
     installation: Installation,
     case: SteadyCase,
-    mesh: Mesh,
+    mesh: SectionCells,
     work: Path,
     tell: Tell,
     *,
@@ -197,7 +258,9 @@ def rigid_loads(
     return unsteady_mean(installation, folder, mesh, work, tell, coupling=coupling)
 
 
-def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Mesh) -> RigidLoads:
+def steady_mean(
+    installation: Installation, folder: Path, loads: Loads, mesh: SectionCells
+) -> RigidLoads:
     """Return the loads of a converged steady run, the means of its last iterations.
 
     Raises
@@ -208,13 +271,13 @@ def steady_mean(installation: Installation, folder: Path, loads: Loads, mesh: Me
     drag, lift, moment = loads.last(WINDOW // 3).means()
     surface = surface_of_steady(installation, folder, mesh)
     method = f"steady, {loads.time.size} iterations"
-    return RigidLoads(drag, lift, moment, method, mesh.cells, surface)
+    return RigidLoads(drag, lift, moment, method, surface)
 
 
 def unsteady_mean(
     installation: Installation,
     source: Path,
-    mesh: Mesh,
+    mesh: SectionCells,
     work: Path,
     tell: Tell,
     *,
@@ -233,12 +296,13 @@ def unsteady_mean(
     folder = emptied(work / "unsteady")
     copy_flow(source, folder)
     write_at_rest(folder)
-    entries = control("pimpleFoam", RECORD.end, STEP, RECORD.end)
-    entries["functions"] |= averaging(RECORD.discarded, SAMPLED)
+    wanted = replace(RECORD, floor=FLOOR_OF_OUTLINE) if isinstance(mesh, OutlineMesh) else RECORD
+    entries = control("pimpleFoam", wanted.end, STEP, wanted.end)
+    entries["functions"] |= averaging(wanted.discarded, SAMPLED)
     write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution(coupling))
     record = follow_unsteady(
-        folder, RECORD, tell, lambda watch: run_program(installation, "pimpleFoam", folder, watch)
+        folder, wanted, tell, lambda watch: run_program(installation, "pimpleFoam", folder, watch)
     )
     drag, lift, moment = record.means()
     surface = surface_of_mean(folder, mesh)
-    return RigidLoads(drag, lift, moment, method_of_mean(record), mesh.cells, surface)
+    return RigidLoads(drag, lift, moment, method_of_mean(record, wanted.floor), surface)

@@ -1,0 +1,180 @@
+"""Outlines on the real mesher and solver: sound meshes, symmetry, known loads, and a verdict."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.sample_cases import GEOMETRY, STEADY, UNSTEADY
+from tests.watching import nothing
+
+from equisection.beam import outline as shapes
+from equisection.beam.outline import Outline, outline_of, placed
+from equisection.beam.section import Section
+from equisection.cases import SteadyCase
+from equisection.results.plane_mesh import cell_areas, edges
+from equisection.solvers.openfoam import flow_setup as flow
+from equisection.solvers.openfoam.dictionaries import control, write_system
+from equisection.solvers.openfoam.flow_setup import Coupling
+from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
+from equisection.solvers.openfoam.reading.meshed_section import quality, read_cells
+from equisection.solvers.openfoam.section.free_section import SectionRun
+from equisection.solvers.openfoam.section.rigid_section import (
+    RigidLoads,
+    check_mesh,
+    outline_mesh_of,
+    rigid_loads,
+)
+
+#: Some 4,000 cells: for what does not depend on the mesh.
+VERY_COARSE = 0.6
+
+
+def polygon(corners: Sequence[Sequence[float]]) -> Outline:
+    return outline_of(placed(np.array(corners, dtype=float)))
+
+
+ROUND = 2 * np.pi * np.arange(60) / 60
+# fmt: off
+SHAPES = {
+    "rectangle": outline_of(shapes.rectangle(0.04)),
+    "rounded": outline_of(shapes.rectangle(0.04, 0.02)),
+    "naca 0012": outline_of(placed(shapes.naca("0012"), 1.0), is_airfoil=True),
+    "naca 4412": outline_of(placed(shapes.naca("4412"), 1.0), is_airfoil=True),
+    "deck": polygon(
+        [[0, 0.03], [0.12, 0], [0.88, 0], [1, 0.03], [1, 0.045], [0.5, 0.06], [0, 0.045]]
+    ),
+    # girders as deep as 0.2 of the width (Tacoma), and a panel on its torque tube
+    "h": polygon(
+        [[0, 0], [0.02, 0], [0.02, 0.09], [0.98, 0.09], [0.98, 0], [1, 0],
+         [1, 0.2], [0.98, 0.2], [0.98, 0.11], [0.02, 0.11], [0.02, 0.2], [0, 0.2]]
+    ),
+    "tracker": polygon(
+        [[0, 0], [0.47, 0], *([0.5 - 0.035 * math.cos(t), -0.03 - 0.035 * math.sin(t)]
+         for t in np.linspace(-0.55, math.pi + 0.55, 40)), [0.53, 0], [1, 0], [1, 0.02], [0, 0.02]]
+    ),
+    "circle": polygon(np.stack([np.cos(ROUND), np.sin(ROUND)], axis=-1).tolist()),
+}
+# fmt: on
+
+
+def case_of(outline: Outline, incidence_deg: float) -> SteadyCase:
+    geometry = GEOMETRY.model_copy(update={"outline": outline.as_pairs()})
+    return STEADY.model_copy(update={"incidence_deg": incidence_deg, "geometry": geometry})
+
+
+def made(installation: Installation, mesh: OutlineMesh, folder: Path) -> Path:
+    """Return the folder with a mesh that ``checkMesh`` finds sound."""
+    mesh.write(folder)
+    entries = control("simpleFoam", 1, 1, 1)
+    write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
+    check_mesh(installation, folder)
+    return folder
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_meshes_are_sound(installation: Installation, tmp_path: Path, name: str) -> None:
+    mesh = outline_mesh_of(case_of(SHAPES[name], 5.0), 1.0)
+    folder = made(installation, mesh, tmp_path)
+    found = quality(folder / "log.checkMesh")
+    assert found["max_non_orthogonality_deg"] < 80.0
+    points, corners = read_cells(folder)
+    areas = cell_areas(points, corners)
+    assert areas.min() > 0
+    assert areas.sum() == pytest.approx(4.0 * 20.0 - SHAPES[name].area, rel=1e-4)
+    # Euler: corners - edges + cells = 0 for a plane region with one hole; an edge has two ends
+    lines = edges(corners)
+    real = int((lines[:, 0] != lines[:, 1]).sum())
+    assert len(points) - real + len(corners) == 0
+
+
+def test_disc_is_the_same_at_every_incidence(tmp_path: Path) -> None:
+    """Cells at the section, turned back, are one and the same."""
+    corners = []
+    for angle in (0.0, 8.0):
+        mesh = outline_mesh_of(case_of(SHAPES["naca 0012"], angle), VERY_COARSE)
+        folder = tmp_path / f"{angle:g}"
+        mesh.write(folder)
+        points, _ = read_cells(folder)
+        cosine, sine = math.cos(math.radians(angle)), math.sin(math.radians(angle))
+        own = points @ np.array([[cosine, sine], [-sine, cosine]])
+        inside = own[np.hypot(*own.T) < 0.99]
+        corners.append(inside[np.lexsort(inside.T.round(9))])
+    assert corners[0].shape == corners[1].shape
+    assert np.abs(corners[0] - corners[1]).max() < 1e-9
+
+
+@pytest.mark.parametrize("name", ["naca 0012", "h", "tracker"])
+def test_meshes_are_sound_where_the_section_has_moved(
+    installation: Installation, tmp_path: Path, name: str
+) -> None:
+    """At 10 deg and half a chord up, by OpenFOAM's own motion of the mesh."""
+    folder = made(installation, outline_mesh_of(case_of(SHAPES[name], 0.0), 1.0), tmp_path / "rest")
+    moving = MorphingMesh(installation, folder, 4.0)
+    found = moving.along(math.radians(10.0), 0.5, 1, tmp_path / "moved")[-1]
+    assert found.faults == ""
+    assert found.non_orthogonality_deg < 85.0
+
+
+def rigid(
+    installation: Installation, work: Path, name: str, incidence_deg: float, refinement: float
+) -> RigidLoads:
+    case = case_of(SHAPES[name], incidence_deg)
+    mesh = outline_mesh_of(case, refinement)
+    return rigid_loads(installation, case, mesh, work, nothing, coupling=Coupling())
+
+
+@pytest.mark.parametrize("incidence_deg", [3.0, -3.0])
+def test_pressure_and_friction_along_the_contour_add_up_to_the_loads(
+    installation: Installation, tmp_path: Path, incidence_deg: float
+) -> None:
+    loads = rigid(installation, tmp_path, "naca 0012", incidence_deg, VERY_COARSE)
+    drag, lift, moment = loads.surface.loads(incidence_deg)
+    assert drag == pytest.approx(loads.drag, rel=0.005)
+    assert lift == pytest.approx(loads.lift, rel=0.005)
+    assert moment == pytest.approx(loads.moment, rel=0.005)
+    assert loads.surface.length.sum() == pytest.approx(SHAPES["naca 0012"].perimeter, rel=1e-3)
+    # the stagnation point is on the pressure side, with c_p of 1 and a little of the channel's loss
+    stagnation = int(np.argmax(loads.surface.pressure))
+    assert loads.surface.side[stagnation] == ("lower" if incidence_deg > 0 else "upper")
+    assert loads.surface.pressure[stagnation] == pytest.approx(1.0, abs=0.1)
+
+
+def test_symmetric_airfoil_has_no_lift_at_zero(installation: Installation, tmp_path: Path) -> None:
+    loads = rigid(installation, tmp_path, "naca 0012", 0.0, VERY_COARSE)
+    assert loads.method.startswith("steady")
+    assert abs(loads.lift) < 2e-3
+    assert abs(loads.moment) < 5e-4
+
+
+def test_airfoil_from_digits_to_verdict(installation: Installation, tmp_path: Path) -> None:
+    """A soft section diverges: its spring is weaker than dc_m/dalpha = 2 pi/4 about mid-chord."""
+    section = Section(
+        torsional_stiffness=0.4,
+        flexural_stiffness=1.0,
+        inertia=2.0,
+        mass=20.0,
+        twist_recovery=1.0,
+        deflection_recovery=1.0,
+    )
+    geometry = GEOMETRY.model_copy(update={"outline": SHAPES["naca 0012"].as_pairs()})
+    case = UNSTEADY.model_copy(
+        update={
+            "incidence_deg": 2.0,
+            "geometry": geometry,
+            "section": section,
+            "k_star": 0.4,
+            "duration": 30.0,
+            "time_step": 0.04,
+            "output_interval": 0.04,
+        }
+    )
+    mesh = outline_mesh_of(case, 0.5)
+    result = SectionRun(installation, case, mesh, Coupling(), tmp_path).run(nothing)
+    assert result.verdict["regime"] == "growing"
+    assert result.incidence[-1] > math.radians(8.0)

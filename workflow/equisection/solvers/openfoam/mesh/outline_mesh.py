@@ -1,0 +1,179 @@
+r"""Mesh of a section of any outline in a channel, or in free air in a wide one.
+
+::
+
+    +-----------------------------------------+  ceiling
+    |                 .-----.                 |
+    |   ring        /  disc   \     wake     |
+    |  (unturned)  |   ====    |              |
+    |               \ (turned) /             |
+    |                 '-----'                 |
+    +-----------------------------------------+  floor
+
+Layers at the wall and the disc around them are the same cells at every incidence, turned with the
+section; the ring out to the channel is meshed for each.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import json
+import math
+import subprocess
+import sys
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+from equisection.errors import ConfigError, SolverError
+from equisection.files import write_text
+from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
+from equisection.solvers.openfoam.mesh.outline_sizes import TYPICAL_CELLS, OutlineSizes
+from equisection.solvers.openfoam.process import BlowUpError
+
+#: Version of this mesh, a part of the case that it is made for.
+VERSION = 1
+#: Seconds after which gmsh counts as hung.
+TIME_LIMIT = 300.0
+#: Status of the process that makes a mesh where the outline has none.
+NO_MESH = 3
+#: Input and log of that process, in the folder of the case.
+INPUT, LOG = "outline.json", "log.outline"
+#: Room between the disc and the channel's walls (chords), and between it and inlet and outlet.
+_TO_WALL, _TO_END = 0.25, 1.0
+
+
+def mesher() -> str:
+    """Return the mesher of outlines with its version and gmsh's, as a case holds it.
+
+    Raises
+    ------
+    ConfigError
+        gmsh is not installed.
+    """
+    try:
+        version = importlib.metadata.version("gmsh")
+    except importlib.metadata.PackageNotFoundError:
+        raise ConfigError(
+            "config: beam.outline: needs gmsh, which makes its mesh: make openfoam, or "
+            "pip install -c envs/constraints.txt -e '.[openfoam]'"
+        ) from None
+    return f"outline {VERSION}, gmsh {version}"
+
+
+def require_mesher(named: str) -> None:
+    """Refuse a case that was written for another mesher than the one installed.
+
+    Raises
+    ------
+    SolverError
+        With both versions.
+    """
+    if named != mesher():
+        raise SolverError(
+            f"the case is for the mesher '{named}', installed is '{mesher()}'; install that "
+            "(envs/constraints.txt), or delete the run's folder 'cases' and run again"
+        )
+
+
+@dataclass(frozen=True)
+class OutlineMesh:
+    """Input of the mesh of a section in a channel.
+
+    Attributes
+    ----------
+    outline
+        Vertices of the contour over the chord from mid-chord, counter-clockwise.
+    channel
+        The channel.
+    incidence
+        Incidence (rad), nose up.
+    refinement
+        Refinement of each direction.
+    sizes
+        Sizes that are refined.
+    """
+
+    outline: tuple[tuple[float, float], ...]
+    channel: ChannelBox
+    incidence: float
+    refinement: float
+    sizes: OutlineSizes = field(default_factory=OutlineSizes)
+
+    @property
+    def cells(self) -> int:
+        """Number of cells, roughly: it depends on the outline."""
+        return round(TYPICAL_CELLS * self.refinement**2)
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """Middle of the outline in its own frame."""
+        x, y = zip(*self.outline, strict=True)
+        return (min(x) + max(x)) / 2, (min(y) + max(y)) / 2
+
+    @property
+    def disc_radius(self) -> float:
+        """Radius of the disc: that of the sizes, more for a section that is high."""
+        x0, y0 = self.centre
+        reach = max(math.hypot(x - x0, y - y0) for x, y in self.outline)
+        return max(self.sizes.disc, reach + self.sizes.disc / 2)
+
+    def require_room(self) -> None:
+        """Refuse a channel that the disc does not fit into.
+
+        Raises
+        ------
+        SolverError
+            With the channel and what the disc needs.
+        """
+        radius, (x0, y0) = self.disc_radius, self.centre
+        cosine, sine = math.cos(self.incidence), math.sin(self.incidence)
+        x, y = x0 * cosine + y0 * sine, y0 * cosine - x0 * sine
+        channel = self.channel
+        fits = (
+            abs(y) + radius + _TO_WALL <= channel.height / 2
+            and radius - x + _TO_END <= channel.upstream
+            and radius + x + _TO_END <= channel.downstream
+        )
+        if not fits:
+            raise SolverError(
+                f"the mesh around the outline, of radius {radius:.3g} c, does not fit into a "
+                f"channel of {channel.height:g} c from {-channel.upstream:g} c to "
+                f"{channel.downstream:g} c; enlarge flow.channel"
+            )
+
+    def write(self, folder: Path, time_limit: float = TIME_LIMIT) -> None:
+        """Make the mesh and write ``constant/polyMesh``, in a process of its own.
+
+        Raises
+        ------
+        BlowUpError
+            The outline has no mesh.
+        SolverError
+            gmsh is missing, crashed, or did not end within the time limit (s).
+        """
+        self.require_room()
+        write_text(folder / INPUT, json.dumps(asdict(self)))
+        command = [sys.executable, "-m", "equisection.solvers.openfoam.mesh.outline_mesher"]
+        try:
+            with (folder / LOG).open("wb") as log:
+                status = subprocess.run(
+                    [*command, str(folder.resolve())],
+                    stdin=subprocess.DEVNULL,
+                    stdout=log,
+                    stderr=subprocess.STDOUT,
+                    timeout=time_limit,
+                    check=False,
+                ).returncode
+        except subprocess.TimeoutExpired:
+            raise SolverError(
+                f"gmsh did not end the mesh of the outline within {time_limit:g} s and was ended; "
+                f"see {folder / INPUT}"
+            ) from None
+        if status == 0:
+            return
+        said = (folder / LOG).read_text(encoding="utf-8", errors="replace").strip().splitlines()
+        last = said[-1] if said else "it said nothing"
+        if status == NO_MESH:
+            raise BlowUpError(last)
+        how = f"status {status}" if status > 0 else f"signal {-status}"
+        raise SolverError(f"the mesh of the outline: {last} ({how}); see {folder / LOG}")
