@@ -165,7 +165,7 @@ def test_exact_theory_tells_the_same():
     )
     assert found.mechanism[0] == Mechanism.FLUTTER
     _, by_strips = told(section, THIN, 60.0 / math.sqrt(0.98 * neutral.scale), density=1.22)
-    assert found.heave_phase_deg[0] == pytest.approx(by_strips.heave_phase_deg[0], abs=3.0)
+    assert found.heave_phase[0] == pytest.approx(by_strips.heave_phase[0], abs=3.0)
 
 
 def stiff_in_bending() -> Section:
@@ -203,7 +203,7 @@ def test_scale_and_phase_of_the_eigenvector_do_not_matter():
     one = instabilities(p, heave, twist, influence)
     other = instabilities(p, heave * 7j, twist * 7j, influence)
     assert one.coupling_share[0] == 1.0
-    for name in ("heave_share", "twist_share", "coupling_share", "heave_phase_deg"):
+    for name in ("heave_share", "twist_share", "coupling_share", "heave_phase"):
         np.testing.assert_allclose(getattr(other, name), getattr(one, name), rtol=1e-12)
     assert other.mechanism[0] == one.mechanism[0]
 
@@ -212,4 +212,14 @@ def test_what_has_no_eigenvalue_is_unknown():
     nothing = np.array([[complex(math.nan, math.nan)]])
     found = instabilities(nothing[0], nothing, nothing, lambda p: np.zeros((1, 2, 2)) + 0j * p)
     assert found.mechanism[0] == Mechanism.UNKNOWN
+    assert np.isnan(found.coupling_share[0])
+
+
+def test_air_that_is_a_spring_drives_nothing():
+    """A symmetric real Q does no work, however fast the motion grows."""
+    stiff = np.array([[[0.5, 0.3], [0.3, 2.0]]])
+    found = instabilities(
+        np.array([0.4 + 0.3j]), np.array([[1.0 + 2.0j]]), np.array([[0.7j]]), lambda p: stiff + 0j
+    )
+    assert found.mechanism[0] == Mechanism.FLUTTER
     assert np.isnan(found.coupling_share[0])

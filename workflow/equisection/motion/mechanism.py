@@ -1,18 +1,20 @@
 r"""Mechanism of an instability, from where the air puts its energy into the motion.
 
 A small motion with the eigenvalue p = sigma + i omega moves the heave by w exp(p s) and the twist
-by theta exp(p s), real parts meant. With the loads (force up, moment about the elastic axis)
+by theta exp(p s), real parts meant. At a constant amplitude, p = i omega, the loads are
 
-    f_w = Q_ww w + Q_wt theta,    f_t = Q_tw w + Q_tt theta,
+    f_w = Q_ww w + Q_wt theta,    f_t = Q_tw w + Q_tt theta
 
-the air puts the mean power Re(f conj(p x))/2 into a motion x. It has three parts:
+(force up, moment about the elastic axis), and the air puts the mean power Re(f conj(i omega x))/2
+into a motion x: its work per cycle over the period. It has three parts,
 
-    P_w = Re(conj(p w) Q_ww w)/2              heave alone,
-    P_t = Re(conj(p theta) Q_tt theta)/2      twist alone,
-    P_c, the rest with Q_wt and Q_tw          coupling, by the phase between heave and twist.
+    P_w = omega Im(conj(w) Q_ww w)/2              heave alone,
+    P_t = omega Im(conj(theta) Q_tt theta)/2      twist alone,
+    P_c, the rest with Q_wt and Q_tw              coupling, by the phase between heave and twist.
 
-They sum to what the motion gains and its dampers take, so that at least one is positive where an
-oscillation grows. The largest tells the mechanism:
+At the onset they sum to what the dampers take, so that one is positive at least. The amplitude is
+held constant so that air that acts as a spring does no work, however fast the motion grows. The
+largest part tells the mechanism:
 
 *divergence*
     The motion grows without turning, omega = 0 (Bisplinghoff, Ashley & Halfman, *Aeroelasticity*,
@@ -23,8 +25,8 @@ oscillation grows. The largest tells the mechanism:
     Scanlan, *Wind Effects on Structures*, on classical flutter, where H_1* and A_2* are negative).
 *galloping*
     The energy comes by heave alone, and it does so at low frequency too: there P_w is
-    -(c_l' + c_d) |p w|^2/2, so that this is the criterion of Den Hartog, c_l' + c_d < 0 (Blevins,
-    *Flow-Induced Vibration*, on galloping).
+    -(c_l' + c_d) |omega w|^2/2, so that this is the criterion of Den Hartog, c_l' + c_d < 0
+    (Blevins, *Flow-Induced Vibration*, on galloping).
 *stall-flutter*
     The energy comes by one motion alone, as a rule by twist near its own frequency, and comes from
     separation: the loads of attached flow damp that motion (Dowell, on stall flutter; Simiu &
@@ -33,7 +35,8 @@ oscillation grows. The largest tells the mechanism:
 One motion that attached flow drives too is called flutter: a thin plate that turns about an axis
 ahead of its quarter chord, at low frequency (Garrick & Rubinow, NACA Report 836, 1946).
 
-Apparent mass does no work in a neutral motion. It is counted as mass here, and not as a load.
+An oscillation that grows fast and turns slowly may gain by no part: the air is a negative spring,
+and it is about to diverge. It is called flutter, and has no shares.
 """
 
 from __future__ import annotations
@@ -81,8 +84,9 @@ class Instabilities:
         Names of :class:`Mechanism`.
     heave_share, twist_share, coupling_share
         Parts of the power that the air puts into the motion (-): by heave alone, by twist alone and
-        by coupling. A part that takes energy counts as 0, so that they sum to 1.
-    heave_phase_deg
+        by coupling. A part that takes energy counts as 0, so that they sum to 1. The largest one
+        says how clear the mechanism is.
+    heave_phase
         Phase (deg) of the heave, up, ahead of the twist, nose up; of the first modes of a beam.
     """
 
@@ -90,7 +94,7 @@ class Instabilities:
     heave_share: Floats
     twist_share: Floats
     coupling_share: Floats
-    heave_phase_deg: Floats
+    heave_phase: Floats
 
 
 def instabilities(
@@ -110,7 +114,8 @@ def instabilities(
         The eigenvector: heave of the elastic axis (chords, up), shape (N, n_b), and twist (rad,
         nose up), shape (N, n_t), in any common scale and phase.
     influence
-        Generalised loads Q about the elastic axis, over q c and q c^2, without apparent mass.
+        Generalised loads Q about the elastic axis, over q c and q c^2, with apparent mass or
+        without, which does no work.
     attached
         The same of flow that stays attached. Without them all flow is attached.
     """
@@ -126,20 +131,19 @@ def instabilities(
     if grows.any():
         kinds = heave.shape[1]
 
-        def powers(loads: InfluenceOf, at: Complexes) -> Floats:
-            whole = np.broadcast_to(at, p.shape) if at.size == 1 else at
-            return _powers(np.where(grows, whole, 1j), motion, kinds, loads)[:, grows]
+        def powers(loads: InfluenceOf, omega: Floats) -> Floats:
+            return _powers(np.where(grows, omega, 1.0), motion, kinds, loads)[:, grows]
 
-        found = powers(influence, p)
+        found = powers(influence, p.imag)
         gained = np.maximum(found, 0.0)
-        numbers[:3, grows] = gained / gained.sum(axis=0)
+        total = gained.sum(axis=0)
+        numbers[:3, grows] = gained / np.where(total > 0.0, total, np.nan)
         first = heave[grows, 0] * np.conj(twist[grows, 0])
         numbers[3, grows] = np.degrees(np.angle(first))
-        largest = found.argmax(axis=0)
-        gallops = powers(influence, np.array([SLOW * 1j]))[0] > 0.0
-        alone = np.take_along_axis(
-            found if attached is None else powers(attached, p), largest[None], axis=0
-        )[0]
+        largest = np.where(total > 0.0, found.argmax(axis=0), _COUPLING)
+        gallops = powers(influence, np.full(p.size, SLOW))[_HEAVE] > 0.0
+        when_attached = found if attached is None else powers(attached, p.imag)
+        alone = np.take_along_axis(when_attached, largest[None], axis=0)[0]
         mechanism[grows] = np.select(
             [largest == _COUPLING, (largest == _HEAVE) & gallops, alone <= 0.0],
             [Mechanism.FLUTTER, Mechanism.GALLOPING, Mechanism.STALL_FLUTTER],
@@ -151,19 +155,18 @@ def instabilities(
 _HEAVE, _TWIST, _COUPLING = range(3)
 
 
-def _powers(p: Complexes, motion: Complexes, kinds: int, influence: InfluenceOf) -> Floats:
+def _powers(omega: Floats, motion: Complexes, kinds: int, influence: InfluenceOf) -> Floats:
     """P_w, P_t and P_c, shape (3, N), of motions whose first ``kinds`` columns are heave."""
-    loads = influence(p)
-    rate = np.conj(p[:, None] * motion)
+    loads = influence(np.asarray(1j * omega, dtype=np.complex128))
 
     def power(rows: slice, columns: slice) -> Floats:
         force = np.einsum("nij,nj->ni", loads[:, rows, columns], motion[:, columns])
-        return np.asarray(0.5 * np.real(np.einsum("ni,ni->n", rate[:, rows], force)))
+        work = np.einsum("ni,ni->n", np.conj(motion[:, rows]), force).imag
+        return np.asarray(0.5 * omega * work, dtype=np.float64)
 
     heave, twist = slice(0, kinds), slice(kinds, None)
-    return np.stack(
-        [power(heave, heave), power(twist, twist), power(heave, twist) + power(twist, heave)]
-    )
+    coupling = power(heave, twist) + power(twist, heave)
+    return np.stack([power(heave, heave), power(twist, twist), coupling])
 
 
 def least_stable_instabilities(
