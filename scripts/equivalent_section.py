@@ -39,6 +39,8 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path, *, method: str 
         sections,
         integrals,
         warnings,
+        pair=of_pair,
+        places=modes.places,
         density=flow.density,
         speed=flow.speed,
     )

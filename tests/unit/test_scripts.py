@@ -115,7 +115,11 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         run.main(cases, index, folder / "store", folder / "progress.json")
     indices = [folder / "unsteady" / model / "sweep.json" for model in ("2d-corrected", "3d")]
     load_script("summary").main(
-        indices, folder / "summary.csv", folder / "equivalent.nc", config.flow.speed
+        indices,
+        folder / "summary.csv",
+        folder / "equivalent.nc",
+        config.flow.speed,
+        config.reduction,
     )
     load_script("onset").growth_by_linear_theory(
         folder / "equivalent.nc", [9.0, 21.0], "k_star", 20.0, folder / "linear_theory.csv"
@@ -196,7 +200,11 @@ def test_study_over_other_axes_runs_by_the_names_of_its_cases(
     points = [Point.named(name) for name in names]
     axes, along = points[0].axes, onset_axis(points[0].axes)
     load_script("summary").main(
-        [index], tmp_path / "summary.csv", chain / "equivalent.nc", raw["flow"]["speed"]
+        [index],
+        tmp_path / "summary.csv",
+        chain / "equivalent.nc",
+        raw["flow"]["speed"],
+        "consistent",
     )
     summary = pd.read_csv(tmp_path / "summary.csv")
     columns = [axis.name for axis in axes]

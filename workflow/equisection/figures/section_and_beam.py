@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from equisection.analysis.deviations import root_mean_square
 from equisection.figures.models import LOOKS
 from equisection.figures.origin import add_provenance, solvers_of
+from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.style import GREY, PAGE_WIDTH
 from equisection.study.axes import Axis, onset_axis_among
@@ -74,6 +75,7 @@ def _over_study(axes: Axes, table: pd.DataFrame, name: str, factor: float, along
             marker=look.marker,
             label=look.label,
         )
+    add_other_axis(axes, along, as_given(table))
 
 
 def _root_mean_squares(axes: Axes, values: pd.Series, unit: str) -> None:

@@ -178,6 +178,31 @@ def _require_restraint(beam: Beam, integrals: Integrals) -> None:
             )
 
 
+def oscillation_factor(section: Section, integrals: Integrals, reduction: str) -> float:
+    """Return W_tip about its mean over what the recovery of means, w/b, gives (-).
+
+    Means are recovered by a and b, which are those of a static load. An oscillation has the kinetic
+    energy of the section's rows times D_w and D_theta in the beam's modes, whatever the load, so
+    that W/Theta = (w/theta) sqrt(D_theta/D_w). The twist is Theta = theta/a in both. In the
+    consistent form D are the A of their own mode, and the ratio is sqrt(A_theta,theta/A_w,w)
+    (:attr:`~equisection.reduction.integrals.Integrals.oscillation_ratio`). A correction for the
+    finite span (Eq. 20) stands for loads and changes no D.
+
+    Parameters
+    ----------
+    section
+        The section, of the integrals' first pair of modes.
+    integrals
+        Integrals of the pair.
+    reduction
+        One of :data:`REDUCTIONS`.
+    """
+    a_tt, a_ww = integrals.a_theta_theta[0, 0], integrals.a_w_w[0, 0]
+    d_w = abs(integrals.a_theta_w[0, 0]) if reduction == "paper" else a_ww
+    static = section.twist_recovery / section.deflection_recovery  # W/Theta over w/theta of means
+    return float(math.sqrt(a_tt / d_w) / static)
+
+
 def validity_warnings(integrals: Integrals) -> tuple[str, ...]:
     """Return the reasons why a section represents its beam's means badly; empty if there are none.
 
