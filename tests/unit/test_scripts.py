@@ -140,6 +140,46 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
     return folder
 
 
+def test_beam_without_a_section_runs_alone(load_script: LoadScript, tmp_path: Path) -> None:
+    """Two equal spans of a beam soft in torsion: the one bending mode alternates and has no mean."""
+    raw = {
+        **RAW,
+        "beam": {
+            "boundary": "pinned-pinned",
+            "supports": [{"at": 0.5, "deflection": "fixed"}],
+            "cross_section": {
+                "bending_rigidity": 10.0,
+                "torsional_rigidity": 0.57,
+                "mass_per_length": 0.5,
+                "inertia_per_length": 4e-4,
+            },
+        },
+        "structure": {**RAW["structure"], "bending_modes": 1, "torsion_modes": 1},
+        "flow": {"channel": None},
+        "sweep": {"models": ["3d"]},
+    }
+    config = load_config(raw)
+    modes, equivalent = tmp_path / "modes.nc", tmp_path / "equivalent.nc"
+    load_script("modes").main(config.beam, config.structure, modes, tmp_path / "study.nc")
+    load_script("equivalent_section").main(config.beam, config.flow, modes, equivalent)
+    sections = read_dataset(equivalent)
+    assert abs(float(sections["g_mean"][0])) < 1e-6
+    assert abs(float(sections["a_theta_w"][0, 0])) < 1e-6
+    assert "a uniform load does not move this mode" in sections.attrs["warnings"]
+    made_from = {"modes": modes, "equivalent": equivalent}
+    found = {}
+    for model in ("2d", "3d"):
+        cases = tmp_path / f"{model}.json"
+        index = tmp_path / "unsteady" / model / "sweep.json"
+        load_script("unsteady_cases").main(resolve_config(config), model, made_from, ["k9"], cases)
+        load_script("run_cases").main(cases, index, tmp_path / "store", tmp_path / "progress.json")
+        (found[model],) = read_index(index).values()
+    assert found["2d"]["regime"] == "failed"
+    assert "run the beam (sweep.models: [3d])" in found["2d"]["reason"]
+    assert found["3d"]["regime"] != "failed"
+    assert float(sections["k_star"].sel(reduction="paper")) > 0.0
+
+
 def test_chain_of_scripts_ends_in_a_line_for_each_run(chain: Path) -> None:
     summary = pd.read_csv(chain / "summary.csv")
     assert list(zip(summary["model"], summary["k_star"], strict=True)) == [

@@ -12,8 +12,10 @@ from equisection.beam.section import QUANTITIES, Section
 from equisection.conventions import dynamic_pressure
 from equisection.reduction.flutter_bias import FlutterBias
 from equisection.reduction.integrals import Integrals
-from equisection.reduction.reduce import oscillation_factor
+from equisection.reduction.reduce import not_reducible, oscillation_factor
 
+#: Begin of an attribute: why a reduction has no section, empty where it has one.
+_NO_SECTION = "no_section_"
 _RATIOS = {"inertia_ratio": "c^2 m_2D/I_2D", "stiffness_ratio": "c^2 k_w/k_theta"}
 _INTEGRALS = {
     "mass_theta": "M_theta (Eq. 6)",
@@ -112,6 +114,7 @@ def equivalent_to_dataset(
         attrs={
             "dynamic_pressure": dynamic_pressure(density, speed),
             "warnings": "; ".join(warnings),
+            **{f"{_NO_SECTION}{name}": not_reducible(of_pair, name) for name in sections},
         },
     )
 
@@ -200,6 +203,11 @@ def section_in_flow(equivalent: xr.Dataset, reduction: str) -> Section:
         if member != "chord"
     }
     return Section(**{member: float(chosen[name]) for member, name in names.items()})
+
+
+def no_section(equivalent: xr.Dataset, reduction: str) -> str:
+    """Return why a reduction of ``structure/equivalent.nc`` has no section; empty where it has."""
+    return str(equivalent.attrs.get(f"{_NO_SECTION}{reduction}", ""))
 
 
 def nominal_k_star(equivalent: xr.Dataset) -> float:

@@ -78,7 +78,7 @@ class ModeSet:
         best = int(np.argmax(np.abs(across) / np.sqrt(own)))
         first = self.kind.index("torsion")
         pair = self._chosen(sorted([found[best], first]))
-        if best > 0 and across[best] < 0.0:
+        if across[best] < 0.0:
             shape = pair.shape.copy()
             shape[pair.kind.index("bending")] *= -1.0
             pair = replace(pair, shape=shape)
