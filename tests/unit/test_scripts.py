@@ -25,7 +25,8 @@ from equisection.config.groups import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
 from equisection.figures.response import draw, read_response
 from equisection.figures.style import drawing_style
-from equisection.results.netcdf import read_dataset
+from equisection.results.modes_dataset import modes_to_dataset
+from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_dataset import nominal_k_star
 from equisection.results.section_mesh import SectionMesh
@@ -35,6 +36,7 @@ from equisection.run.status import run_status
 from equisection.run.status_text import print_status
 from equisection.store.index import read_index, write_index
 from equisection.store.kept import kept_results
+from equisection.structure.mode_set import ModeSet
 from equisection.study import plan
 from equisection.study.axes import Point, onset_axis
 
@@ -141,43 +143,40 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
 
 
 def test_beam_without_a_section_runs_alone(load_script: LoadScript, tmp_path: Path) -> None:
-    """Two equal spans of a beam soft in torsion: the one bending mode alternates and has no mean."""
-    raw = {
-        **RAW,
-        "beam": {
-            "boundary": "pinned-pinned",
-            "supports": [{"at": 0.5, "deflection": "fixed"}],
-            "cross_section": {
-                "bending_rigidity": 10.0,
-                "torsional_rigidity": 0.57,
-                "mass_per_length": 0.5,
-                "inertia_per_length": 4e-4,
-            },
-        },
-        "structure": {**RAW["structure"], "bending_modes": 1, "torsion_modes": 1},
-        "flow": {"channel": None},
-        "sweep": {"models": ["3d"]},
-    }
-    config = load_config(raw)
-    modes, equivalent = tmp_path / "modes.nc", tmp_path / "equivalent.nc"
-    load_script("modes").main(config.beam, config.structure, modes, tmp_path / "study.nc")
-    load_script("equivalent_section").main(config.beam, config.flow, modes, equivalent)
-    sections = read_dataset(equivalent)
-    assert abs(float(sections["g_mean"][0])) < 1e-6
-    assert abs(float(sections["a_theta_w"][0, 0])) < 1e-6
+    """Both modes alternate over two equal spans: no uniform load moves either, F = G = 0."""
+    config = load_config({**RAW, "sweep": {"models": ["3d"]}})
+    span = np.linspace(0.0, 1.0, 41)
+    wave = np.sin(2.0 * np.pi * span)
+    modes = ModeSet(
+        np.array([20.0, 60.0]), ("bending", "torsion"), span, np.stack([wave, wave]), "beam", "2"
+    )
+    files = {name: tmp_path / f"{name}.nc" for name in ("modes", "equivalent")}
+    write_dataset(files["modes"], modes_to_dataset(modes, [0.0, 0.0]))
+    load_script("equivalent_section").main(
+        config.beam, config.flow, files["modes"], files["equivalent"]
+    )
+    sections = read_dataset(files["equivalent"])
+    assert float(sections["k_star"].sel(reduction="paper")) > 0.0
     assert "a uniform load does not move this mode" in sections.attrs["warnings"]
-    made_from = {"modes": modes, "equivalent": equivalent}
+    raw = resolve_config(
+        config.model_copy(
+            update={
+                "structure": config.structure.model_copy(
+                    update={"bending_modes": 1, "torsion_modes": 1}
+                )
+            }
+        )
+    )
     found = {}
     for model in ("2d", "3d"):
         cases = tmp_path / f"{model}.json"
         index = tmp_path / "unsteady" / model / "sweep.json"
-        load_script("unsteady_cases").main(resolve_config(config), model, made_from, ["k9"], cases)
+        load_script("unsteady_cases").main(raw, model, files, ["k9"], cases)
         load_script("run_cases").main(cases, index, tmp_path / "store", tmp_path / "progress.json")
         (found[model],) = read_index(index).values()
     assert found["2d"]["regime"] == "failed"
     assert "run the beam (sweep.models: [3d])" in found["2d"]["reason"]
     assert found["3d"]["regime"] != "failed"
-    assert float(sections["k_star"].sel(reduction="paper")) > 0.0
 
 
 def test_chain_of_scripts_ends_in_a_line_for_each_run(chain: Path) -> None:
