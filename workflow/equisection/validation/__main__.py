@@ -39,8 +39,8 @@ tables.
 #: Problems that have no row, and the reason.
 _WITHOUT = (
     (
-        "square prism, galloping (Parkinson and Smith, 1964)",
-        "its coefficients were not at hand to look them up",
+        "square prism, amplitude of galloping (Parkinson and Smith, 1964)",
+        "the coefficients beyond A_1 were not at hand to look them up",
     ),
     ("Pazy wing", "its stiffness and mass vary along the span; a beam here is uniform"),
     (
