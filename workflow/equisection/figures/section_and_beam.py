@@ -52,6 +52,8 @@ def draw(table: pd.DataFrame, summary: pd.DataFrame) -> Figure:
         along = onset_axis_among(table.columns)
         axes.set(xlabel=along.label, ylabel=label)
         _over_study(axes, table, name, factor, along)
+        if place in "ab" and axes.has_data():  # those below have the same axis
+            add_other_axis(axes, along, as_given(table))
         _root_mean_squares(axes, over_all[name] * factor, _UNITS[name])
     legend_above(figure, panels.flat[0], columns=2)
     sources = summary[["solver", "resolution"]].drop_duplicates().values
@@ -75,7 +77,6 @@ def _over_study(axes: Axes, table: pd.DataFrame, name: str, factor: float, along
             marker=look.marker,
             label=look.label,
         )
-    add_other_axis(axes, along, as_given(table))
 
 
 def _root_mean_squares(axes: Axes, values: pd.Series, unit: str) -> None:
