@@ -8,7 +8,12 @@ from equisection.beam.section import Section
 from equisection.config.groups import Flow
 from equisection.reduction.flutter_bias import FlutterBias, flutter_bias
 from equisection.reduction.integrals import span_integrals
-from equisection.reduction.reduce import REDUCTIONS, reduce_beam, validity_warnings
+from equisection.reduction.reduce import (
+    REDUCTIONS,
+    not_reducible,
+    section_of_pair,
+    validity_warnings,
+)
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.section_dataset import equivalent_to_dataset, with_flutter
@@ -21,17 +26,20 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path, *, method: str 
     modes = modes_from_dataset(read_dataset(modes_file))
     count = min(modes.kind.count("bending"), modes.kind.count("torsion"))
     integrals = span_integrals(beam, modes, count)
+    pair = modes.section_pair()[0]
     sections: dict[str, Section] = {
-        reduction: reduce_beam(beam, modes, reduction) for reduction in REDUCTIONS
+        reduction: section_of_pair(beam, pair, reduction) for reduction in REDUCTIONS
     }
     flutter: dict[str, FlutterBias] = {
         reduction: flutter_bias(section, beam, modes, flow.density)
         for reduction, section in sections.items()
     }
     poor = flutter["consistent"].warnings("consistent")
-    of_pair = span_integrals(beam, modes.section_pair()[0], 1)
+    of_pair = span_integrals(beam, pair, 1)
     soft = warping_warnings(beam, method)
-    warnings = (*beam.warnings, *soft, *poor, *validity_warnings(of_pair))
+    reason = not_reducible(of_pair, "consistent")
+    none = [f"no section stands for this beam: {reason}"] if reason else []
+    warnings = (*beam.warnings, *soft, *poor, *none, *validity_warnings(of_pair))
     logging.info(beam.axes_in_words)
     for warning in warnings:
         logging.warning(warning)
@@ -39,6 +47,8 @@ def main(beam: Beam, flow: Flow, modes_file: Path, output: Path, *, method: str 
         sections,
         integrals,
         warnings,
+        pair=of_pair,
+        places=modes.places,
         density=flow.density,
         speed=flow.speed,
     )

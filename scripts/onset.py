@@ -24,6 +24,7 @@ from equisection.run.script import logged
 from equisection.solvers.protocol import HasSectionLoads
 from equisection.solvers.registry import solver_from_config
 from equisection.study import plan
+from equisection.study.assemble import section_refusal
 from equisection.study.axes import INCIDENCE, SPEED, AsGiven, onset_axis, varied
 
 
@@ -65,7 +66,9 @@ def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: 
     sections = {
         model.name: section_from_dataset(data, model.reduction)
         for model in models
-        if model.dimension == "2d" and not model.corrected
+        if model.dimension == "2d"
+        and not model.corrected
+        and not section_refusal(data, model.reduction)
     }
     if isinstance(solver, HasSectionLoads) and sections:
         values = config.sweep.values()

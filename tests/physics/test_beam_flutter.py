@@ -24,7 +24,7 @@ from equisection.motion.steady_states import least_stable_eigenvalue
 from equisection.reduction.beam_section import reduce
 from equisection.reduction.flutter_bias import FlutterBias, flutter_bias, refusal
 from equisection.reduction.integrals import span_integrals
-from equisection.reduction.reduce import reduce_beam
+from equisection.reduction.reduce import oscillation_factor, reduce_beam
 from equisection.structure.modal_matrices import modal_matrices
 from equisection.structure.mode_set import ModeSet
 from equisection.structure.modes import modes_of_kinds
@@ -247,12 +247,15 @@ def bias_of(beam: Beam, reduction: str = "consistent") -> FlutterBias:
     return flutter_bias(reduce_beam(beam, modes, reduction), beam, modes, AIR)
 
 
-def deflection_over_twist(mass, stiffness, likeness, onset: FlutterOnset) -> float:
+def deflection_over_twist(
+    mass, stiffness, likeness, onset: FlutterOnset, beam: Beam | None = None
+) -> float:
     """|w/theta| (chords per rad) of a bending and a torsion mode at flutter, from the row of w."""
-    chord = 1.8288
+    beam = goland() if beam is None else beam
+    chord = beam.chord
     pressure = 0.5 * AIR * onset.speed**2
     units = pressure * np.array([1.0, chord])
-    air = ThinAirfoil(0.33 - 0.5).influence(onset.omega * chord / onset.speed)
+    air = ThinAirfoil(beam.elastic_axis - 0.5).influence(onset.omega * chord / onset.speed)
     row = (stiffness[0] - onset.omega**2 * mass[0]) / units - air[0] * likeness[0]
     return abs(row[1] / row[0])
 
@@ -281,6 +284,44 @@ def test_ratio_of_an_oscillating_tip():
     assert raw * ratio == pytest.approx(0.4545, abs=1e-3)
     static = section.twist_recovery / section.deflection_recovery
     assert raw * static == pytest.approx(0.395, abs=1e-3)
+
+
+@pytest.mark.parametrize(("reduction", "bound"), [("consistent", 0.08), ("paper", 0.3)])
+@pytest.mark.parametrize("beam", [goland(), Beam()], ids=["Goland", "plate"])
+def test_oscillating_tip_of_a_section_is_nearer_to_its_beams(beam, reduction, bound):
+    """At flutter the factor brings W/Theta nearer to that of the beam's first pair of modes."""
+    modes = modes_of(beam)
+    section, pair = reduce_beam(beam, modes, reduction), modal_matrices(beam, modes, 1, 1)
+    by_means = (
+        deflection_over_twist(
+            section.mass_matrix,
+            section.stiffness_matrix,
+            np.ones((2, 2)),
+            section_flutter(section, AIR),
+            beam,
+        )
+        * section.twist_recovery
+        / section.deflection_recovery
+    )
+    exact = deflection_over_twist(
+        pair.mass,
+        pair.stiffness,
+        pair.likeness,
+        beam_flutter(pair, beam.chord, beam.elastic_axis, AIR),
+        beam,
+    )
+    factor = oscillation_factor(section, span_integrals(beam, modes, 1), reduction)
+    assert abs(by_means * factor / exact - 1) < bound
+    assert abs(by_means * factor / exact - 1) < 0.75 * abs(by_means / exact - 1)
+
+
+def test_where_twist_and_deflection_have_one_shape_all_recover_alike():
+    """Pinned: f = g, so that means and oscillations have one ratio, and both reductions too."""
+    beam = goland(boundary="pinned-pinned")
+    integrals = span_integrals(beam, modes_of(beam), 1)
+    for reduction in ("consistent", "paper"):
+        section = reduce_beam(beam, modes_of(beam), reduction)
+        assert oscillation_factor(section, integrals, reduction) == pytest.approx(1.0, abs=1e-6)
 
 
 class TestBias:

@@ -261,6 +261,15 @@ class TestPairs:
         if bending_mode:
             assert found.bending_mode == bending_mode
 
+    def test_motion_is_read_where_the_first_modes_are_largest(self):
+        """Twist of a row held in the middle: at an end; deflection of a propped beam: inside."""
+        tracker = modes_of(goland(boundary="supports", supports=TRACKER), 4)
+        assert tracker.places[0] in {0.0, 1.0}
+        propped = modes_of(goland(supports=[{"at": 1.0, "deflection": "fixed"}]), 2)
+        assert propped.places[0] == pytest.approx(1.0)
+        assert propped.places[1] == pytest.approx(0.58, abs=0.02)
+        assert modes_of(goland(), 2).places == (1.0, 1.0)
+
     def test_unlike_shapes_have_no_section(self):
         beam = goland(boundary="pinned-pinned", supports=[{"at": 0.5, "deflection": "fixed"}])
         with pytest.raises(ReductionError, match="too unlike"):

@@ -59,6 +59,19 @@ def test_growth_without_an_oscillation_is_divergence() -> None:
     assert math.isnan(row["frequency_hz"])
 
 
+def test_heave_that_grows_alone_is_galloping() -> None:
+    """Its twist has no frequency, or one that only follows."""
+    for frequency in (math.nan, 0.02):
+        summary = runs(
+            ("2d", 2.0, "growing"),
+            ("2d", 8.0, "settled"),
+            frequency_strouhal=frequency,
+            heave_grows=1,
+        )
+        (row,) = from_runs(summary, **AS_GIVEN).to_dict("records")
+        assert row["mechanism"] == "galloping"
+
+
 @pytest.mark.parametrize(
     ("regimes", "mechanism", "said"),
     [
@@ -109,6 +122,8 @@ def test_eigenvalues_are_those_of_the_public_function() -> None:
     assert table["speed"].tolist() == pytest.approx([133.0, 133.0], rel=0.01)
     assert set(table["mechanism"]) == {"flutter"}
     assert set(table["basis"]) == {"eigenvalue"}
+    assert table["energy_share"].tolist() == pytest.approx(known["coupling_share"].values.tolist())
+    assert table["energy_share"].min() > 0.5
 
 
 def test_no_models_make_an_empty_table() -> None:

@@ -42,6 +42,7 @@ from equisection.figures.drawn_history import extent_from_dataset, history_from_
 from equisection.figures.incidences import nearest_incidences
 from equisection.figures.load_correction import SteadyData
 from equisection.figures.models import LOOKS
+from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.references import read_references
 from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
@@ -54,6 +55,7 @@ from equisection.results.steady_result import SteadyResult
 from equisection.results.surface import SectionSurface
 from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady_result import UnsteadyResult
+from equisection.study.axes import INCIDENCE, K_STAR, SPEED, AsGiven
 
 STYLE = Path(__file__).parents[2] / "envs" / "equisection.mplstyle"
 SOLVER = "made-up solver, 5 cells"
@@ -642,13 +644,51 @@ def test_response_opens_no_file_that_it_does_not_draw(tmp_path):
     assert set(read.histories) == set("ABCDEF")
 
 
-def test_means_of_a_beam_held_at_both_ends_are_not_those_of_a_tip(tmp_path):
-    data = sweep(tmp_path, SWEEPS["one k*"])
-    for place in (response.AT_THE_TIP, response.WHERE_LARGEST):
-        read = response.read_response(*data, 6.7, place=place)
-        found = words(response.draw(read))
-        assert f"mean twist {place}" in found
-        assert f"mean deflection {place}" in found
+@pytest.mark.parametrize(
+    ("places", "said"),
+    [
+        ((1.0, 1.0), ("of the tip", "of the tip")),
+        ((0.5, 0.5), ("at midspan", "at midspan")),
+        ((0.0, 0.24), ("at the root end", "at $z/L$ = 0.24")),
+    ],
+)
+def test_means_are_those_of_where_the_motion_is_read(tmp_path, places, said):
+    read = response.read_response(*sweep(tmp_path, SWEEPS["one k*"]), 6.7, places=places)
+    found = words(response.draw(read))
+    assert f"mean twist {said[0]}" in found
+    assert f"mean deflection {said[1]}" in found
+
+
+def test_swing_of_a_sections_deflection_is_that_of_an_oscillation():
+    """About its mean, which stays: by the factor of its reduction."""
+    found = run(k_star=8.0).assign_attrs(mean_deflection_chords=0.01)
+    plain, recovered = extent_from_dataset(found), extent_from_dataset(found, 1.5)
+    for before, after in zip(plain.deflection_chords, recovered.deflection_chords, strict=True):
+        assert after - 0.01 == pytest.approx(1.5 * (before - 0.01))
+    assert recovered.twist_deg == plain.twist_deg
+
+
+@pytest.mark.parametrize("along", [K_STAR, SPEED])
+def test_axis_at_the_top_has_what_the_beam_has_there(along):
+    """A tick at 30 m/s stands above the k* of 30 m/s, and the other way round."""
+    given = AsGiven(8.0, 20.0)
+    (axes,) = (figure := Figure()).subplots(1, 1, squeeze=False)[0]
+    axes.set_xlim(2.0, 40.0)
+    add_other_axis(axes, along, given)
+    (top,) = axes.child_axes
+    places, numbers = top.get_xticks(), [float(t.get_text()) for t in top.get_xticklabels()]
+    assert len(places) >= 3
+    there = given.speed_at if along is K_STAR else given.k_star_at
+    np.testing.assert_allclose(numbers, [there(place) for place in places])
+    lay_out(figure)
+
+
+def test_no_axis_at_the_top_where_the_speed_is_unknown():
+    axes = Figure().subplots()
+    add_other_axis(axes, K_STAR, as_given(pd.DataFrame({"k_star": [5.0], "speed": [math.nan]})))
+    add_other_axis(axes, INCIDENCE, AsGiven(8.0, 20.0))
+    assert not axes.child_axes
+    assert as_given(pd.DataFrame({"k_star": [5.0]})) is None
 
 
 def test_mean_that_still_drifted_has_an_open_marker(tmp_path):

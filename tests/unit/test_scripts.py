@@ -25,7 +25,8 @@ from equisection.config.groups import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
 from equisection.figures.response import draw, read_response
 from equisection.figures.style import drawing_style
-from equisection.results.netcdf import read_dataset
+from equisection.results.modes_dataset import modes_to_dataset
+from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_dataset import nominal_k_star
 from equisection.results.section_mesh import SectionMesh
@@ -35,6 +36,7 @@ from equisection.run.status import run_status
 from equisection.run.status_text import print_status
 from equisection.store.index import read_index, write_index
 from equisection.store.kept import kept_results
+from equisection.structure.mode_set import ModeSet
 from equisection.study import plan
 from equisection.study.axes import Point, onset_axis
 
@@ -115,7 +117,11 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         run.main(cases, index, folder / "store", folder / "progress.json")
     indices = [folder / "unsteady" / model / "sweep.json" for model in ("2d-corrected", "3d")]
     load_script("summary").main(
-        indices, folder / "summary.csv", folder / "equivalent.nc", config.flow.speed
+        indices,
+        folder / "summary.csv",
+        folder / "equivalent.nc",
+        config.flow.speed,
+        config.reduction,
     )
     load_script("onset").growth_by_linear_theory(
         folder / "equivalent.nc", [9.0, 21.0], "k_star", 20.0, folder / "linear_theory.csv"
@@ -134,6 +140,43 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         output=folder / "onset.csv",
     )
     return folder
+
+
+def test_beam_without_a_section_runs_alone(load_script: LoadScript, tmp_path: Path) -> None:
+    """Both modes alternate over two equal spans: no uniform load moves either, F = G = 0."""
+    config = load_config({**RAW, "sweep": {"models": ["3d"]}})
+    span = np.linspace(0.0, 1.0, 41)
+    wave = np.sin(2.0 * np.pi * span)
+    modes = ModeSet(
+        np.array([20.0, 60.0]), ("bending", "torsion"), span, np.stack([wave, wave]), "beam", "2"
+    )
+    files = {name: tmp_path / f"{name}.nc" for name in ("modes", "equivalent")}
+    write_dataset(files["modes"], modes_to_dataset(modes, [0.0, 0.0]))
+    load_script("equivalent_section").main(
+        config.beam, config.flow, files["modes"], files["equivalent"]
+    )
+    sections = read_dataset(files["equivalent"])
+    assert float(sections["k_star"].sel(reduction="paper")) > 0.0
+    assert "a uniform load does not move this mode" in sections.attrs["warnings"]
+    raw = resolve_config(
+        config.model_copy(
+            update={
+                "structure": config.structure.model_copy(
+                    update={"bending_modes": 1, "torsion_modes": 1}
+                )
+            }
+        )
+    )
+    found = {}
+    for model in ("2d", "3d"):
+        cases = tmp_path / f"{model}.json"
+        index = tmp_path / "unsteady" / model / "sweep.json"
+        load_script("unsteady_cases").main(raw, model, files, ["k9"], cases)
+        load_script("run_cases").main(cases, index, tmp_path / "store", tmp_path / "progress.json")
+        (found[model],) = read_index(index).values()
+    assert found["2d"]["regime"] == "failed"
+    assert "run the beam (sweep.models: [3d])" in found["2d"]["reason"]
+    assert found["3d"]["regime"] != "failed"
 
 
 def test_chain_of_scripts_ends_in_a_line_for_each_run(chain: Path) -> None:
@@ -196,7 +239,11 @@ def test_study_over_other_axes_runs_by_the_names_of_its_cases(
     points = [Point.named(name) for name in names]
     axes, along = points[0].axes, onset_axis(points[0].axes)
     load_script("summary").main(
-        [index], tmp_path / "summary.csv", chain / "equivalent.nc", raw["flow"]["speed"]
+        [index],
+        tmp_path / "summary.csv",
+        chain / "equivalent.nc",
+        raw["flow"]["speed"],
+        "consistent",
     )
     summary = pd.read_csv(tmp_path / "summary.csv")
     columns = [axis.name for axis in axes]

@@ -68,7 +68,7 @@ COLUMNS = {
     "twist_amplitude_deg,frequency_strouhal,growth_rate,cpu_seconds,wall_seconds",
     "comparison/onset.csv": "model,k_star_stable,k_star_unstable",
     "comparison/critical_speed.csv": "model,incidence_deg,speed,speed_low,speed_high,mechanism,"
-    "frequency_hz,k_star,margin,basis",
+    "frequency_hz,k_star,margin,basis,energy_share",
     "comparison/linear_theory.csv": "reduction,motion,k_star,growth_rate,frequency_strouhal",
     "comparison/section_and_beam.csv": "model,k_star,twist,deflection,frequency,growth",
     "comparison/paper.csv": "quantity,paper,here,relative_difference",

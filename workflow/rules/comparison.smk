@@ -41,6 +41,7 @@ rule summary:
         code=code("summary"),
         models=list(CONFIG.sweep.shown),
         speed=CONFIG.flow.speed,
+        reduction=CONFIG.reduction,
     message:
         "summary"
     script:

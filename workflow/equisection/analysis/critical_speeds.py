@@ -11,9 +11,10 @@ import pandas as pd
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
-from equisection.analysis.onset import bracket_of, sweeps
+from equisection.analysis.onset import OnsetBracket, bracket_of, sweeps
 from equisection.beam.section import Section
-from equisection.motion.stability import critical_speed
+from equisection.motion.mechanism import Mechanism
+from equisection.motion.stability import SHARES, critical_speed
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
 from equisection.study.axes import INCIDENCE, SPEED, AsGiven, onset_axis_among
@@ -30,6 +31,7 @@ COLUMNS = (
     "k_star",
     "margin",
     "basis",
+    "energy_share",
 )
 #: Basis of a speed: runs of CFD, runs in time of another solver, or eigenvalues.
 CFD, TIME, EIGENVALUE = "cfd", "time", "eigenvalue"
@@ -63,7 +65,8 @@ def from_runs(
         and the mechanism of a model that is stable throughout is ``none``, but ``unknown`` where
         runs failed beyond the last stable one. Without an
         oscillation of the twist the unstable run has diverged; what else grows is called
-        ``flutter``, with or without separation, which a history alone does not tell. The basis is
+        ``flutter``, with or without separation, which a history alone does not tell, but
+        ``galloping`` where the heave grows and the twist does not. The basis is
         :data:`CFD` where the solver of all its runs has a mesh, else :data:`TIME`.
     """
     axis = onset_axis_among(summary.columns)
@@ -83,10 +86,11 @@ def from_runs(
                 "speed": middle,
                 "speed_low": low,
                 "speed_high": high,
-                "mechanism": _mechanism(low, high, strouhal, bool(bracket.failed)),
+                "mechanism": _mechanism(bracket, unstable),
                 "frequency_hz": strouhal * high / chord,
                 "k_star": given.k_star_at(middle),
                 "basis": _basis(runs["solver"]),
+                "energy_share": math.nan,
             }
         )
     return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
@@ -98,10 +102,16 @@ def _basis(solvers: Iterable[str]) -> str:
     return CFD if meshed else TIME
 
 
-def _mechanism(stable: float, unstable: float, strouhal: float, any_failed: bool) -> str:
-    if math.isnan(unstable):
-        return "unknown" if math.isnan(stable) or any_failed else "none"
-    return "divergence" if math.isnan(strouhal) else "flutter"
+def _mechanism(bracket: OnsetBracket, unstable: pd.DataFrame) -> str:
+    """Return the mechanism of the unstable run that is nearest to the onset."""
+    if math.isnan(bracket.unstable):
+        is_open = math.isnan(bracket.stable) or bool(bracket.failed)
+        return Mechanism.UNKNOWN if is_open else Mechanism.NONE
+    if "heave_grows" in unstable and (unstable["heave_grows"] == 1).any():
+        return Mechanism.GALLOPING
+    if unstable["frequency_strouhal"].isna().all():
+        return Mechanism.DIVERGENCE
+    return Mechanism.FLUTTER
 
 
 def from_eigenvalues(
@@ -127,6 +137,12 @@ def from_eigenvalues(
         Lowest and highest speed (m/s) looked at.
     density
         rho (kg/m3).
+
+    Returns
+    -------
+    pd.DataFrame
+        :data:`COLUMNS` without the margin. ``energy_share`` (-) is the largest part of the power of
+        the air, by which an oscillation's mechanism is named.
     """
     rows = []
     for model, section in sections.items():
@@ -154,6 +170,7 @@ def from_eigenvalues(
                     "frequency_hz": float(one["frequency"]),
                     "k_star": float(one["k_star"]),
                     "basis": EIGENVALUE,
+                    "energy_share": max(float(one[name]) for name in SHARES),
                 }
             )
     return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])

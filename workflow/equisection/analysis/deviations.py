@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from equisection.study.axes import axes_among
+from equisection.study.axes import AXES, axes_among
 
 #: Quantities of ``comparison/summary.csv`` whose ratio to the beam's tells how close a section is.
 _RATIOS = {
@@ -38,9 +38,11 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
     pd.DataFrame
         ``twist``, ``deflection`` and ``frequency``: section over beam, less one (-); ``growth``:
         section less beam (V/c). NaN where section or beam has no such number. Means that are not
-        settled (``mean_known``) are compared as they are, over the last periods of both.
+        settled (``mean_known``) are compared as they are, over the last periods of both. Last comes
+        the speed of a study over k*, or the k* of one over speed, where the summary has it.
     """
     axes = [axis.name for axis in axes_among(summary.columns)]
+    also = [axis.name for axis in AXES if axis.name in summary and axis.name not in axes]
     run = summary[summary["regime"] != "failed"]
     beam = run[run["model"] == BEAM].drop(columns="model")
     both = run[run["model"] != BEAM].merge(beam, on=axes, suffixes=("", "_beam"))
@@ -53,8 +55,9 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
                 for name, column in _RATIOS.items()
             },
             "growth": both["growth_rate"] - both["growth_rate_beam"],
+            **{name: both[name] for name in also},
         },
-        columns=["model", *axes, *QUANTITIES],
+        columns=["model", *axes, *QUANTITIES, *also],
     )
 
 

@@ -12,6 +12,7 @@ import pandas as pd
 from equisection.errors import ResultFileError
 from equisection.store.index import read_index
 from equisection.study.axes import K_STAR, SPEED, AsGiven, Axis, Point, axes_of, onset_axis_among
+from equisection.study.plan import model
 
 #: Columns of ``comparison/summary.csv`` after the model and the axes of the study: attributes of a
 #: result.
@@ -30,7 +31,11 @@ QUANTITIES = (
     "resolution",
     "mean_known",
     "loads_zigzag",
+    "deflection_amplitude_chords",
+    "heave_grows",
 )
+#: Those that results may lack, which were made before.
+_NEWER = ("loads_zigzag", "deflection_amplitude_chords", "heave_grows")
 
 
 def columns(axes: Sequence[Axis] = (K_STAR,)) -> tuple[str, ...]:
@@ -101,11 +106,31 @@ def _of(attributes: Mapping[str, Any], name: str) -> Any:
 
     A result without ``loads_zigzag`` has loads that are not iterated, or no history.
     """
-    if name == "loads_zigzag":
+    if name in _NEWER:
         return attributes.get(name, math.nan)
     if name == "mean_known" and name not in attributes:
         return int(attributes["regime"] in {"settled", "limit-cycle"})
     return attributes[name]
+
+
+def with_oscillations(
+    summary: pd.DataFrame, factors: Mapping[str, float], default_reduction: str
+) -> pd.DataFrame:
+    """Return a summary whose amplitudes of the deflection are those of the tip, of sections too.
+
+    Parameters
+    ----------
+    summary
+        Summary with the amplitudes as recovered by the rule of the means.
+    factors
+        Factor of each reduction (:func:`equisection.reduction.reduce.oscillation_factor`).
+    default_reduction
+        Reduction of models that do not name theirs.
+    """
+    models = [model(str(name), default_reduction) for name in summary["model"]]
+    factor = [factors[one.reduction] if one.dimension == "2d" else 1.0 for one in models]
+    name = "deflection_amplitude_chords"
+    return summary.assign(**{name: summary[name].astype(float) * factor})
 
 
 def with_both(summary: pd.DataFrame, given: AsGiven) -> pd.DataFrame:

@@ -274,7 +274,7 @@ CATALOGUE = (
         "response",
         "response",
         _HISTORIES,
-        {"reduction": "reduction", "boundary": "beam.boundary"},
+        {"reduction": "reduction"},
     ),
     Entry(
         "hysteresis",

@@ -61,24 +61,39 @@ def read_history(path: Path, i_star: float) -> History:
 
 @dataclass(frozen=True)
 class Extent:
-    """Least and largest twist (deg) and deflection (chords) of the tip in the verdict's window."""
+    """Least and largest twist (deg) and deflection (chords) of the tip in the verdict's window.
+
+    The deflection of a section's tip about its mean is recovered as an oscillation's
+    (:func:`equisection.reduction.reduce.oscillation_factor`).
+    """
 
     twist_deg: tuple[float, float]
     deflection_chords: tuple[float, float]
 
 
-def extent_from_dataset(run: xr.Dataset) -> Extent:
-    """Return the range of the motion over the window of the verdict."""
+def extent_from_dataset(run: xr.Dataset, oscillation_factor: float = 1.0) -> Extent:
+    """Return the range of the motion over the window of the verdict.
+
+    Parameters
+    ----------
+    run
+        Result of a run.
+    oscillation_factor
+        Factor of the deflection about its mean (-), 1 of a beam.
+    """
     start = float(run.attrs["window_start"])
     window = run["time"].values >= (0.0 if math.isnan(start) else start)
     twist = np.degrees(run["tip_twist"].values[window])
     deflection = run["tip_deflection"].values[window] / float(run.attrs["chord"])
+    mean = float(run.attrs.get("mean_deflection_chords", math.nan))
+    if math.isfinite(mean):
+        deflection = mean + oscillation_factor * (deflection - mean)
     return Extent(
         (float(twist.min()), float(twist.max())),
         (float(deflection.min()), float(deflection.max())),
     )
 
 
-def read_extent(path: Path) -> Extent:
-    """Read the range of the motion from the result file of a run."""
-    return extent_from_dataset(read_dataset(path))
+def read_extent(path: Path, oscillation_factor: float = 1.0) -> Extent:
+    """Read the range of the motion (:func:`extent_from_dataset`) from a result file."""
+    return extent_from_dataset(read_dataset(path), oscillation_factor)

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 from equisection.figures.models import LOOKS
 from equisection.figures.origin import add_provenance, solvers_of
+from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import letter, say
 from equisection.figures.references import read_references
 from equisection.figures.style import DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
@@ -51,6 +52,8 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, onsets: pd.DataFrame) -> F
         _over_study(axes, summary, linear, name, along)
         for k_star, name_of in zip(onsets["value"], onsets["label"], strict=True):
             axes.axvline(k_star, color=GREY, linewidth=0.8, linestyle=":", label=name_of)
+        if axes.has_data():
+            add_other_axis(axes, along, as_given(summary))
     entries = {
         label: handle
         for axes in panels

@@ -16,7 +16,6 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
-from equisection.config.groups import FREE_TIP
 from equisection.figures.cases_shown import (
     BEAM_LETTERS,
     SECTION_LETTERS,
@@ -29,14 +28,19 @@ from equisection.figures.drawn_history import Extent, History, read_extent, read
 from equisection.figures.models import LOOKS, Look
 from equisection.figures.models_shown import beam_model, section_model
 from equisection.figures.origin import add_provenance, solvers_of
+from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import in_words, letter, say
 from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.results.netcdf import read_dataset
+from equisection.results.section_dataset import oscillation_factors as factors_of
 from equisection.store.index import result_files
 from equisection.study.axes import Axis, onset_axis_among
+from equisection.study.plan import model as model_named
 
-#: Where twist and deflection are: where the first mode of each is largest, at a free tip or inside.
-AT_THE_TIP, WHERE_LARGEST = "of the tip", "where it is largest"
+#: Places z/L of twist and deflection at a free tip.
+AT_TIPS = (1.0, 1.0)
+#: Distance z/L below which a place is that of its name.
+_ONE_PLACE = 1e-3
 #: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
 _BOUNDED = ("settled", "limit-cycle")
 #: Marks, on the axis, of runs without a mean.
@@ -47,8 +51,8 @@ _MOST_MARKERS = 40
 _TOO_CLOSE = 0.03
 #: Symbols and units of the two upper panels.
 _QUANTITIES = {
-    "mean_twist_deg": r"mean twist {place}  $\overline{\theta}$ (deg)",
-    "mean_deflection_chords": r"mean deflection {place}  $\overline{w}/c$",
+    "mean_twist_deg": r"mean twist {}  $\overline{\theta}$ (deg)",
+    "mean_deflection_chords": r"mean deflection {}  $\overline{w}/c$",
 }
 
 
@@ -75,8 +79,8 @@ class Response:
         Histories by the letters of the cases.
     extents
         Range of the section's motion by the value on the axis of the onset, where it is bounded.
-    place
-        Place along the beam of twist and deflection, in words.
+    places
+        Places z/L along the beam of twist and deflection.
     reduction
         Reduction of models that do not name theirs, ``consistent`` or ``paper``.
     """
@@ -86,7 +90,7 @@ class Response:
     cases: Mapping[str, Sequence[ShownCase]] = field(default_factory=dict)
     histories: Mapping[str, History] = field(default_factory=dict)
     extents: Mapping[float, Extent] = field(default_factory=dict)
-    place: str = AT_THE_TIP
+    places: tuple[float, float] = AT_TIPS
     reduction: str = "consistent"
 
 
@@ -100,10 +104,15 @@ def read_response(
     results: Sequence[Path],
     i_star: float,
     *,
-    place: str = AT_THE_TIP,
+    places: tuple[float, float] = AT_TIPS,
     reduction: str = "consistent",
+    oscillation_factors: Mapping[str, float] | None = None,
 ) -> Response:
-    """Choose the cases and read their histories alone, and the extents of the bounded section."""
+    """Choose the cases and read their histories alone, and the extents of the bounded section.
+
+    The deflection of a section about its mean is recovered by the factor of its reduction, 1 where
+    none is given.
+    """
     models = list(dict.fromkeys(summary["model"]))
     cases: dict[str, list[ShownCase]] = {}
     histories: dict[str, History] = {}
@@ -124,8 +133,12 @@ def read_response(
             apart = -(-len(bounded) // MOST_EXTENTS) or 1
             axis = onset_axis_among(summary.columns)
             values = bounded[axis.name].sort_values().iloc[::apart]
-            extents = {value: read_extent(result_at(files, value, axis)) for value in values}
-    return Response(summary, onset, cases, histories, extents, place, reduction)
+            form = model_named(section, reduction).reduction
+            factor = (oscillation_factors or {}).get(form, 1.0)
+            extents = {
+                value: read_extent(result_at(files, value, axis), factor) for value in values
+            }
+    return Response(summary, onset, cases, histories, extents, places, reduction)
 
 
 def from_files(
@@ -135,18 +148,17 @@ def from_files(
     equivalent: Path,
     *,
     reduction: str,
-    boundary: str,
 ) -> Figure:
     """Draw the means of all models, and the histories of the chosen cases."""
-    i_star = float(read_dataset(equivalent)["i_star"].sel(reduction=reduction))
-    place = AT_THE_TIP if boundary in FREE_TIP else WHERE_LARGEST
+    sections = read_dataset(equivalent)
     response = read_response(
         pd.read_csv(summary),
         pd.read_csv(onset),
         result_files(indices),
-        i_star,
-        place=place,
+        float(sections["i_star"].sel(reduction=reduction)),
+        places=(float(sections["twist_place"]), float(sections["deflection_place"])),
         reduction=reduction,
+        oscillation_factors=factors_of(sections),
     )
     return draw(response)
 
@@ -183,7 +195,8 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     """Draw the mean of one quantity over k*, with the bracket of the onset."""
     summary = response.summary
     along = onset_axis_among(summary.columns)
-    axes.set(xlabel=along.label, ylabel=_QUANTITIES[name].replace("{place}", response.place))
+    place = response.places[list(_QUANTITIES).index(name)]
+    axes.set(xlabel=along.label, ylabel=_QUANTITIES[name].replace("{}", place_in_words(place), 1))
     if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
         say(axes, "No run of the sweep has a mean: every one failed or diverged.")
         return
@@ -222,6 +235,15 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     low, high = axes.get_ylim()
     height = high - low
     axes.set_ylim(low - 0.1 * height, high + 0.06 * height)  # room for the letters
+    add_other_axis(axes, along, as_given(summary))
+
+
+def place_in_words(place: float) -> str:
+    """Return a place z/L along the span in words."""
+    for named, words in ((1.0, "of the tip"), (0.5, "at midspan"), (0.0, "at the root end")):
+        if abs(place - named) < _ONE_PLACE:
+            return words
+    return f"at $z/L$ = {place:.2g}"
 
 
 def _brackets(response: Response) -> list[tuple[Look, float, float, str]]:

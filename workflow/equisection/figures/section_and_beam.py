@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from equisection.analysis.deviations import root_mean_square
 from equisection.figures.models import LOOKS
 from equisection.figures.origin import add_provenance, solvers_of
+from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.style import GREY, PAGE_WIDTH
 from equisection.study.axes import Axis, onset_axis_among
@@ -51,6 +52,8 @@ def draw(table: pd.DataFrame, summary: pd.DataFrame) -> Figure:
         along = onset_axis_among(table.columns)
         axes.set(xlabel=along.label, ylabel=label)
         _over_study(axes, table, name, factor, along)
+        if place in "ab" and axes.has_data():  # those below have the same axis
+            add_other_axis(axes, along, as_given(table))
         _root_mean_squares(axes, over_all[name] * factor, _UNITS[name])
     legend_above(figure, panels.flat[0], columns=2)
     sources = summary[["solver", "resolution"]].drop_duplicates().values

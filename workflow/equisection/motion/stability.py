@@ -3,9 +3,11 @@
 The system of the embedded solver (:mod:`equisection.motion.strip_system`) is linearised about the
 equilibrium on the branch that comes from rest (:mod:`equisection.motion.static_branch`). A small
 motion then goes with exp(p s), s = tV/c, and the eigenvalue p = sigma + i omega of largest sigma
-decides: with sigma > 0 the section is unstable, by *flutter* where omega > 0 and by *divergence*
-where omega = 0. Where the branch has ended in a fold there is nothing to linearise about: that
-is divergence too. Where it has left the polar the stability is unknown, never assumed.
+decides: with sigma > 0 the section is unstable, by *divergence* where omega = 0. What grows where
+omega > 0 is told apart by the power that the air puts into each motion
+(:mod:`equisection.motion.mechanism`). Where the branch has ended in a fold there is nothing to
+linearise about: that is divergence too. Where it has left the polar the stability is unknown, never
+assumed.
 
 Loads are those of a thin section in attached flow with the polar's own slopes, and a lagging
 separation bubble (:mod:`equisection.aerodynamics.unsteady_loads`).
@@ -28,14 +30,20 @@ from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
+from equisection.motion.mechanism import (
+    Instabilities,
+    Mechanism,
+    least_stable_instabilities,
+)
 from equisection.motion.sections import section_system
 from equisection.motion.static_branch import BranchEnd, StaticBranch, section_equilibrium
-from equisection.motion.steady_states import least_stable
 
 Floats = NDArray[np.float64]
 Texts = NDArray[np.str_]
 
-MECHANISMS = ("none", "flutter", "divergence", "unknown")
+#: Parts of the power of the air, and with them what tells a mechanism (:class:`Instabilities`).
+SHARES = ("heave_share", "twist_share", "coupling_share")
+_TOLD = (*SHARES, "heave_phase")
 STEP = 0.005
 """Relative step of the speeds at which an onset is looked for."""
 WIDTH = 1e-6
@@ -74,8 +82,10 @@ def stability(
     xarray.Dataset
         Over ``incidence_deg`` and ``speed``, each only where a list was given: ``growth_rate``
         (1/s), ``growth_rate_convective`` (V/c), ``frequency`` (Hz), ``frequency_strouhal``
-        (f c/V), ``mechanism`` (`none`, `flutter`, `divergence`, `unknown`), ``reason``,
-        ``equilibrium_twist`` (rad), ``equilibrium_deflection`` (m), ``k_star``. Where there is no
+        (f c/V), ``mechanism`` (:class:`equisection.motion.mechanism.Mechanism`), ``reason``,
+        ``equilibrium_twist`` (rad), ``equilibrium_deflection`` (m), ``k_star``; of oscillations
+        that grow, by which the mechanism is told, ``heave_share``, ``twist_share`` and
+        ``coupling_share`` of the power of the air, and ``heave_phase`` (deg). Where there is no
         equilibrium the numbers are NaN, and ``reason`` says why.
 
     Raises
@@ -99,6 +109,7 @@ def stability(
         "reason": [row.reason for row in rows],
         "equilibrium_twist": [row.twist for row in rows],
         "equilibrium_deflection": [row.deflection * section.chord for row in rows],
+        **{name: [getattr(row.told, name) for row in rows] for name in _TOLD},
     }
     dataset = xr.Dataset(
         {
@@ -139,8 +150,9 @@ def critical_speed(
     xarray.Dataset
         Over ``incidence_deg``, if a list was given: ``critical_speed`` (m/s), the interval
         ``speed_low`` (stable) and ``speed_high`` (unstable) that it is known to, ``mechanism``,
-        ``frequency`` (Hz), ``k_star``, ``equilibrium_twist`` (rad) and ``reason``. Where there is
-        no onset in the range ``critical_speed`` is NaN, ``reason`` says why, and of the interval
+        ``frequency`` (Hz), ``k_star``, ``equilibrium_twist`` (rad), ``reason``, and at
+        ``speed_high`` what the mechanism is told by, as of :func:`stability`. Where there is no
+        onset in the range ``critical_speed`` is NaN, ``reason`` says why, and of the interval
         there is what is known: of a section that is stable throughout ``speed_low`` alone.
 
     Raises
@@ -170,7 +182,8 @@ class _Points:
     """Equilibrium and least stable motion at N speeds, each of shape (N,).
 
     ``eigenvalue`` p (V/c), ``twist`` (rad) and ``deflection`` (chords) of equilibrium; all NaN
-    where there is none. ``mechanism`` is one of MECHANISMS; ``reason`` says why there is none.
+    where there is none. ``mechanism`` names a Mechanism, ``told`` has what it is told by, and
+    ``reason`` says why there is none.
     """
 
     speed: Floats
@@ -179,6 +192,7 @@ class _Points:
     deflection: Floats
     mechanism: Texts
     reason: Texts
+    told: Instabilities
 
     @property
     def strouhal(self) -> Floats:
@@ -198,6 +212,10 @@ class _Onset:
     k_star: float
     equilibrium_twist: float
     reason: str
+    heave_share: float = math.nan
+    twist_share: float = math.nan
+    coupling_share: float = math.nan
+    heave_phase: float = math.nan
 
 
 @dataclass(frozen=True)
@@ -244,17 +262,13 @@ class _Air:
             rigid,
         )
         states, deficits = section_equilibrium(system, alpha)
-        eigenvalue = least_stable(system, states, deficits)
+        eigenvalue, found = least_stable_instabilities(system, states, deficits)
         lost = ~np.isfinite(eigenvalue)
         folded = np.isnan(alpha) & (branch.end is BranchEnd.FOLD)
-        mechanism = np.select(
-            [folded, lost, eigenvalue.real <= 0.0, eigenvalue.imag > 0.0],
-            ["divergence", "unknown", "none", "flutter"],
-            "divergence",
-        )
+        mechanism = np.where(folded, Mechanism.DIVERGENCE, found.mechanism)
         reason = np.where(lost, self._end(branch), "")
         twist, deflection = states[:, system.layout.twist], states[:, system.layout.deflection]
-        return _Points(speeds, eigenvalue, twist[:, 0], deflection[:, 0], mechanism, reason)
+        return _Points(speeds, eigenvalue, twist[:, 0], deflection[:, 0], mechanism, reason, found)
 
     def _end(self, branch: StaticBranch) -> str:
         """Say why there is no equilibrium beyond the end of a branch."""
@@ -311,6 +325,7 @@ class _Air:
             k_star=self.section.k_star(self.density, speed),
             equilibrium_twist=float(last.twist[0]),
             reason=reason,
+            **{name: float(getattr(after.told, name)[0]) for name in _TOLD},
         )
 
 
@@ -327,7 +342,11 @@ _MEANING = {
     "growth_rate_convective": ("V/c", "growth rate of the least stable motion"),
     "frequency": ("Hz", "frequency of the least stable motion"),
     "frequency_strouhal": ("1", "frequency of the least stable motion f c/V"),
-    "mechanism": ("1", "mechanism of the instability: none, flutter, divergence or unknown"),
+    "mechanism": ("1", f"mechanism of the instability: {', '.join(Mechanism)}"),
+    "heave_share": ("1", "part of the power of the air that comes by heave alone"),
+    "twist_share": ("1", "part of the power of the air that comes by twist alone"),
+    "coupling_share": ("1", "part of the power of the air that comes by coupling"),
+    "heave_phase": ("deg", "phase of the heave, up, ahead of the twist, nose up"),
     "reason": ("1", "why there is no equilibrium or no onset"),
     "equilibrium_twist": ("rad", "twist of the section in static equilibrium, nose up"),
     "equilibrium_deflection": ("m", "deflection of the section in static equilibrium, up"),

@@ -46,6 +46,8 @@ REDUCTIONS: tuple[Reduction, ...] = ("paper", "consistent")
 
 # Below this the section still has numbers but they stand for little; see `validity_warnings`.
 _LEAST_PARTICIPATION = 0.3
+# An integral of shapes of this size is none.
+_NONE = 1e-6
 
 
 def reduce_beam(beam: Beam, modes: ModeSet, reduction: str = "consistent") -> Section:
@@ -72,32 +74,91 @@ def reduce_beam(beam: Beam, modes: ModeSet, reduction: str = "consistent") -> Se
         raise ReductionError(f"reduction is {reduction!r}; choose one of {', '.join(REDUCTIONS)}")
     pair = modes.section_pair()[0]
     integrals = span_integrals(beam, pair, count=1)
+    if reason := not_reducible(integrals, reduction):
+        raise ReductionError(reason)
+    return section_of_pair(beam, pair, reduction)
+
+
+def not_reducible(integrals: Integrals, reduction: str) -> str:
+    """Return why a reduction has no section for a pair of modes; empty where it has.
+
+    Where a mode has no span mean, a uniform load does not move it, and the tip cannot be recovered.
+
+    Parameters
+    ----------
+    integrals
+        Integrals of the pair.
+    reduction
+        One of :data:`REDUCTIONS`.
+    """
+    if reduction == "paper":
+        a_tw = integrals.a_theta_w[0, 0]
+        if abs(a_tw) >= _NONE:
+            return ""
+        return (
+            f"A_theta,w is {a_tw:.1e}: first twist and first deflection have orthogonal shapes, "
+            "and the paper's reduction divides by it; use reduction 'consistent'"
+        )
+    for name, mean in (("F", integrals.f_mean[0]), ("G", integrals.g_mean[0])):
+        if abs(mean) < _NONE:
+            return (
+                f"{name}, the span mean of the first shape, is {mean:.1e}: a uniform load does "
+                "not move this mode and the section cannot stand for the beam; run the beam "
+                "(sweep.models: [3d])"
+            )
+    return ""
+
+
+def section_of_pair(beam: Beam, pair: ModeSet, reduction: str) -> Section:
+    """Section of a pair of modes, whether it can stand for the beam or not.
+
+    A reduction that does not have one (:func:`not_reducible`) leaves out what it would divide by 0:
+    the torsional stiffness is still that of k*, and the motion of the tip that of the section.
+
+    Parameters
+    ----------
+    beam
+        The beam.
+    pair
+        One mode of torsion and one of bending.
+    reduction
+        One of :data:`REDUCTIONS`.
+
+    Raises
+    ------
+    ReductionError
+        Nothing restrains a motion.
+    """
+    integrals = span_integrals(beam, pair, count=1)
     _require_restraint(beam, integrals)
     if reduction == "paper":
         return _paper_section(beam, pair, integrals)
     return _consistent_section(beam, pair, integrals)
 
 
+def _bending_divisor(integrals: Integrals, reduction: str) -> float:
+    """D_w of a reduction."""
+    if reduction == "paper" and not not_reducible(integrals, reduction):
+        return float(integrals.a_theta_w[0, 0])
+    return float(integrals.a_w_w[0, 0])
+
+
 def _paper_section(beam: Beam, pair: ModeSet, integrals: Integrals) -> Section:
     a_tt, a_tw = integrals.a_theta_theta[0, 0], integrals.a_theta_w[0, 0]
-    if abs(a_tw) < 1e-6:
-        raise ReductionError(
-            f"A_theta,w is {a_tw:.1e}: first twist and first deflection have orthogonal shapes, "
-            "and the paper's reduction divides by it; use reduction 'consistent'"
-        )
+    d_w = _bending_divisor(integrals, "paper")
     return _section(
         beam,
         pair,
-        divisors=(a_tw, a_tt),
+        divisors=(d_w, a_tt),
         a_tw=a_tw,
         torsional_stiffness=beam.torsional_rigidity
         / beam.length**2
         * float(integrals.strain_theta[0, 0] / a_tt),
         flexural_stiffness=beam.bending_rigidity
         / beam.length**4
-        * float(integrals.stiffness_w[0, 0] / a_tw),
+        * float(integrals.stiffness_w[0, 0] / d_w),
         inertia=beam.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
-        mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / a_tw),
+        mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / d_w),
         twist_recovery=1.0,
         deflection_recovery=1.0,
     )
@@ -105,12 +166,7 @@ def _paper_section(beam: Beam, pair: ModeSet, integrals: Integrals) -> Section:
 
 def _consistent_section(beam: Beam, pair: ModeSet, integrals: Integrals) -> Section:
     a_tt, a_ww = integrals.a_theta_theta[0, 0], integrals.a_w_w[0, 0]
-    for name, mean in (("F", integrals.f_mean[0]), ("G", integrals.g_mean[0])):
-        if abs(mean) < 1e-6:
-            raise ReductionError(
-                f"{name}, the span mean of the first shape, is {mean:.1e}: a uniform load does "
-                "not move this mode and the section cannot stand for the beam"
-            )
+    without = not_reducible(integrals, "consistent")
     return _section(
         beam,
         pair,
@@ -124,8 +180,8 @@ def _consistent_section(beam: Beam, pair: ModeSet, integrals: Integrals) -> Sect
         * float(integrals.stiffness_w[0, 0] / a_ww),
         inertia=beam.inertia_per_length * float(integrals.mass_theta[0, 0] / a_tt),
         mass=beam.mass_per_length * float(integrals.mass_w[0, 0] / a_ww),
-        twist_recovery=float(a_tt / integrals.f_mean[0]),
-        deflection_recovery=float(a_ww / integrals.g_mean[0]),
+        twist_recovery=1.0 if without else float(a_tt / integrals.f_mean[0]),
+        deflection_recovery=1.0 if without else float(a_ww / integrals.g_mean[0]),
     )
 
 
@@ -176,6 +232,30 @@ def _require_restraint(beam: Beam, integrals: Integrals) -> None:
                 "natural frequency is as good as zero), so that the section would have no spring; "
                 f"give a stiffer beam.{key}, another boundary or beam.supports that hold it"
             )
+
+
+def oscillation_factor(section: Section, integrals: Integrals, reduction: str) -> float:
+    """Return W_tip about its mean over what the recovery of means, w/b, gives (-).
+
+    Means are recovered by a and b, which are those of a static load. An oscillation has the kinetic
+    energy of the section's rows times D_w and D_theta in the beam's modes, whatever the load, so
+    that W/Theta = (w/theta) sqrt(D_theta/D_w). The twist is Theta = theta/a in both. In the
+    consistent form D are the A of their own mode, and the ratio is sqrt(A_theta,theta/A_w,w)
+    (:attr:`~equisection.reduction.integrals.Integrals.oscillation_ratio`). A correction for the
+    finite span (Eq. 20) stands for loads and changes no D.
+
+    Parameters
+    ----------
+    section
+        The section, of the integrals' first pair of modes.
+    integrals
+        Integrals of the pair.
+    reduction
+        One of :data:`REDUCTIONS`.
+    """
+    ratio = math.sqrt(integrals.a_theta_theta[0, 0] / _bending_divisor(integrals, reduction))
+    static = section.twist_recovery / section.deflection_recovery  # W/Theta over w/theta of means
+    return float(ratio / static)
 
 
 def validity_warnings(integrals: Integrals) -> tuple[str, ...]:

@@ -12,7 +12,10 @@ from equisection.beam.section import QUANTITIES, Section
 from equisection.conventions import dynamic_pressure
 from equisection.reduction.flutter_bias import FlutterBias
 from equisection.reduction.integrals import Integrals
+from equisection.reduction.reduce import not_reducible, oscillation_factor
 
+#: Begin of an attribute: why a reduction has no section, empty where it has one.
+_NO_SECTION = "no_section_"
 _RATIOS = {"inertia_ratio": "c^2 m_2D/I_2D", "stiffness_ratio": "c^2 k_w/k_theta"}
 _INTEGRALS = {
     "mass_theta": "M_theta (Eq. 6)",
@@ -31,6 +34,8 @@ def equivalent_to_dataset(
     integrals: Integrals,
     warnings: tuple[str, ...],
     *,
+    pair: Integrals | None = None,
+    places: tuple[float, float] | None = None,
     density: float,
     speed: float,
 ) -> xr.Dataset:
@@ -44,6 +49,10 @@ def equivalent_to_dataset(
         Integrals over the shapes of the modes.
     warnings
         Reasons why the section represents the beam badly.
+    pair
+        Integrals of the section's pair of modes, where that is not the first of ``integrals``.
+    places
+        z/L where twist and deflection of the beam are read; the tip for None.
     density, speed
         Density (kg/m3) and speed (m/s) of the flow.
     """
@@ -77,6 +86,19 @@ def equivalent_to_dataset(
         integrals.oscillation_ratio,
         {"units": "1", "long_name": "W/Theta of an oscillating tip over w/theta of the section"},
     )
+    of_pair = integrals if pair is None else pair
+    factors = [oscillation_factor(section, of_pair, name) for name, section in sections.items()]
+    variables["oscillation_factor"] = (
+        "reduction",
+        factors,
+        {
+            "units": "1",
+            "long_name": "deflection of an oscillating tip about its mean over its recovered one",
+        },
+    )
+    for motion, place in zip(("twist", "deflection"), places or (1.0, 1.0), strict=True):
+        text = f"z/L where the {motion} of the beam is read, and recovered"
+        variables[f"{motion}_place"] = ((), place, {"units": "1", "long_name": text})
     number = np.arange(1, integrals.f_mean.size + 1)
     return xr.Dataset(
         variables,
@@ -92,6 +114,7 @@ def equivalent_to_dataset(
         attrs={
             "dynamic_pressure": dynamic_pressure(density, speed),
             "warnings": "; ".join(warnings),
+            **{f"{_NO_SECTION}{name}": not_reducible(of_pair, name) for name in sections},
         },
     )
 
@@ -182,9 +205,20 @@ def section_in_flow(equivalent: xr.Dataset, reduction: str) -> Section:
     return Section(**{member: float(chosen[name]) for member, name in names.items()})
 
 
+def no_section(equivalent: xr.Dataset, reduction: str) -> str:
+    """Return why a reduction of ``structure/equivalent.nc`` has no section; empty where it has."""
+    return str(equivalent.attrs.get(f"{_NO_SECTION}{reduction}", ""))
+
+
 def nominal_k_star(equivalent: xr.Dataset) -> float:
     """Return k* of the beam as given: Eq. 17 in the paper's form, the axis of every comparison.
 
     Both reductions and the beam are at the same k* when they have the same Young's modulus.
     """
     return float(equivalent["k_star"].sel(reduction="paper"))
+
+
+def oscillation_factors(equivalent: xr.Dataset) -> dict[str, float]:
+    """Return the factor of an oscillating deflection by reduction."""
+    factors = equivalent["oscillation_factor"]
+    return {str(name): float(factors.sel(reduction=name)) for name in factors["reduction"].values}

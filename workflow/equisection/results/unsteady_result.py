@@ -39,6 +39,8 @@ VERDICT_ATTRIBUTES = {
     "twist_amplitude_deg": "amplitude of the tip's twist (deg)",
     "frequency_strouhal": "frequency of the twist f c/V",
     "growth_rate": "growth rate of the twist's amplitude (V/c)",
+    "deflection_amplitude_chords": "amplitude of the deflection as recovered (chords)",
+    "heave_grows": "1 where the heave grows beneath a twist that does not",
 }
 #: Their units; text has none.
 VERDICT_UNITS = {
@@ -52,6 +54,8 @@ VERDICT_UNITS = {
     "twist_amplitude_deg": "deg",
     "frequency_strouhal": "1",
     "growth_rate": "V/c",
+    "deflection_amplitude_chords": "c",
+    "heave_grows": "1",
 }
 
 

@@ -112,6 +112,8 @@ class Judge:
             "twist_amplitude_deg": math.degrees(verdict.twist_amplitude),
             "frequency_strouhal": verdict.frequency if verdict.periods_used else math.nan,
             "growth_rate": verdict.growth_rate,
+            "deflection_amplitude_chords": verdict.deflection_amplitude,
+            "heave_grows": int(verdict.heave_grows),
         }
 
     def is_decided(self, tip: TipMotion) -> bool:
@@ -240,11 +242,13 @@ def _without_numbers(regime: Regime, reason: str) -> dict[str, Any]:
         "twist_amplitude_deg",
         "frequency_strouhal",
         "growth_rate",
+        "deflection_amplitude_chords",
     )
     return {
         "regime": str(regime),
         "reason": reason,
         "periods_used": 0.0,
         "mean_known": 0,
+        "heave_grows": 0,
         **dict.fromkeys(unknown, math.nan),
     }

@@ -51,6 +51,18 @@ class ModeSet:
         """First torsion modes."""
         return self.of_kind("torsion", count)
 
+    @property
+    def places(self) -> tuple[float, float]:
+        """Places z/L where twist and deflection of the beam are read.
+
+        There the first mode of each is largest: at a free tip, or inside.
+        """
+        twist, deflection = (
+            float(self.span[np.abs(first.shape[0]).argmax()])
+            for first in (self.torsion(1), self.bending(1))
+        )
+        return twist, deflection
+
     def section_pair(self) -> tuple[ModeSet, int]:
         """First torsion mode and the bending mode most like it, and the number of that.
 
@@ -66,7 +78,7 @@ class ModeSet:
         best = int(np.argmax(np.abs(across) / np.sqrt(own)))
         first = self.kind.index("torsion")
         pair = self._chosen(sorted([found[best], first]))
-        if best > 0 and across[best] < 0.0:
+        if across[best] < 0.0:
             shape = pair.shape.copy()
             shape[pair.kind.index("bending")] *= -1.0
             pair = replace(pair, shape=shape)

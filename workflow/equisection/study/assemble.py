@@ -32,7 +32,7 @@ from equisection.reduction.flutter_bias import unlike
 from equisection.reduction.reduce import Reduction
 from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
-from equisection.results.section_dataset import section_from_dataset
+from equisection.results.section_dataset import no_section, section_from_dataset
 from equisection.solvers.protocol import Solver
 from equisection.solvers.verdicts import pitch_frequency
 from equisection.structure.fittings import (
@@ -192,19 +192,25 @@ def k_star_as_given(config: Config, equivalent: xr.Dataset) -> float:
     return section_from_dataset(equivalent, "paper").k_star(flow.density, flow.speed)
 
 
+def section_refusal(equivalent: xr.Dataset, reduction: str) -> str:
+    """Return why the section of a reduction cannot stand for its beam; empty where it can."""
+    reason = no_section(equivalent, reduction)
+    if "flutter_bias" not in equivalent:
+        return reason
+    if "section_likeness" in equivalent:
+        pair = equivalent[["section_likeness", "section_damping_ratio"]]
+        reason = unlike(*(float(pair[name]) for name in pair)) or reason
+    bias = equivalent["flutter_bias"].sel(reduction=reduction)
+    return reason or bias_refusal(float(bias), reduction)
+
+
 def _section(
     config: Config, model: Model, data: Mapping[str, xr.Dataset], stiffness_scale: float
 ) -> tuple[Section, tuple[float, float]]:
     """Return the section of a model in the flow, and the factors of its c_l and c_m."""
     reduction: Reduction = "paper" if model.reduction == "paper" else "consistent"
-    if "flutter_bias" in data["equivalent"]:
-        bias = data["equivalent"]["flutter_bias"].sel(reduction=reduction)
-        reason = bias_refusal(float(bias), reduction)
-        if "section_likeness" in data["equivalent"]:
-            pair = data["equivalent"][["section_likeness", "section_damping_ratio"]]
-            reason = unlike(*(float(pair[name]) for name in pair)) or reason
-        if reason:
-            raise ReductionError(reason)
+    if reason := section_refusal(data["equivalent"], reduction):
+        raise ReductionError(reason)
     section = section_from_dataset(data["equivalent"], reduction).scaled(stiffness_scale)
     in_flow = section.in_flow(config.flow.density, config.flow.speed)
     return _corrected(config, in_flow, data["correction"]) if model.corrected else (in_flow, (1, 1))

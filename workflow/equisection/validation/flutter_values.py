@@ -20,6 +20,7 @@ from equisection.motion.beam_flutter import (
     section_flutter,
 )
 from equisection.motion.linear_flutter import divergence_scale
+from equisection.motion.mechanism import Mechanism
 from equisection.motion.stability import critical_speed
 from equisection.reduction.reduce import Reduction, reduce_beam
 from equisection.structure.modal_matrices import ModalMatrices, modal_matrices
@@ -236,6 +237,62 @@ def _speed(compute: Callable[[], FlutterOnset]) -> Callable[[], float]:
 
 def _omega(compute: Callable[[], FlutterOnset]) -> Callable[[], float]:
     return lambda: compute().omega
+
+
+_PRISM_A1, _PRISM_DRAG = 2.69, 2.0
+
+
+def _galloping_onset() -> float:
+    """Return n U/beta of a square prism that begins to gallop, n = rho h^2/(2 m), U = V/(omega h).
+
+    By eigenvalues of the embedded solver's equations, of a prism so heavy that the lags of the wake
+    and the mass of the air do not matter.
+    """
+    mass, omega, ratio = 1e6, math.tau, 0.01
+    prism = Section(
+        mass=mass,
+        inertia=mass,
+        flexural_stiffness=mass * omega**2,
+        torsional_stiffness=1e6 * mass * omega**2,
+        flexural_damping=2 * ratio * mass * omega,
+        torsional_damping=2e3 * ratio * mass * omega,
+    )
+    alpha = np.radians(np.linspace(-10.0, 10.0, 41))
+    nothing = np.zeros_like(alpha)
+    lift = -(_PRISM_A1 + _PRISM_DRAG) * alpha
+    polar = Polar(alpha, np.full_like(alpha, _PRISM_DRAG), lift, nothing, "square prism")
+    expected = 4 * mass * ratio * omega / (_AIR * _PRISM_A1)
+    onset = critical_speed(
+        prism,
+        polar,
+        incidence_deg=0.0,
+        speed=(0.8 * expected, 1.2 * expected),
+        density=_AIR,
+        lags=SeparationLags.none(),
+    )
+    if onset["mechanism"].item() != Mechanism.GALLOPING:
+        return math.nan
+    return float(onset["critical_speed"]) / omega * _AIR / (2 * mass) / ratio
+
+
+def _prism() -> list[KnownValue]:
+    source = Source(
+        "unconfirmed",
+        "Parkinson and Smith, Quarterly Journal of Mechanics and Applied Mathematics 17, 1964: "
+        "A_1 = 2.69, and U = 2 beta/(n A_1) by quasi-steady theory",
+    )
+    return [
+        KnownValue(
+            "Square prism, galloping",
+            "n U/beta at the onset",
+            "-",
+            2.0 / _PRISM_A1,
+            source,
+            _galloping_onset,
+            1e-3,
+            "a prism of finite mass has a wake that lags",
+        )
+    ]
 
 
 _GOLAND = "Goland's wing"
@@ -519,4 +576,11 @@ def _flat_plate() -> list[KnownValue]:
 
 def flutter_values() -> list[KnownValue]:
     """Known values of flutter and divergence."""
-    return [*_goland(), *_goland_fitted(), *_deck(), *_airfoil(), *_flat_plate()]
+    return [
+        *_goland(),
+        *_goland_fitted(),
+        *_deck(),
+        *_airfoil(),
+        *_flat_plate(),
+        *_prism(),
+    ]

@@ -100,15 +100,17 @@ def assess(
     regime, reason = _while_running(seen)
     if regime == "undecided" and final:
         regime, reason = decide_by_trend(seen)
+    by_heave = False
     if regime in {"settled", "limit-cycle"}:
         if final and (heave := growing_heave(seen)):
-            regime, reason = "growing", heave
+            regime, reason, by_heave = "growing", heave, True
         elif not final and (heave := unseen_decay(seen)):
             regime, reason = "undecided", f"looks {regime} ({reason}), but {heave}"
     if regime == "undecided":
         return _verdict(seen, regime, reason)
     if regime == "growing":
-        return _with_means(_verdict(seen, regime, reason), window_means(seen))
+        found = replace(_verdict(seen, regime, reason), heave_grows=by_heave)
+        return _with_means(found, window_means(seen))
     average = means(seen)
     heave = unseen_decay(seen) if final else ""
     if heave:

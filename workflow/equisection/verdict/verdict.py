@@ -104,6 +104,8 @@ class Verdict:
         f c/V of the twist; the hint given, or NaN, without an oscillation.
     growth_rate : float
         d ln A/ds of the twist amplitude A (per c/V); NaN without an oscillation.
+    heave_grows : bool
+        True where the motion is growing by its heave, beneath a twist that does not grow.
     """
 
     regime: Regime
@@ -118,6 +120,7 @@ class Verdict:
     deflection_amplitude: float = math.nan
     frequency: float = math.nan
     growth_rate: float = math.nan
+    heave_grows: bool = False
 
     @property
     def decided(self) -> bool:
