@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from equisection.aerodynamics.induction import cosine_strips, induction_matrix
+from equisection.aerodynamics.induction import cosine_strips
 from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.validation.known_values import KnownValue, Source
 
 _LATTICE = Source("independent", "vortex lattice of a flat rectangular wing")
@@ -16,8 +17,8 @@ _LATTICE = Source("independent", "vortex lattice of a flat rectangular wing")
 def lift_slope(aspect_ratio: float) -> float:
     """dC_L/dalpha (1/rad) of a rectangular thin wing in free air by the lifting line."""
     strips = cosine_strips(60, root_on_wall=False)
-    matrix = induction_matrix(strips, 1.0, aspect_ratio, root_on_wall=False)
-    wing = LiftingLine(Polar.flat_plate(0.5), strips, matrix)
+    span = SpanGeometry.of(strips, 1.0, aspect_ratio, root_on_wall=False)
+    wing = LiftingLine.of(Polar.flat_plate(0.5), strips, span)
     return wing.solve(math.radians(1.0)).lift / math.radians(1.0)
 
 
