@@ -13,9 +13,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.span_strips import cosine_strips
+from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
 
 POLARS = Path(__file__).parents[2] / "config" / "polars"
@@ -27,7 +28,7 @@ TABLE_1_DEG = np.array([2.5, 5.0, 10.0])
 
 def plate(count: int = 20) -> LiftingLine:
     strips = cosine_strips(count)
-    return LiftingLine(SECTION, strips, induction_matrix(strips, 0.1, 0.37, 0.4, 0.4))
+    return LiftingLine.of(SECTION, strips, SpanGeometry.of(strips, 0.1, 0.37, 0.4, 0.4))
 
 
 def test_plate_beside_the_paper() -> None:

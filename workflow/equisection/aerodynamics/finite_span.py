@@ -1,4 +1,4 @@
-"""Air around a finite beam: what its strips do to each other, unsteady and by their acceleration."""
+"""Induction and apparent mass of a finite beam: what its strips do to each other."""
 
 from __future__ import annotations
 

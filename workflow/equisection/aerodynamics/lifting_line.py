@@ -15,8 +15,8 @@ Since a_l alpha - Delta_l(alpha) is the polar, (1 + a_l G) c_l is its lift at al
     alpha_S + D c_l,polar(alpha_S) = theta_0 + theta,    D = (T - G) (1 + a_l G)^-1.
 
 Beams in motion (:mod:`equisection.motion.strip_system`) have these loads at rest. With T_q in the
-place of T the rise vanishes, and this is Prandtl's lifting line. The induced drag is c_l T_q c_l, as
-it is there: what the wake carries away depends on the load along the span alone.
+place of T the rise vanishes, and this is Prandtl's lifting line. The induced drag is c_l T_q c_l,
+as it is there: what the wake carries away depends on the load along the span alone.
 
 The equation is solved by Newton's method with a line search from the load of a linear polar with
 the steepest slope a of this one. It may stall near the lift peak. Then the chord method
@@ -37,9 +37,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from equisection.aerodynamics.induction import SpanStrips
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import Branches
+from equisection.aerodynamics.span_strips import SpanStrips
 from equisection.aerodynamics.unsteady_induction import CURVATURE_SHARE, steady_induction
 from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.errors import SolverError

@@ -118,7 +118,7 @@ class Branches:
         return cls(polar, polar.lift_slope(alpha), polar.moment_slope(alpha))
 
     def lag_share(self, alpha: Floats) -> Floats:
-        """b at ``alpha`` (rad, any shape), 0 to 1; NaN where the polar has no value."""
+        """B at ``alpha`` (rad, any shape), 0 to 1; NaN where the polar has no value."""
         return np.interp(alpha, *self._lag_shares, left=np.nan, right=np.nan)
 
     @cached_property

@@ -1,8 +1,8 @@
 """Beams of a few modes on strips of the span, released from a steady state.
 
 Torsion and bending modes (``motion.strip_system``) carry the unsteady loads of the section polar
-on every strip, and the strips act on each other as ``aerodynamics.finite_span`` has it. Many beams that differ in stiffness run together: a sweep over k* is
-one call.
+on every strip, and the strips act on each other as ``aerodynamics.finite_span`` has it. Many beams
+that differ in stiffness run together: a sweep over k* is one call.
 """
 
 from __future__ import annotations

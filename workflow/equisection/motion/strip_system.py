@@ -399,9 +399,7 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
     )
 
 
-def _induced(
-    layout: StateLayout, structure: StripStructure, columns: int
-) -> tuple[Floats, Floats]:
+def _induced(layout: StateLayout, structure: StripStructure, columns: int) -> tuple[Floats, Floats]:
     """Rows of alpha_i (rad) and of its rise gamma along the chord, shape (S, columns)."""
     induced, curvature = np.zeros((2, layout.strips, columns))
     if structure.span is None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from functools import partial
 
-from equisection.aerodynamics.induction import cosine_strips
 from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.span_strips import cosine_strips
 from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.validation.known_values import KnownValue, Source
 

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.aerodynamics.induction import SpanStrips, cosine_strips
 from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
+from equisection.aerodynamics.span_strips import SpanStrips, cosine_strips
 from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.beam.beam import MID_CHORD
 from equisection.cases import Geometry, SteadyCase, UnsteadyCase

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.finite_span import FiniteSpan
-from equisection.aerodynamics.induction import SpanStrips
+from equisection.aerodynamics.span_strips import SpanStrips
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.beam import MID_CHORD
 from equisection.beam.section import Section
