@@ -165,9 +165,9 @@ def zero_lift(polar: Polar) -> float:
 
 
 IDENTIFIED_LAGS = SeparationLags(
-    relaxation=2.58,
-    delay=0.64,
-    lift_lag=0.55,
+    relaxation=2.37,
+    delay=0.46,
+    lift_lag=0.59,
     provenance=(
         "identified from the loads of two free releases of the plate (h = 0.04 c, sharp edges, "
         "Re 1.27e5, theta_0 = 2.5 deg, k* = 5 and 10): OpenFOAM v1912, k-omega SST, 11136 cells, "
