@@ -42,9 +42,9 @@ def test_plate_beside_the_paper() -> None:
         for degrees, one, other in zip(TABLE_1_DEG, here, paper, strict=True):
             print(f"{name} at {degrees:g} deg: line {one:.4f}, paper {other:.4f}")
     relative = {name: here / paper - 1 for name, (here, paper) in pairs.items()}
-    assert relative["C_L"] == pytest.approx([0.18, 0.125, 0.07], abs=0.02)
-    assert relative["C_M"] == pytest.approx([0.08, 0.125, 0.015], abs=0.02)
-    assert relative["C_D"] == pytest.approx([0.015, 0.035, 0.035], abs=0.02)
+    assert relative["C_L"] == pytest.approx([0.086, 0.065, 0.022], abs=0.01)
+    assert relative["C_M"] == pytest.approx([0.053, 0.148, 0.015], abs=0.01)
+    assert relative["C_D"] == pytest.approx([-0.007, -0.007, 0.0], abs=0.01)
 
 
 def test_line_is_nearer_to_the_beam_than_the_section_is() -> None:
@@ -68,4 +68,4 @@ def test_correction_from_the_line_reduces_the_loads_of_the_section() -> None:
     )
     assert np.all(found.lift_factor > 1.1)
     assert np.all(np.diff(found.twist_rad) < 0)
-    assert np.degrees(found.twist_rad) == pytest.approx([0.79, 0.42, 0.19], abs=0.01)
+    assert np.degrees(found.twist_rad) == pytest.approx([0.783, 0.406, 0.183], abs=0.005)

@@ -217,13 +217,14 @@ def test_motion_described_from_another_axis_has_the_same_flow():
     layout = system.layout
     rng = np.random.default_rng(1)
     states = 0.02 * rng.standard_normal((1, layout.size))
-    deficits = 0.01 * rng.standard_normal((1, 4))  # of lift, of moment, the normal force, the turn
+    # of lift, of moment, the normal force, the lift that lags, the turn
+    deficits = 0.01 * rng.standard_normal((1, 5))
     x = -0.2
     # mid-chord moves by w_m = w + x theta, and everything else of the flow is the same
     there = states.copy()
     there[:, 2] -= x * states[:, 0]
     there[:, 3] -= x * states[:, 1]
-    here = np.concatenate([states, deficits[:, [0, 1, 3]], np.ones((1, 1))], axis=1)
+    here = np.concatenate([states, deficits[:, [0, 1, 3, 4]], np.ones((1, 1))], axis=1)
     seen = np.concatenate([there, deficits, np.ones((1, 1))], axis=1)
     for rows, others in ((system.probe, moved.probe), (system.rates[:, 4:], moved.rates[:, 4:])):
         np.testing.assert_allclose(rows[0] @ here[0], others[0] @ seen[0], rtol=1e-12, atol=1e-14)
