@@ -175,7 +175,8 @@ def draw(response: Response) -> Figure:
     figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
     sections = {"2d", "2d-corrected"} & set(models)
     of_reduction = f"2D: reduction '{response.reduction}'"
-    add_provenance(figure, *_sources(response), *([of_reduction] if sections else []))
+    notes = [*([of_reduction] if sections else []), *_known_errors(response.onset)]
+    add_provenance(figure, *_sources(response), *notes)
     return figure
 
 
@@ -343,6 +344,18 @@ def _mark(marker: str, label: str) -> Line2D:
         markerfacecolor="white",
         label=label,
     )
+
+
+def _known_errors(onset: pd.DataFrame) -> list[str]:
+    """Say to which side the onset of a model errs, where that is known."""
+    if "growth_error" not in onset:
+        return []
+    known = onset[onset["growth_error"].notna()].drop_duplicates("model")
+    return [
+        f"{LOOKS[str(row.model)].label}: growth {row.growth_error:+.4f} V/c off CFD in the mean of "
+        f"kept releases ({row.growth_error_rms:.4f} rms), onset errs to the {row.errs} side"
+        for row in known.itertuples()
+    ]
 
 
 def _sources(response: Response) -> tuple[str, ...]:

@@ -28,6 +28,8 @@ from equisection.config.groups import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.embedded.known_errors import known_error
+from equisection.solvers.known_error import KnownError
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 Floats = NDArray[np.float64]
@@ -107,6 +109,10 @@ class Adapter:
     def section_loads(self) -> tuple[Polar, SeparationLags]:
         """Polar of the section, and lags of its separation."""
         return self._polar, self._lags
+
+    def known_error(self, dimension: str, basis: str) -> KnownError | None:
+        """Return the error of the growth that is known with this polar and these lags."""
+        return known_error(dimension, basis, self._polar.label, self._lags)
 
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
