@@ -102,7 +102,7 @@ def identify_lags(
         parts = [_scaled_errors(history, loads, start)[coefficient] for history in histories]
         return np.concatenate(parts)
 
-    bubble = _search(lambda values: errors(SeparationLags(*values, lift_lag=0.0), _MOMENT), _BUBBLE)
+    bubble = _search(lambda values: errors(SeparationLags(*values, 0.0), _MOMENT), _BUBBLE)
     relaxation, delay = (float(value) for value in bubble.x)
     lift = _search(
         lambda values: errors(SeparationLags(relaxation, delay, *values), _LIFT), _LIFT_LAG

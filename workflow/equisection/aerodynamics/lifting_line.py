@@ -108,7 +108,7 @@ class LiftingLine:
     @cached_property
     def matrix(self) -> Floats:
         """D (rad): alpha_S = theta_0 + theta - D c_l,polar(alpha_S), shape (n, n)."""
-        return (self.rear - self._advance) @ self._carried
+        return np.asarray((self.rear - self._advance) @ self._carried, dtype=np.float64)
 
     @cached_property
     def _advance(self) -> Floats:
