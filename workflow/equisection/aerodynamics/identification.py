@@ -102,10 +102,12 @@ def identify_lags(
         parts = [_scaled_errors(history, loads, start)[coefficient] for history in histories]
         return np.concatenate(parts)
 
-    bubble = _search(lambda values: errors(SeparationLags(*values, 0.0), _MOMENT), _BUBBLE)
+    bubble = _search(
+        lambda values: errors(SeparationLags(values[0], values[1], 0.0), _MOMENT), _BUBBLE
+    )
     relaxation, delay = (float(value) for value in bubble.x)
     lift = _search(
-        lambda values: errors(SeparationLags(relaxation, delay, *values), _LIFT), _LIFT_LAG
+        lambda values: errors(SeparationLags(relaxation, delay, values[0]), _LIFT), _LIFT_LAG
     )
     sources = "; ".join(history.name for history in histories)
     lags = SeparationLags(relaxation, delay, float(lift.x[0]), provenance=sources)

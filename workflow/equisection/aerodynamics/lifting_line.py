@@ -119,7 +119,8 @@ class LiftingLine:
     def _carried(self) -> Floats:
         """(1 + a_l G)^-1, shape (n, n): c_l of the polar's lift at alpha_S."""
         slope = Branches.from_polar(self.polar).lift_slope
-        return np.linalg.inv(np.eye(len(self.rear)) + slope * self._advance)
+        carried = np.linalg.inv(np.eye(len(self.rear)) + slope * self._advance)
+        return np.asarray(carried, dtype=np.float64)
 
     def solve(self, incidence_rad: float, twist_rad: ArrayLike = 0.0) -> SpanwiseLoads:
         """Return the loads at theta_0 = ``incidence_rad`` with twist theta (scalar or (n,))."""
