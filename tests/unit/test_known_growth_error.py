@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pandas as pd
 import pytest
@@ -48,6 +49,13 @@ def test_default_run_errs_to_the_unsafe_side_and_says_so() -> None:
     assert error.errs == "unsafe"
     assert "too low" in str(error)
     assert "errs to the unsafe side" in str(error)
+
+
+@pytest.mark.parametrize(
+    ("mean", "errs"), [(-0.01, "unsafe"), (0.01, "safe"), (-0.006, "either"), (0.001, "either")]
+)
+def test_side_is_told_where_the_mean_stands_out_of_the_scatter(mean: float, errs: str) -> None:
+    assert replace(LATE, mean=mean).errs == errs
 
 
 def test_of_another_polar_or_other_lags_nothing_is_known() -> None:

@@ -63,7 +63,7 @@ def with_known_errors(
     pd.DataFrame
         The table with :data:`COLUMNS`: mean and root mean square of the growth (V/c) less that by a
         flow solver, NaN where nobody knows them, and the side to which the speed of the onset errs
-        by the mean: ``unsafe`` (too high), ``safe`` or ``unknown``.
+        by the mean: ``unsafe`` (too high), ``safe``, ``either`` or ``unknown``.
     """
     models = table["model"].astype(str)
     pairs = zip(models, [TIME] * len(table) if bases is None else bases, strict=True)

@@ -32,6 +32,7 @@ from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.panels import in_words, letter, say
 from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.results.netcdf import read_dataset
+from equisection.solvers.known_error import side_in_words
 from equisection.store.index import result_files
 from equisection.study.axes import Axis, onset_axis_among
 
@@ -353,7 +354,7 @@ def _known_errors(onset: pd.DataFrame) -> list[str]:
     known = onset[onset["growth_error"].notna()].drop_duplicates("model")
     return [
         f"{LOOKS[str(row.model)].label}: growth {row.growth_error:+.4f} V/c off CFD in the mean of "
-        f"kept releases ({row.growth_error_rms:.4f} rms), onset errs to the {row.errs} side"
+        f"kept releases ({row.growth_error_rms:.4f} rms), onset errs to {side_in_words(str(row.errs))}"
         for row in known.itertuples()
     ]
 

@@ -39,7 +39,13 @@ class KnownError:
 
     @property
     def errs(self) -> str:
-        """Side to which a critical speed errs: ``safe`` where growth is too high in the mean."""
+        """Side to which a critical speed errs.
+
+        ``safe`` where growth is too high, ``unsafe`` where it is too low; ``either`` where the mean
+        is less than half of the root mean square and so tells no side.
+        """
+        if abs(self.mean) < 0.5 * self.rms:
+            return "either"
         return "safe" if self.mean > 0.0 else "unsafe"
 
     def __str__(self) -> str:
@@ -48,5 +54,10 @@ class KnownError:
         return (
             f"growth {abs(self.mean):.4f} V/c too {high} in the mean ({self.rms:.4f} rms) of "
             f"{self.releases} releases of {self.against}, {self.wrong_side} of them on the wrong "
-            f"side of the onset: errs to the {self.errs} side"
+            f"side of the onset: errs to {side_in_words(self.errs)}"
         )
+
+
+def side_in_words(errs: str) -> str:
+    """Return the side of :attr:`KnownError.errs` in words."""
+    return "either side" if errs == "either" else f"the {errs} side"
