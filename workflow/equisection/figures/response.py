@@ -354,7 +354,8 @@ def _known_errors(onset: pd.DataFrame) -> list[str]:
     known = onset[onset["growth_error"].notna()].drop_duplicates("model")
     return [
         f"{LOOKS[str(row.model)].label}: growth {row.growth_error:+.4f} V/c off CFD in the mean of "
-        f"kept releases ({row.growth_error_rms:.4f} rms), onset errs to {side_in_words(str(row.errs))}"
+        f"kept releases ({row.growth_error_rms:.4f} rms), onset errs to "
+        f"{side_in_words(str(row.errs))}"
         for row in known.itertuples()
     ]
 
