@@ -352,12 +352,16 @@ def _known_errors(onset: pd.DataFrame) -> list[str]:
     if "growth_error" not in onset:
         return []
     known = onset[onset["growth_error"].notna()].drop_duplicates("model")
-    return [
-        f"{LOOKS[str(row.model)].label}: growth {row.growth_error:+.4f} V/c off CFD in the mean of "
-        f"kept releases ({row.growth_error_rms:.4f} rms), onset errs to "
-        f"{side_in_words(str(row.errs))}"
-        for row in known.itertuples()
-    ]
+    notes = []
+    for (mean, rms, errs), rows in known.groupby(
+        ["growth_error", "growth_error_rms", "errs"], sort=False
+    ):
+        models = " and ".join(LOOKS[model].label for model in rows["model"])
+        notes.append(
+            f"{models}: growth {mean:+.4f} V/c off kept CFD in the mean ({rms:.4f} rms), the onset "
+            f"errs to {side_in_words(str(errs))}"
+        )
+    return notes
 
 
 def _sources(response: Response) -> tuple[str, ...]:
