@@ -31,6 +31,7 @@ from equisection.motion.beams import BeamParameters, beam_system, release_beams
 from equisection.motion.release_judgement import judge_release, release_numbers
 from equisection.motion.sections import section_system
 from equisection.motion.steady_states import least_stable_eigenvalue
+from equisection.results.netcdf import read_dataset
 from equisection.results.recorded_history import read_reference_history
 from equisection.solvers.embedded.known_errors import FILE
 from equisection.solvers.known_error import KnownError
@@ -69,7 +70,7 @@ def polar(label: str) -> Polar:
 
 def kept(k_star: str) -> tuple[xr.Dataset, dict]:
     """Return a release of the plate by the flow solver, and its case."""
-    dataset = xr.load_dataset(PLATE / f"k{k_star}.nc")
+    dataset = read_dataset(PLATE / f"k{k_star}.nc")
     return dataset, json.loads(dataset.attrs["case"])
 
 

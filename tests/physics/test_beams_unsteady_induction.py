@@ -22,6 +22,7 @@ from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.motion.beams import BeamParameters, beam_system, release_beams
 from equisection.motion.release_judgement import release_numbers
 from equisection.motion.steady_states import rigid_state
+from equisection.results.netcdf import read_dataset
 from equisection.results.recorded_history import read_reference_history
 
 ROOT = Path(__file__).parents[2]
@@ -51,7 +52,7 @@ def beam(case: dict, length: float) -> BeamParameters:
 
 
 def kept(k_star: str) -> tuple[xr.Dataset, dict]:
-    dataset = xr.load_dataset(KEPT / f"k{k_star}.nc")
+    dataset = read_dataset(KEPT / f"k{k_star}.nc")
     return dataset, json.loads(dataset.attrs["case"])
 
 

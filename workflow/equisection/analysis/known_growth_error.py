@@ -1,4 +1,4 @@
-"""What is known of the error of the growth that an onset hangs on, in the tables of onsets."""
+"""Known error of the growth behind an onset, in the tables of onsets."""
 
 from __future__ import annotations
 
