@@ -21,6 +21,7 @@ from tests.benchmarks import (  # noqa: E402
     campaign,
     default_run,
     early_verdict,
+    flips,
     large_sweep,
     many_cases,
     modes,
@@ -37,6 +38,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "beam-growth": beam_growth.rows,
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
+    "flips": flips.rows,
     "openfoam": openfoam.rows,
     "plate": plate.rows,
 }
