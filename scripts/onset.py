@@ -9,6 +9,12 @@ import pandas as pd
 
 from equisection.analysis import critical_speeds
 from equisection.analysis.deviations import deviations
+from equisection.analysis.known_growth_error import (
+    KnownErrors,
+    known_errors_of,
+    with_known_errors,
+)
+from equisection.analysis.known_growth_error import in_words as errors_in_words
 from equisection.analysis.linear_theory import (
     linear_onset,
     linear_theory,
@@ -21,6 +27,7 @@ from equisection.files import written_whole
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import nominal_k_star, section_from_dataset
 from equisection.run.script import logged
+from equisection.solvers.known_error import KnownError
 from equisection.solvers.protocol import HasSectionLoads
 from equisection.solvers.registry import solver_from_config
 from equisection.study import plan
@@ -38,18 +45,35 @@ def main(
     speed: float,
     reduction: str,
     output: Path,
+    known: KnownErrors | None = None,
 ) -> None:
-    """Bracket the onset of each model, in k* and speed, and add that of linear theory."""
+    """Bracket the onset of each model, in k* and speed, and add linear theory and known errors."""
     sections = read_dataset(equivalent)
     axis = float(sections["elastic_axis"][0])
     slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg, axis)
     linear = linear_onset(sections, slope)
     table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
-    _write(with_speeds(table, AsGiven(nominal_k_star(sections), speed)), output)
+    table = with_speeds(table, AsGiven(nominal_k_star(sections), speed))
+    _write(with_known_errors(table, known or {}), output)
 
 
-def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: Path) -> None:
-    """Write the critical speed of each model, and tell it."""
+def known_errors(summary: Path, raw_config: dict[str, Any]) -> dict[tuple[str, str], KnownError]:
+    """Return what is known of the error of each model's growth, by model and basis."""
+    config = load_config(raw_config)
+    solver = solver_from_config(config, config.steady.resolution)
+    models = [plan.model(name, config.reduction) for name in config.sweep.models]
+    dimensions = {model.name: model.dimension for model in models}
+    return known_errors_of(solver, dimensions, pd.read_csv(summary))
+
+
+def speeds(
+    summary: Path,
+    equivalent: Path,
+    raw_config: dict[str, Any],
+    output: Path,
+    known: KnownErrors | None = None,
+) -> None:
+    """Write the critical speed of each model with its known error, and tell it."""
     config, data = load_config(raw_config), read_dataset(equivalent)
     flow, table = config.flow, pd.read_csv(summary)
     given = AsGiven(nominal_k_star(data), flow.speed)
@@ -87,9 +111,9 @@ def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: 
             )
         )
     critical = critical_speeds.with_margin(found, flow.design_speed)
-    for line in critical_speeds.in_words(critical):
+    for line in critical_speeds.in_words(critical) + errors_in_words(known or {}):
         logging.getLogger(__name__).info("%s", line)
-    _write(critical, output)
+    _write(with_known_errors(critical, known or {}, list(critical["basis"])), output)
 
 
 def growth_by_linear_theory(
@@ -115,6 +139,7 @@ def _write(table: pd.DataFrame, output: Path) -> None:
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
         summary, equivalent = Path(snakemake.input.summary), Path(snakemake.input.equivalent)
+        known = known_errors(summary, snakemake.params.config)
         main(
             summary,
             equivalent,
@@ -124,6 +149,7 @@ if __name__ == "__main__":
             speed=snakemake.params.speed,
             reduction=snakemake.params.reduction,
             output=Path(snakemake.output.onset),
+            known=known,
         )
         growth_by_linear_theory(
             equivalent,
@@ -137,6 +163,7 @@ if __name__ == "__main__":
             equivalent,
             snakemake.params.config,
             Path(snakemake.output.critical_speed),
+            known,
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

@@ -17,6 +17,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
     os.environ.setdefault(variable, "1")
 
 from tests.benchmarks import (  # noqa: E402
+    beam_growth,
     campaign,
     default_run,
     early_verdict,
@@ -35,6 +36,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "many-cases": many_cases.rows,
     "large-sweep": large_sweep.rows,
     "campaign": campaign.rows,
+    "beam-growth": beam_growth.rows,
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
     "flips": flips.rows,

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from equisection.aerodynamics.induction import cosine_strips
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
+from equisection.aerodynamics.span_strips import cosine_strips
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.beam import Beam

@@ -9,9 +9,10 @@ from tests.conftest import ROOT
 from tests.sample_cases import GEOMETRY, STEADY, UNSTEADY, UNSTEADY_PLATE, beam_modes
 from tests.watching import nothing
 
-from equisection.aerodynamics.induction import cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.span_strips import cosine_strips
+from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.cases import SteadyCase, UnsteadyCase
 from equisection.config import load_config
 from equisection.results.steady_result import SteadyResult
@@ -116,8 +117,8 @@ def test_beam_between_walls_without_a_gap_is_the_section(
 def test_rigid_beam_is_the_lifting_line_in_its_channel(solver: Adapter) -> None:
     """Span 3.7 c, a gap of 0.3 c to the far wall, 4 c from floor to ceiling."""
     strips = cosine_strips(12)
-    induction = induction_matrix(strips, 1.0, 3.7, 4.0, 4.0)
-    expected = LiftingLine(Polar.read(POLAR, symmetric=True), strips, induction).solve(
+    span = SpanGeometry.of(strips, 1.0, 3.7, 4.0, 4.0)
+    expected = LiftingLine.of(Polar.read(POLAR, symmetric=True), strips, span).solve(
         math.radians(2.5)
     )
     (beam,) = steady(solver, rigid("3d", 2.5))

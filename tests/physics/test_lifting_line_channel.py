@@ -8,7 +8,9 @@ from scipy.optimize import brentq
 from scipy.special import ellipj, ellipk
 
 from equisection.aerodynamics.channel import lattice_kernel
-from equisection.aerodynamics.induction import cosine_strips, induction_matrix
+from equisection.aerodynamics.span_strips import cosine_strips
+from equisection.aerodynamics.unsteady_induction import steady_induction
+from equisection.aerodynamics.vortex_rings import SpanGeometry
 
 WIDTHS_AND_HEIGHTS = [(4.0, 4.0), (4.0, 1.0), (1.0, 4.0), (10.0, 0.5)]
 
@@ -75,8 +77,10 @@ def test_small_wing_in_a_closed_tunnel(breadth_to_height: float) -> None:
     height, span, chord = 1.0, 0.02, 0.002
     width = breadth_to_height * height
     strips = cosine_strips(20, root_on_wall=False)
-    free = induction_matrix(strips, chord, span, root_on_wall=False)
-    tunnel = induction_matrix(strips, chord, span, width, height, root_on_wall=False)
+    free, tunnel = (
+        steady_induction(SpanGeometry.of(strips, chord, span, *walls, root_on_wall=False))[1]
+        for walls in ((), (width, height))
+    )
     load = np.ones(20)
     upwash = (free - tunnel) @ load
     delta = upwash * width * height / (span * chord * (strips.weights @ load))

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from tests.physics.test_stability import ATTACHED, DECK, DENSITY, PLATE, THIN, speed_of
 
-from equisection.aerodynamics.induction import cosine_strips
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS
+from equisection.aerodynamics.span_strips import cosine_strips
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.errors import ArgumentError, IncidenceOutOfRangeError
 from equisection.motion.beams import BeamParameters, beam_system, release_beams

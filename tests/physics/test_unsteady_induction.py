@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from equisection.aerodynamics.apparent_mass import apparent_mass
+from equisection.aerodynamics.channel import lattice_kernel
 from equisection.aerodynamics.indicial import theodorsen
-from equisection.aerodynamics.induction import cosine_strips, induction_matrix
+from equisection.aerodynamics.span_strips import SpanStrips, cosine_strips
 from equisection.aerodynamics.unsteady_induction import (
     BOUND_LINE,
     COLLOCATION_POINT,
@@ -15,6 +16,7 @@ from equisection.aerodynamics.unsteady_induction import (
     UnsteadyInduction,
     circulation_of_lift,
     induction_states,
+    steady_induction,
 )
 from equisection.aerodynamics.vortex_rings import SpanGeometry
 
@@ -28,6 +30,19 @@ def half_wing(aspect_ratio: float, count: int = COUNT) -> SpanGeometry:
 def plate_in_channel() -> SpanGeometry:
     """Return the paper's plate: root on a wall of a channel 4 x 4 chords."""
     return SpanGeometry.of(cosine_strips(COUNT), 1.0, 3.7, 4.0, 4.0)
+
+
+def prandtl(strips: SpanStrips, length: float, *walls: float | None) -> np.ndarray:
+    """Induced incidence (rad) of c_l by trailing half-lines, with the root on a wall.
+
+    alpha_i = (1/8 pi) int dc_l/dz' [K(z - z') - K(z + z')] dz' (Prandtl 1918; Glauert, The
+    Elements of Aerofoil and Airscrew Theory, chapters X, XI and XIV for the walls), lengths in
+    chords.
+    """
+    station, edge = length * strips.stations[:, None], length * strips.edges
+    walls = walls or (None, None)
+    kernel = lattice_kernel(station - edge, *walls) - lattice_kernel(station + edge, *walls)
+    return (kernel.real[:, :-1] - kernel.real[:, 1:]) / (8 * np.pi)
 
 
 def incidence_matrix(geometry: SpanGeometry, omega: float) -> np.ndarray:
@@ -150,7 +165,7 @@ def test_lift_of_a_slender_wing_is_that_of_r_t_jones() -> None:
 def test_at_the_bound_line_it_is_the_lifting_line(walls: tuple[float | None, float | None]) -> None:
     """The legs are half-lines there, as in Prandtl's theory."""
     strips = cosine_strips(COUNT)
-    line = induction_matrix(strips, 1.0, 3.7, *walls)
+    line = prandtl(strips, 3.7, *walls)
     found = front_matrix(SpanGeometry.of(strips, 1.0, 3.7, *walls), 0.0).real
     assert found == pytest.approx(line, abs=1e-6 * np.abs(line).max())
 
@@ -159,11 +174,18 @@ def test_long_beams_tend_to_the_lifting_line() -> None:
     strips = cosine_strips(COUNT)
     errors = []
     for length in (1e4, 1e5):
-        line = induction_matrix(strips, 1.0, length)
+        line = prandtl(strips, length)
         found = incidence_matrix(SpanGeometry.of(strips, 1.0, length), 0.0).real
         errors.append(np.abs(found - line).max() / np.abs(line).max())
     assert errors[1] < 2e-3
     assert errors[0] / errors[1] == pytest.approx(10.0, rel=0.05)
+
+
+@pytest.mark.parametrize("geometry", [half_wing(4.0), plate_in_channel()])
+def test_steady_induction_is_that_of_the_unsteady_one_at_rest(geometry: SpanGeometry) -> None:
+    rear, front = steady_induction(geometry)
+    assert rear == pytest.approx(incidence_matrix(geometry, 0.0).real, abs=1e-12)
+    assert front == pytest.approx(front_matrix(geometry, 0.0).real, abs=1e-12)
 
 
 @pytest.mark.parametrize("omega", [0.0, 0.02, 0.5, 3.0])

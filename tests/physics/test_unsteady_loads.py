@@ -106,6 +106,46 @@ def test_forced_motion_reproduces_theodorsen(k, pitch, heave, theory):
     assert abs(moment - published[1]) < 0.03 * scale
 
 
+@pytest.mark.parametrize(
+    "lags", [IDENTIFIED_LAGS, SeparationLags(10.0, 3.0, 5.0), SeparationLags(0.0, 0.0, 2.0)]
+)
+@pytest.mark.parametrize("k", [0.1, 0.5, 1.0])
+def test_attached_flow_has_thin_plate_theory_for_any_lags(k, lags):
+    """The lags are those of separated flow: within 2.5 % of Theodorsen up to k = 1."""
+    loads = UnsteadyLoads.from_polar(Polar.flat_plate(0.5), lags)
+    for pitch, heave, theory in ((1e-3, 0.0, theodorsen_pitch), (0.0, 1e-3, theodorsen_heave)):
+        found = oscillate(k, pitch, heave, loads)
+        np.testing.assert_allclose(found, oscillate(k, pitch, heave, flat_plate_loads()))
+        lift, _ = theory(k, complex(theodorsen(k)))
+        assert abs(found[0] - lift) < 0.025 * abs(lift)
+
+
+def test_lag_of_the_lift_sets_in_with_the_loss_of_suction():
+    """On the plate: none near zero lift, all of it long before the incidence of least moment."""
+    branches = Branches.from_polar(Polar.read(POLAR_FILE))
+    alpha = np.radians(np.linspace(0.0, 12.0, 241))
+    share = branches.lag_share(alpha)
+    assert share[0] == 0.0
+    assert np.all(np.diff(share) >= 0.0)
+    np.testing.assert_allclose(share, branches.lag_share(-alpha), atol=1e-9)
+    lost = 1.0 - branches.polar.moment_coefficient(alpha[1:]) / (branches.moment_slope * alpha[1:])
+    assert np.all(share[1:][lost > 0.13] == 1.0)
+    assert np.isnan(branches.lag_share(np.radians([13.0])))
+
+
+def test_section_without_leading_edge_suction_lags_as_a_whole():
+    angles = np.radians([-10.0, -5.0, 0.0, 5.0, 10.0])
+    bluff = Polar(angles, 2.0 + 0 * angles, -2.7 * angles, -0.5 * angles, "bluff")
+    assert np.all(Branches.from_polar(bluff).lag_share(angles) == 1.0)
+
+
+def test_lag_of_the_lift_counts_incidence_from_zero_lift():
+    """A camber that only shifts lift and moment leaves attached flow attached."""
+    angles = np.radians(np.linspace(-10.0, 10.0, 9))
+    cambered = Polar(angles, 0 * angles, 6.0 * angles + 0.4, 1.5 * angles - 0.08, "cambered")
+    assert np.max(Branches.from_polar(cambered).lag_share(angles)) < 1e-9
+
+
 def test_loads_at_rest_are_those_of_the_polar_at_any_incidence():
     polar = Polar.read(POLAR_FILE)
     loads = UnsteadyLoads.from_polar(polar)

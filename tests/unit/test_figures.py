@@ -634,6 +634,19 @@ def test_hysteresis_draws(name, tmp_path):
     lay_out(figure)
 
 
+def test_response_says_to_which_side_its_onsets_err(tmp_path):
+    summary, onset, paths = sweep(tmp_path, SWEEPS["all models"])
+    errors = {"growth_error": np.nan, "growth_error_rms": np.nan, "errs": "unknown"}
+    onset = onset.assign(**errors).astype({"errs": object})
+    unknown = words(response.draw(response.read_response(summary, onset, paths, 6.7)))
+    assert "errs to" not in unknown
+    beam = onset["model"] == "3d"
+    onset.loc[beam, list(errors)] = [-0.01, 0.013, "unsafe"]
+    found = words(response.draw(response.read_response(summary, onset, paths, 6.7)))
+    said = "3D: growth -0.0100 V/c off kept CFD in the mean (0.0130 rms), the onset errs to"
+    assert f"{said} the unsafe side" in found.replace("\n", " ")
+
+
 def test_response_opens_no_file_that_it_does_not_draw(tmp_path):
     summary, onset, paths = sweep(tmp_path, SWEEPS["all models"])
     drawn = {"2d-corrected/k4", "2d-corrected/k5", "2d-corrected/k8", "3d/k4", "3d/k5", "3d/k8"}

@@ -16,6 +16,7 @@ from rich.console import Console
 from tests.conftest import ROOT
 from tests.sample_cases import STEADY, STEADY_PLATE
 
+from equisection.analysis import known_growth_error
 from equisection.analysis.critical_speeds import COLUMNS
 from equisection.analysis.onset import onset_table
 from equisection.analysis.summary import summary_of
@@ -189,7 +190,8 @@ def test_chain_of_scripts_ends_in_a_line_for_each_run(chain: Path) -> None:
     ]
     assert pd.read_csv(chain / "onset.csv")["model"].tolist() == ["2d-corrected", "3d"]
     critical = pd.read_csv(chain / "critical_speed.csv")
-    assert tuple(critical.columns) == COLUMNS
+    assert tuple(critical.columns) == COLUMNS + known_growth_error.COLUMNS
+    assert set(critical["errs"]) == {"unknown"}
     by_basis = {basis: list(rows["model"]) for basis, rows in critical.groupby("basis")}
     assert by_basis == {"eigenvalue": ["2d", "2d-paper"], "time": ["2d-corrected", "3d"]}
     pd.testing.assert_series_equal(

@@ -4,15 +4,18 @@ The recorded twist and deflection drive the load model, and its c_l and c_m are 
 recorded ones. Nothing is integrated in a closed loop: what the motion then does (its growth, its
 frequency, its means) is a consequence, and can be judged.
 
-Least squares over all samples after ``start``, each coefficient in units of its own standard
-deviation. The means are left out: where the steady polar and the unsteady run differ at rest
+There are two steps, since each lag has the coefficient that tells it: tau_1 and tau_2 of the bubble
+are those with which c_m fits, which does not depend on tau_3; then tau_3 is that with which c_l
+fits. One fit of all three to both would trade the bubble's lag against the lift's. Each is a least
+squares over all samples after ``start``, in units of the coefficient's standard deviation. The
+means are left out: where the steady polar and the unsteady run differ at rest
 (they must not, but on coarse meshes they do) that is an error of the polar, and is reported as
 an offset instead of being hidden in a lag.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,10 +33,14 @@ START = 5.0
 """Convective times after the release that are left out: the start-up of a steady flow field."""
 
 FIRST_GUESS = (2.0, 1.0, 0.5)
-"""tau_1, tau_2, tau_3 from which the search starts."""
+"""tau_1, tau_2, tau_3 from which the searches start."""
 
 BOUNDS = ((0.05, 0.0, 0.02), (40.0, 20.0, 5.0))
 """Least and greatest tau_1, tau_2, tau_3."""
+
+#: Lags of the two steps among the three, and the coefficients that tell them.
+_BUBBLE, _LIFT_LAG = slice(0, 2), slice(2, 3)
+_LIFT, _MOMENT = 0, 1
 
 #: Relative distance from a bound that is none, and the least root mean square, over the standard
 #: deviation of the loads, that a lag changes them by.
@@ -90,27 +97,41 @@ def identify_lags(
     """
     branches = Branches.from_polar(polar)
 
-    def residuals(values: Floats) -> Floats:
-        loads = UnsteadyLoads(branches, SeparationLags(*values))
-        parts = [part for history in histories for part in _scaled_errors(history, loads, start)]
+    def errors(lags: SeparationLags, coefficient: int) -> Floats:
+        loads = UnsteadyLoads(branches, lags)
+        parts = [_scaled_errors(history, loads, start)[coefficient] for history in histories]
         return np.concatenate(parts)
 
-    found = scipy.optimize.least_squares(residuals, FIRST_GUESS, bounds=BOUNDS, x_scale=FIRST_GUESS)
+    bubble = _search(
+        lambda values: errors(SeparationLags(values[0], values[1], 0.0), _MOMENT), _BUBBLE
+    )
+    relaxation, delay = (float(value) for value in bubble.x)
+    lift = _search(
+        lambda values: errors(SeparationLags(relaxation, delay, values[0]), _LIFT), _LIFT_LAG
+    )
     sources = "; ".join(history.name for history in histories)
-    relaxation, delay, lift_lag = (float(value) for value in found.x)
-    lags = SeparationLags(relaxation, delay, lift_lag, provenance=sources)
+    lags = SeparationLags(relaxation, delay, float(lift.x[0]), provenance=sources)
     loads = UnsteadyLoads(branches, lags)
     misfits = tuple(load_misfit(history, loads, start) for history in histories)
-    return IdentifiedLags(lags, misfits, int(found.nfev), _untold(found.x, found.jac))
+    untold = _untold(bubble, _BUBBLE) + _untold(lift, _LIFT_LAG)
+    return IdentifiedLags(lags, misfits, int(bubble.nfev + lift.nfev), untold)
 
 
-def _untold(values: Floats, jacobian: Floats) -> tuple[str, ...]:
+def _search(errors: Callable[[Floats], Floats], searched: slice) -> scipy.optimize.OptimizeResult:
+    """Find the lags of one step by least squares."""
+    least, greatest = (bounds[searched] for bounds in BOUNDS)
+    guess = FIRST_GUESS[searched]
+    return scipy.optimize.least_squares(errors, guess, bounds=(least, greatest), x_scale=guess)
+
+
+def _untold(found: scipy.optimize.OptimizeResult, searched: slice) -> tuple[str, ...]:
     """Return the names of the lags at a bound, or by whose own size the loads hardly change."""
-    least, greatest = np.array(BOUNDS)
+    least, greatest = np.array(BOUNDS)[:, searched]
+    values = found.x
     at_bound = (values < (1 + _AT_BOUND) * least) | (values > (1 - _AT_BOUND) * greatest)
-    effect = np.abs(values) * np.linalg.norm(jacobian, axis=0)
-    names = ("relaxation", "delay", "lift_lag")
+    effect = np.abs(values) * np.linalg.norm(found.jac, axis=0)
     unknown = at_bound | (effect < _LEAST_EFFECT)
+    names = ("relaxation", "delay", "lift_lag")[searched]
     return tuple(name for name, is_unknown in zip(names, unknown, strict=True) if is_unknown)
 
 

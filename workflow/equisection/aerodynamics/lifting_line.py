@@ -1,33 +1,47 @@
-"""Steady loads along a beam from its section polar: Prandtl's lifting line, non-linear.
+r"""Steady loads along a beam from its section polar: Weissinger's line, non-linear.
 
-Every section works at its effective incidence
+As in Weissinger's method (NACA TM 1120, 1947) the incidence that the strips induce on each other is
+that at three quarters of the chord, without what a section induces on itself, since its polar has
+that. The section's lift is that of alpha_E, and its leading edge, whose suction decides moment and
+separation, works at alpha_S, which the rise of the induced incidence along the chord adds to
+(:mod:`equisection.aerodynamics.unsteady_induction`):
 
-    alpha_e = theta_0 + theta - alpha_i,    alpha_i = D c_l(alpha_e),
+    alpha_E = theta_0 + theta - T c_l,    alpha_S = alpha_E + G c_l,    G = (kappa/2) (T - T_q),
+    c_l = a_l alpha_E - Delta_l(alpha_S),    c_m = c_m(alpha_S),
 
-with D of `induction_matrix`. To first order in alpha_i, as the theory is, the lift keeps its
-direction and alpha_i tilts it back into the induced drag c_l alpha_i. The moment of a section is
-that of its polar at alpha_e.
+with T = T(0) and T_q = T_q(0) and slope and deficit of :mod:`equisection.aerodynamics.separation`.
+Since a_l alpha - Delta_l(alpha) is the polar, (1 + a_l G) c_l is its lift at alpha_S, and
+
+    alpha_S + D c_l,polar(alpha_S) = theta_0 + theta,    D = (T - G) (1 + a_l G)^-1.
+
+Beams in motion (:mod:`equisection.motion.strip_system`) have these loads at rest. With T_q in the
+place of T the rise vanishes, and this is Prandtl's lifting line. The induced drag is c_l T_q c_l,
+as it is there: what the wake carries away depends on the load along the span alone.
 
 The equation is solved by Newton's method with a line search from the load of a linear polar with
 the steepest slope a of this one. It may stall near the lift peak. Then the chord method
 alpha_e <- alpha_e - (1 + a D)^-1 residual takes over, a pseudo-time iteration that follows the
-attached flow upwards. Beyond the peak a lift curve that falls faster than 4 h/c per radian, h being
-the width of a strip, lets the load alternate from strip to strip (a wave of two strips induces
-c_l c/(4 h)): such a saw-tooth is an error, as is a solution that does not converge.
+attached flow upwards. Beyond the peak a lift curve that falls too steeply lets the load alternate
+from strip to strip (on Prandtl's line faster than 4 h/c per radian, h being the width of a strip,
+since a wave of two strips induces c_l c/(4 h)): such a saw-tooth is an error, as is a solution that
+does not converge.
 
-The theory leaves out the chordwise variation of the induced flow (short spans) and the tip
-vortex that rolls up over the plate.
+The theory leaves out the tip vortex that rolls up over the plate.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from equisection.aerodynamics.induction import SpanStrips
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.separation import Branches
+from equisection.aerodynamics.span_strips import SpanStrips
+from equisection.aerodynamics.unsteady_induction import CURVATURE_SHARE, steady_induction
+from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.errors import SolverError
 
 Floats = NDArray[np.float64]
@@ -49,7 +63,7 @@ class SpanwiseLoads:
     Attributes
     ----------
     effective_incidence, induced_incidence
-        alpha_e and alpha_i (rad) at the stations, shape (n,).
+        alpha_S, at which the polar is read, and T c_l (rad) at the stations, shape (n,).
     cl_section, cm_section, cd_section
         c_l, c_m about mid-chord nose up, and c_d with the induced drag, shape (n,).
     lift, moment, drag, induced_drag
@@ -77,13 +91,36 @@ class LiftingLine:
         Section polar.
     strips
         Strips of the span.
-    matrix
-        D (rad) of `induction_matrix` for these strips, shape (n, n).
+    rear, front
+        T and T_q (rad) of these strips, shape (n, n); the same twice for Prandtl's lifting line.
     """
 
     polar: Polar
     strips: SpanStrips
-    matrix: Floats
+    rear: Floats
+    front: Floats
+
+    @classmethod
+    def of(cls, polar: Polar, strips: SpanStrips, geometry: SpanGeometry) -> LiftingLine:
+        """Take the induction of the strips in their channel."""
+        return cls(polar, strips, *steady_induction(geometry))
+
+    @cached_property
+    def matrix(self) -> Floats:
+        """D (rad): alpha_S = theta_0 + theta - D c_l,polar(alpha_S), shape (n, n)."""
+        return np.asarray((self.rear - self._advance) @ self._carried, dtype=np.float64)
+
+    @cached_property
+    def _advance(self) -> Floats:
+        """G (rad), shape (n, n): alpha_S - alpha_E of c_l."""
+        return np.asarray(0.5 * CURVATURE_SHARE * (self.rear - self.front), dtype=np.float64)
+
+    @cached_property
+    def _carried(self) -> Floats:
+        """(1 + a_l G)^-1, shape (n, n): c_l of the polar's lift at alpha_S."""
+        slope = Branches.from_polar(self.polar).lift_slope
+        carried = np.linalg.inv(np.eye(len(self.rear)) + slope * self._advance)
+        return np.asarray(carried, dtype=np.float64)
 
     def solve(self, incidence_rad: float, twist_rad: ArrayLike = 0.0) -> SpanwiseLoads:
         """Return the loads at theta_0 = ``incidence_rad`` with twist theta (scalar or (n,))."""
@@ -174,18 +211,18 @@ class LiftingLine:
 
     def _loads(self, effective: Floats) -> SpanwiseLoads:
         weights = self.strips.weights
-        lift = self.polar.lift_coefficient(effective)
+        lift = self._carried @ self.polar.lift_coefficient(effective)
         moment = self.polar.moment_coefficient(effective)
-        induced: Floats = self.matrix @ lift
-        drag = self.polar.drag_coefficient(effective) + lift * induced
+        induced_drag = lift * (self.front @ lift)
+        drag = self.polar.drag_coefficient(effective) + induced_drag
         return SpanwiseLoads(
             effective_incidence=effective,
-            induced_incidence=induced,
+            induced_incidence=self.rear @ lift,
             cl_section=lift,
             cm_section=moment,
             cd_section=drag,
             lift=float(weights @ lift),
             moment=float(weights @ moment),
             drag=float(weights @ drag),
-            induced_drag=float(weights @ (lift * induced)),
+            induced_drag=float(weights @ induced_drag),
         )

@@ -18,27 +18,45 @@ State
     the incidence that has it. Labelling the same bubble by its incidence needs no fitted
     x_0(alpha), and a polar that is non-linear from one degree on offers nothing to fit it to.
 Lift
-    Leading-edge suction, and so most of the moment, answers at once. The circulation waits until
-    the vorticity that the bubble sheds has passed the trailing edge. The circulatory lift follows
+    Leading-edge suction, and so most of the moment, answers at once. The circulation of separated
+    flow waits until the vorticity that the bubble sheds has passed the trailing edge; that of
+    attached flow has Wagner's lag and no other. With c* = a_l alpha_E - Delta_l(x),
 
-        tau_3 c' + c = a_l alpha_E - Delta_l(x).
+        tau_3 c_lag' + c_lag = c*,    c = c* - b(x) (c* - c_lag),    b = min(1, 8 s(x)).
 
-Zero lags are a steady polar behind Wagner's lag; x and c are then no states.
+    s(alpha) is the share of its suction that the leading edge has lost, the largest between zero
+    lift at alpha_0 and alpha,
+
+        (Delta_m(alpha) - Delta_m(alpha_0))/(a_m (alpha - alpha_0)),    0 to 1.
+
+    A linear polar has s = 0 everywhere: thin-plate theory for any lags. A section whose moment
+    doesn't rise at zero lift (a_m <= 0) has no such suction at all, and b = 1.
+
+Zero lags are a steady polar behind Wagner's lag; x and c_lag are then no states.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.aerodynamics.polar import Polar, is_nil
+from equisection.aerodynamics.polar import TABLE_STEP, Polar, is_nil
 
 Floats = NDArray[np.float64]
 
 SLOPE_HALF_STEP = 5e-4
 """Half the step (rad) of the central differences that give slopes of the deficit."""
+
+LAG_ONSET = 8.0
+"""b over s: with an eighth of the suction lost, all lift lags. Chosen for the growth of the kept
+releases of the plate."""
+
+_NEAR_ZERO_LIFT = 2e-3
+"""Incidence (rad) about zero lift within which no loss of suction can be told."""
 
 
 @dataclass(frozen=True)
@@ -96,8 +114,30 @@ class Branches:
 
         They do not depend on where incidence is counted from.
         """
-        alpha = _zero_lift(polar)
+        alpha = zero_lift(polar)
         return cls(polar, polar.lift_slope(alpha), polar.moment_slope(alpha))
+
+    def lag_share(self, alpha: Floats) -> Floats:
+        """B at ``alpha`` (rad, any shape), 0 to 1; NaN where the polar has no value."""
+        return np.interp(alpha, *self._lag_shares, left=np.nan, right=np.nan)
+
+    @cached_property
+    def _lag_shares(self) -> tuple[Floats, Floats]:
+        """Incidences (rad) all over the polar and b there."""
+        first, last = self.polar.incidence_range
+        alpha = np.linspace(first, last, 2 + math.ceil((last - first) / TABLE_STEP))
+        if self.moment_slope <= 0.0:
+            return alpha, np.ones_like(alpha)
+        zero = zero_lift(self.polar)
+        way = alpha - zero
+        far = np.abs(way) > _NEAR_ZERO_LIFT
+        lost = np.zeros_like(alpha)
+        missing = self.moment_deficit(alpha[far]) - self.moment_deficit(np.array(zero))
+        lost[far] = np.clip(missing / (self.moment_slope * way[far]), 0.0, 1.0)
+        above = way >= 0.0
+        lost[above] = np.maximum.accumulate(lost[above])
+        lost[~above] = np.maximum.accumulate(lost[~above][::-1])[::-1]
+        return alpha, np.minimum(1.0, LAG_ONSET * lost)
 
     def lift_deficit(self, alpha: Floats) -> Floats:
         """Delta_l at ``alpha`` (rad, any shape); NaN where the polar has no value."""
@@ -108,7 +148,7 @@ class Branches:
         return self.moment_slope * alpha - self.polar.moment_coefficient(alpha)
 
 
-def _zero_lift(polar: Polar) -> float:
+def zero_lift(polar: Polar) -> float:
     """Return the incidence (rad) of zero lift, of several that nearest to 0 at which it rises.
 
     That of the least lift, up or down, where the polar does not come to zero.
@@ -125,9 +165,9 @@ def _zero_lift(polar: Polar) -> float:
 
 
 IDENTIFIED_LAGS = SeparationLags(
-    relaxation=2.58,
-    delay=0.64,
-    lift_lag=0.55,
+    relaxation=2.37,
+    delay=0.46,
+    lift_lag=0.59,
     provenance=(
         "identified from the loads of two free releases of the plate (h = 0.04 c, sharp edges, "
         "Re 1.27e5, theta_0 = 2.5 deg, k* = 5 and 10): OpenFOAM v1912, k-omega SST, 11136 cells, "

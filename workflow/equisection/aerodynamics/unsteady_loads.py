@@ -7,7 +7,8 @@ At each strip, with theta the twist, w the deflection in chords and ' = d/ds,
     alpha_E  = (1 - A_1 - A_2) alpha_34 + A_1 z_1 + A_2 z_2        effective incidence
     alpha_S  = alpha_E - r theta'                                  incidence of the leading edge
     tau_1 x' + x = alpha_S - tau_2 alpha_S'                        bubble (``separation``)
-    tau_3 c' + c = a_l alpha_E - Delta_l(x)                        circulatory lift
+    c* = a_l alpha_E - Delta_l(x),    tau_3 c_lag' + c_lag = c*
+    c = c* - b(x) (c* - c_lag)                                     circulatory lift
     c_l = sqrt(1 + w_r'^2) (c - c_d(x) w_r') + (pi/2) (theta' - w'')
     c_m = (1 + w_r'^2) (a_m alpha_S - Delta_m(x)) - (pi/64) theta'',    w_r' = w' - r theta'
 
@@ -28,14 +29,14 @@ flow separate at the sharp edge, so alpha_S and not alpha_E drives the bubble (R
 J. Fluid Mech. 751, 2014). The moment of a thin plate about mid-chord is that of its leading edge:
 Theodorsen's (pi/2) alpha_E - (pi/8) theta' is (pi/2) alpha_S. Here the polar's slope a_m takes the
 place of pi/2.
-With a_l = 2 pi, a_m = pi/2, no drag, no deficit and no lag of the bubble this *is* Theodorsen's
-theory.
+With a_l = 2 pi, a_m = pi/2, no drag and no deficit this *is* Theodorsen's theory, whatever the
+lags.
 
 The derivative of alpha_S is not needed: with y' = (alpha_S - y)/tau_1,
 
     x = (1 + tau_2/tau_1) y - (tau_2/tau_1) alpha_S.
 
-So all states are linear and the only non-linear functions are Delta_l(x) and Delta_m(x); the
+So all states are linear and the only non-linear functions are Delta_l(x), Delta_m(x) and b(x); the
 time loop makes use of that.
 """
 
@@ -93,6 +94,11 @@ class UnsteadyLoads:
     ) -> UnsteadyLoads:
         """Take the polar's own slopes at zero lift as the attached branch."""
         return cls(Branches.from_polar(polar), lags, rear_point)
+
+    @property
+    def lift_lags(self) -> bool:
+        """Presence of a lag of the lift of separated flow."""
+        return self.lags.lift_lag > 0.0
 
     @property
     def has_drag(self) -> bool:
@@ -164,8 +170,9 @@ def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads) -> LoadHistory:
     leading = effective - loads.rear_point * pitch_rate
     bubble = adapted_incidence(leading, lags, step)
     lift = branches.lift_slope * effective - branches.lift_deficit(bubble)
-    if lags.lift_lag > 0.0:
-        lift = follow(lift, 1.0 / lags.lift_lag, step)
+    if loads.lift_lags:
+        lagging = follow(lift, 1.0 / lags.lift_lag, step)
+        lift = lift - branches.lag_share(bubble) * (lift - lagging)
     moment = branches.moment_slope * leading - branches.moment_deficit(bubble)
     if loads.has_drag:
         lift = force_across(lift, branches.polar.drag_coefficient(bubble), rise)

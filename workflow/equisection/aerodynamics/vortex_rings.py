@@ -35,7 +35,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.channel import lattice_kernel
-from equisection.aerodynamics.induction import SpanStrips
+from equisection.aerodynamics.span_strips import SpanStrips
 
 Floats = NDArray[np.float64]
 
@@ -82,7 +82,22 @@ class SpanGeometry:
         *,
         root_on_wall: bool = True,
     ) -> SpanGeometry:
-        """Take a beam of chord c and length L (m), as `induction_matrix` takes it.
+        """Take a beam of chord c and length L (m); only ratios of lengths matter.
+
+        Parameters
+        ----------
+        strips
+            Strips of the span, see `cosine_strips`.
+        chord, length
+            c and L (m).
+        channel_width
+            W (m), distance of the side walls. The root is on one of them, or, without
+            ``root_on_wall``, the beam is in the middle between them. With L = W both ends are
+            closed by walls, and a constant load trails nothing. None: no other side wall.
+        channel_height
+            H (m), distance of floor and ceiling, beam half way between them. None: neither.
+        root_on_wall
+            Presence of a wall at z = 0 that closes the root. Otherwise both ends are free.
 
         Raises
         ------

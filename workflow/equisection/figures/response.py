@@ -33,6 +33,7 @@ from equisection.figures.panels import in_words, letter, say
 from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import oscillation_factors as factors_of
+from equisection.solvers.known_error import side_in_words
 from equisection.store.index import result_files
 from equisection.study.axes import Axis, onset_axis_among
 from equisection.study.plan import model as model_named
@@ -187,7 +188,8 @@ def draw(response: Response) -> Figure:
     figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
     sections = {"2d", "2d-corrected"} & set(models)
     of_reduction = f"2D: reduction '{response.reduction}'"
-    add_provenance(figure, *_sources(response), *([of_reduction] if sections else []))
+    notes = [*([of_reduction] if sections else []), *_known_errors(response.onset)]
+    add_provenance(figure, *_sources(response), *notes)
     return figure
 
 
@@ -365,6 +367,23 @@ def _mark(marker: str, label: str) -> Line2D:
         markerfacecolor="white",
         label=label,
     )
+
+
+def _known_errors(onset: pd.DataFrame) -> list[str]:
+    """Say to which side the onset of a model errs, where that is known."""
+    if "growth_error" not in onset:
+        return []
+    known = onset[onset["growth_error"].notna()].drop_duplicates("model")
+    notes = []
+    for (mean, rms, errs), rows in known.groupby(
+        ["growth_error", "growth_error_rms", "errs"], sort=False
+    ):
+        models = " and ".join(LOOKS[model].label for model in rows["model"])
+        notes.append(
+            f"{models}: growth {mean:+.4f} V/c off kept CFD in the mean ({rms:.4f} rms), the onset "
+            f"errs to {side_in_words(str(errs))}"
+        )
+    return notes
 
 
 def _sources(response: Response) -> tuple[str, ...]:

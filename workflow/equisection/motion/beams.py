@@ -1,9 +1,8 @@
 """Beams of a few modes on strips of the span, released from a steady state.
 
 Torsion and bending modes (``motion.strip_system``) carry the unsteady loads of the section polar
-on every strip, and the strips induce incidence on each other through the matrix D of
-``aerodynamics.induction``. Many beams that differ in stiffness run together: a sweep over k* is
-one call.
+on every strip, and the strips act on each other as ``aerodynamics.finite_span`` has it. Many beams
+that differ in stiffness run together: a sweep over k* is one call.
 """
 
 from __future__ import annotations
@@ -15,6 +14,7 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from equisection.aerodynamics.finite_span import FiniteSpan
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.motion.march import Failure, Monitor, Progress, Recording, march
 from equisection.motion.steady_states import release_state
@@ -60,7 +60,7 @@ class BeamParameters:
     ----------
     structure
         Shapes at the strips, their weights, generalised inertias, masses and stiffnesses, and
-        the induction matrix.
+        what the strips do to each other.
     torsion_at_tip, bending_at_tip
         Shapes at the tip, shape (n_t,) and (n_b,): where theta and w/c of the histories are
         taken.
@@ -83,7 +83,7 @@ class BeamParameters:
         mass: Floats,
         stations: Floats,
         weights: Floats,
-        induction: Floats | None = None,
+        finite_span: FiniteSpan | None = None,
         imbalance: Floats | None = None,
         damping_ratios: tuple[float, float] = (0.0, 0.0),
         axis: float = 0.0,
@@ -103,8 +103,9 @@ class BeamParameters:
             Sectional I/(rho c^4/2) and m/(rho c^2/2), shape (N,).
         stations, weights
             z/L of the strips and their share of the span (sum 1), shape (S,).
-        induction
-            D (rad) with alpha_i = D c_l, shape (S, S); None for strips in uniform flow.
+        finite_span
+            Induction and apparent mass of the strips on each other; None for strips that are
+            sections, as of a beam between walls.
         imbalance
             Sectional S/(rho c^3/2), shape (N,); None for none.
         damping_ratios
@@ -141,7 +142,6 @@ class BeamParameters:
         if fittings is not None:
             torsion_damping = torsion_damping + fittings.torsion_dashpots
             bending_damping = bending_damping + fittings.bending_dashpots
-        strips = stations.size
         structure = StripStructure(
             torsion_shapes=torsion(stations),
             bending_shapes=bending(stations),
@@ -156,7 +156,7 @@ class BeamParameters:
             axis=np.full(inertia.size, axis),
             lift_factor=np.ones(inertia.size),
             moment_factor=np.ones(inertia.size),
-            induction=np.zeros((strips, strips)) if induction is None else induction,
+            span=finite_span,
         )
         return cls(
             structure,

@@ -220,9 +220,9 @@ def influence_of(system: StripSystem, linear: Floats) -> InfluenceOf:
     modes = np.r_[layout.deflection, layout.twist]
     rates = np.r_[layout.deflection_rate, layout.twist_rate]
     lags = np.arange(layout.structural, layout.size)
-    inertia, mass, across = mass_with_air(structure)
+    inertia, mass, across, back = mass_with_air(structure)
     bending, torsion = layout.bending_modes, layout.torsion_modes
-    mass_matrix = np.block([[mass, across.transpose(0, 2, 1)], [across, inertia]])
+    mass_matrix = np.block([[mass, back], [across, inertia]])
     none = np.zeros((len(mass), bending, torsion))
     damping = np.block(
         [

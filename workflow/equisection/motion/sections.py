@@ -113,7 +113,6 @@ def section_system(
         axis=_column(sections, "axis_behind_mid_chord")[:, 0],
         lift_factor=factors[:, 0],
         moment_factor=factors[:, 1],
-        induction=np.zeros((1, 1)),
     )
     return assemble(structure, loads, incidence_rad)
 

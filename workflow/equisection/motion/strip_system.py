@@ -27,23 +27,26 @@ slopes of a thin plate, no drag and no deficit this is Theodorsen's theory about
 496, a = 2 x_ea). The c_l of this transfer is the lift normal to the wind that the strip meets.
 
 The correction for the finite span multiplies c_l and n by one factor and c_m by another, before the
-transfer. The induced incidence is quasi-steady,
+transfer. The wake of a finite beam induces incidence along span and chord with its own states
+(:mod:`equisection.aerodynamics.unsteady_induction`),
 
-    alpha_i = D (a_l alpha_E - Delta_l(x)),
+    q_p' = p (c - q_p),    alpha_i = sum_p R_p q_p,    gamma = kappa sum_p 2 (R_p - Q_p) q_p,
 
-and is solved with the rest instead of lagging a step behind (docs/embedded.md on what a
-quasi-steady induced incidence leaves out).
+so that nothing is induced at once. The rise gamma of alpha_i along the chord acts on the leading
+edge as a pitch rate does, alpha_S = alpha_E - r (theta' - gamma); the air moves with the apparent
+mass of the whole beam (:mod:`equisection.aerodynamics.apparent_mass`).
 
-With the states Y = (Theta, Theta', W, W', z_1, z_2, y, c) and the deficits
-u = (Delta_l, Delta_m) of all strips, with n where an axis is off mid-chord, everything
-else is linear:
+With the states Y = (Theta, Theta', W, W', z_1, z_2, y, c_lag, q_p) and the deficits
+u = (Delta_l, Delta_m) of all strips, with n where an axis is off mid-chord and b(x) y_3 where the
+lift lags, everything else is linear:
 
-    Y' = A Y + B u + e,    x = C Y + E u + g.
+    Y' = A Y + B u + e,    (x, a_l alpha_E, c_lag, ...) = C Y + g.
 
 Where the polar has drag, the wind that a strip meets is turned by w_r' = w' - (r - x_ea) theta'
 (:mod:`equisection.aerodynamics.velocity_triangle`). Its lift then has one more deficit,
-c - c_y, and Delta_m and n are those of the higher dynamic pressure. They depend on (x, w_r', c,
-alpha_S), which take the place of x in the second equation: the *signals* of the strips.
+c - c_y, and Delta_m and n are those of the higher dynamic pressure. What the deficits depend on are
+the *signals* of the strips: x, then a_l alpha_E and c_lag where the lift lags, then a_l alpha_E
+(if not there yet), w_r' and alpha_S where there is drag.
 
 Apparent mass is moved to the left of the equations of motion and so is implicit.
 """
@@ -55,8 +58,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.aerodynamics.finite_span import FiniteSpan
 from equisection.aerodynamics.indicial import IMMEDIATE_SHARE, JONES_AMPLITUDES, LAG_RATES
 from equisection.aerodynamics.separation import SLOPE_HALF_STEP
+from equisection.aerodynamics.unsteady_induction import CURVATURE_SHARE
 from equisection.aerodynamics.unsteady_loads import (
     APPARENT_INERTIA,
     APPARENT_MASS,
@@ -89,8 +94,9 @@ class StripStructure:
         x_ea, chords from mid-chord back to the elastic axis, shape (N,).
     lift_factor, moment_factor
         Factors of c_l and of c_m about mid-chord (-), shape (N,): 1 without a correction.
-    induction
-        D (rad), shape (S, S); all zero for a section.
+    span
+        Induction and apparent mass of the strips on each other; None for those of a section, or of
+        a beam between walls.
     """
 
     torsion_shapes: Floats
@@ -106,12 +112,20 @@ class StripStructure:
     axis: Floats
     lift_factor: Floats
     moment_factor: Floats
-    induction: Floats
+    span: FiniteSpan | None = None
 
     @property
     def is_offset(self) -> bool:
         """Presence of a lane with its elastic axis off mid-chord."""
         return bool(self.axis.any())
+
+    @property
+    def apparent(self) -> tuple[Floats, Floats]:
+        """Apparent mass and inertia of the strips (-), each of shape (S, S)."""
+        if self.span is None:
+            unit = np.eye(self.strips)
+            return APPARENT_MASS * unit, APPARENT_INERTIA * unit
+        return self.span.apparent.mass, self.span.apparent.inertia
 
     @property
     def lanes(self) -> int:
@@ -131,11 +145,12 @@ class StateLayout:
     torsion_modes: int
     bending_modes: int
     strips: int
+    induction_states: int = 0
 
     @property
     def size(self) -> int:
         """Number n of states."""
-        return 2 * (self.torsion_modes + self.bending_modes) + 4 * self.strips
+        return self.structural + (4 + self.induction_states) * self.strips
 
     @property
     def structural(self) -> int:
@@ -165,7 +180,7 @@ class StateLayout:
         return slice(start, start + self.bending_modes)
 
     def lag(self, number: int) -> slice:
-        """Place of z_1, z_2 (number 0, 1), the bubble's y (2) or the circulatory lift c (3)."""
+        """Place of z_1, z_2 (number 0, 1), the bubble's y (2), c_lag (3) or the q_p (4 on)."""
         start = self.structural + number * self.strips
         return slice(start, start + self.strips)
 
@@ -174,8 +189,7 @@ class StateLayout:
 class StripSystem:
     """The system Y' = A Y + B u + e of N lanes, with n states and columns [Y | u | 1].
 
-    A strip has d deficits (:func:`deficits_of_a_strip`) and p signals: x, and with drag w_r', c and
-    alpha_S.
+    A strip has d deficits (:func:`deficits_of_a_strip`) and p signals, as the module has them.
 
     Parameters
     ----------
@@ -188,7 +202,7 @@ class StripSystem:
     rates
         [A | B | e], shape (N, n, n + d S + 1).
     probe
-        [C | E | g], the signals of the strips, first the incidences x of the bubbles, shape
+        [C | 0 | g], the signals of the strips, first the incidences x of the bubbles, shape
         (N, p S, n + d S + 1).
     strip_loads
         c_l and c_m of the strips, without a correction, shape (N, 2 S, n + d S + 1); c_m is about
@@ -211,30 +225,30 @@ class StripSystem:
 
         Of a system at rest the bubble incidences x (rad), shape (N, S), are enough.
         """
-        strips = self.layout.strips
-        x = signals[:, :strips]
-        branches = self.loads.branches
-        deficits = [branches.lift_deficit(x), branches.moment_deficit(x)]
-        if self.structure.is_offset:
-            deficits.append(branches.polar.normal_rise(x))
+        strips, branches = self.layout.strips, self.loads.branches
+        parts = iter(np.split(signals, signals.shape[1] // strips, axis=1))
+        x = next(parts)
+        lift_deficit, moment_deficit = branches.lift_deficit(x), branches.moment_deficit(x)
+        normal = [branches.polar.normal_rise(x)] if self.structure.is_offset else []
+        if signals.shape[1] == strips:  # at rest the lift has caught up, and the wind is straight
+            none = [np.zeros_like(x)] * (self.loads.lift_lags + self.loads.has_drag)
+            return np.concatenate([lift_deficit, moment_deficit, *normal, *none], axis=1)
+        circulatory = next(parts) - lift_deficit
+        missing = []
+        if self.loads.lift_lags:
+            missing = [branches.lag_share(x) * (circulatory - next(parts))]
+            circulatory = circulatory - missing[0]
+        turn = []
         if self.loads.has_drag:
-            moving = signals.shape[1] > strips
-            self._turn(deficits, x, signals[:, strips:] if moving else None)
-        return np.concatenate(deficits, axis=1)
-
-    def _turn(self, deficits: list[Floats], x: Floats, motion: Floats | None) -> None:
-        """Turn the wind by the motion w_r', c, alpha_S of the strips, which None has at rest."""
-        if motion is None:
-            deficits.append(np.zeros_like(x))
-            return
-        strips = x.shape[1]
-        rate, circulatory, leading = (motion[:, i * strips : (i + 1) * strips] for i in range(3))
-        branches, rise = self.loads.branches, pressure_rise(rate)
-        deficits[1] = deficits[1] - rise * (branches.moment_slope * leading - deficits[1])
-        if self.structure.is_offset:
-            deficits[2] = deficits[2] + rise * (circulatory + deficits[2])
-        drag = branches.polar.drag_coefficient(x)
-        deficits.append(circulatory - force_across(circulatory, drag, rate))
+            rate, leading = parts
+            rise = pressure_rise(rate)
+            moment_deficit = moment_deficit - rise * (
+                branches.moment_slope * leading - moment_deficit
+            )
+            normal = [each + rise * (circulatory + each) for each in normal]
+            drag = branches.polar.drag_coefficient(x)
+            turn = [circulatory - force_across(circulatory, drag, rate)]
+        return np.concatenate([lift_deficit, moment_deficit, *normal, *missing, *turn], axis=1)
 
     def deficit_slopes(self, signals: Floats) -> Floats:
         """Slopes du/d(signals) by central differences, (N, d S, p S); of x alone (N, d S, S)."""
@@ -261,8 +275,11 @@ class StripSystem:
 
 
 def deficits_of_a_strip(structure: StripStructure, loads: UnsteadyLoads) -> int:
-    """Return the number d of a strip: Delta_l, Delta_m, n if offset, c - c_y if drag."""
-    return 2 + structure.is_offset + loads.has_drag
+    """Return the number d of a strip.
+
+    Delta_l, Delta_m, n if offset, b(x) y_3 if the lift lags, c - c_y if there is drag.
+    """
+    return 2 + structure.is_offset + loads.lift_lags + loads.has_drag
 
 
 def assemble(
@@ -270,7 +287,10 @@ def assemble(
 ) -> StripSystem:
     """Assemble the system at rigid incidence theta_0 (rad), one value or one per lane."""
     layout = StateLayout(
-        structure.torsion_shapes.shape[1], structure.bending_shapes.shape[1], structure.strips
+        structure.torsion_shapes.shape[1],
+        structure.bending_shapes.shape[1],
+        structure.strips,
+        0 if structure.span is None else structure.span.states.rates.size,
     )
     rows = _strip_rows(layout, structure, loads)
     twist_acceleration, deflection_acceleration = _accelerations(layout, structure, rows)
@@ -287,13 +307,17 @@ def assemble(
     for number, (lag, target) in enumerate(followed, start=2):
         rate = 1.0 / lag if lag > 0.0 else 1.0  # without lag the state is not read
         rates[:, layout.lag(number)] = rate * (target - unit[layout.lag(number)])
+    if structure.span is not None:
+        for number, rate in enumerate(structure.span.states.rates, start=4):
+            rates[:, layout.lag(number)] = rate * (rows.circulatory - unit[layout.lag(number)])
     strip_loads = np.empty((lanes, 2 * strips, rows.columns))
+    mass, inertia = structure.apparent
     rise = structure.torsion_shapes @ twist_acceleration
     heave = structure.bending_shapes @ deflection_acceleration
     axis = structure.axis[:, None, None]
-    apparent = APPARENT_MASS * (heave + axis * rise)
+    apparent = mass @ (heave + axis * rise)
     strip_loads[:, :strips] = rows.lift - rows.turn - apparent
-    strip_loads[:, strips:] = rows.moment - APPARENT_INERTIA * rise
+    strip_loads[:, strips:] = rows.moment - inertia @ rise
     axis_moments = structure.moment_factor[:, None, None] * strip_loads[:, strips:] + axis * (
         structure.lift_factor[:, None, None] * (rows.lift - apparent + rows.normal_rise)
     )
@@ -309,7 +333,7 @@ class _StripRows:
     """Linear expressions in [Y | u | theta_0] at the strips.
 
     Each has the shape (N, S, columns), or (1, S, columns) where all lanes have one axis. ``rear``
-    is alpha_34, ``leading`` alpha_S, ``target`` what the circulatory lift c follows;
+    is alpha_34, ``leading`` alpha_S, ``circulatory`` c and ``target`` what c_lag follows;
     ``lift`` (before the wind is turned) and ``moment`` (about mid-chord) lack the terms with
     accelerations. ``normal_rise`` is n and ``turn`` c - c_y, of shape (S, columns). ``signals`` are
     those of :class:`StripSystem`, first x, of shape (N or 1, p S, columns).
@@ -319,6 +343,7 @@ class _StripRows:
     rear: Floats
     leading: Floats
     target: Floats
+    circulatory: Floats
     lift: Floats
     moment: Floats
     normal_rise: Floats
@@ -334,6 +359,7 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
     lift_deficit, moment_deficit = next(deficits), next(deficits)
     none = np.zeros((strips, columns))
     normal_rise = next(deficits) if structure.is_offset else none
+    missing = next(deficits) if loads.lift_lags else none
     turn = next(deficits) if loads.has_drag else none
     twist_rate = structure.torsion_shapes @ unit[layout.twist_rate]
     axes = structure.axis[:1] if np.ptp(structure.axis) == 0.0 else structure.axis
@@ -347,24 +373,44 @@ def _strip_rows(layout: StateLayout, structure: StripStructure, loads: UnsteadyL
         start=np.zeros((strips, columns)),
     )
     slope, lags = loads.branches.lift_slope, loads.lags
-    rear = np.linalg.solve(
-        np.eye(strips) + IMMEDIATE_SHARE * slope * structure.induction,
-        geometric - structure.induction @ (slope * lagging - lift_deficit),
-    )
+    induced, curvature = _induced(layout, structure, columns)
+    rear = geometric - induced
     effective = IMMEDIATE_SHARE * rear + lagging
-    leading = effective - loads.rear_point * twist_rate
+    leading = effective - loads.rear_point * (twist_rate - curvature)
     bubble = leading
     if lags.relaxation > 0.0:
         follower = unit[layout.lag(2)]
         bubble = follower - (lags.delay / lags.relaxation) * (leading - follower)
     target = slope * effective - lift_deficit
-    circulatory = unit[None, layout.lag(3)] if lags.lift_lag > 0.0 else target
-    lift = circulatory + APPARENT_MASS * twist_rate
+    circulatory = target - missing
+    lift = circulatory + structure.apparent[0] @ twist_rate
     moment = loads.branches.moment_slope * leading - moment_deficit
-    kinds = [bubble, rise, circulatory, leading] if loads.has_drag else [bubble]
+    kinds = [bubble]
+    if loads.lift_lags or loads.has_drag:
+        kinds.append(slope * effective)
+    if loads.lift_lags:
+        kinds.append(unit[None, layout.lag(3)])
+    if loads.has_drag:
+        kinds += [rise, leading]
     shape = np.broadcast_shapes(*(kind.shape for kind in kinds))
     signals = np.concatenate([np.broadcast_to(kind, shape) for kind in kinds], axis=1)
-    return _StripRows(columns, rear, leading, target, lift, moment, normal_rise, turn, signals)
+    return _StripRows(
+        columns, rear, leading, target, circulatory, lift, moment, normal_rise, turn, signals
+    )
+
+
+def _induced(layout: StateLayout, structure: StripStructure, columns: int) -> tuple[Floats, Floats]:
+    """Rows of alpha_i (rad) and of its rise gamma along the chord, shape (S, columns)."""
+    induced, curvature = np.zeros((2, layout.strips, columns))
+    if structure.span is None:
+        return induced, curvature
+    states = structure.span.states
+    for number, (rear, front) in enumerate(
+        zip(states.incidence, states.front, strict=True), start=4
+    ):
+        induced[:, layout.lag(number)] = rear
+        curvature[:, layout.lag(number)] = 2.0 * CURVATURE_SHARE * (rear - front)
+    return induced, curvature
 
 
 def _accelerations(
@@ -378,7 +424,7 @@ def _accelerations(
         values[:, None, None]
         for values in (structure.axis, structure.lift_factor, structure.moment_factor)
     )
-    inertia, mass, across = mass_with_air(structure)
+    inertia, mass, across, back = mass_with_air(structure)
     lift = lift_factor * rows.lift
     torque = (
         weighted_f.T
@@ -392,17 +438,20 @@ def _accelerations(
         - structure.bending_damping @ unit[layout.deflection_rate]
     )
     if structure.imbalance.any() or structure.is_offset:
-        return _coupled(inertia, mass, across, torque, force)
+        matrix = np.block([[inertia, across], [back, mass]])
+        both = np.linalg.solve(matrix, np.concatenate([torque, force], axis=1))
+        return both[:, : torque.shape[1]], both[:, torque.shape[1] :]
     twist = np.asarray(np.linalg.solve(inertia, torque), dtype=np.float64)
     deflection = np.asarray(np.linalg.solve(mass, force), dtype=np.float64)
     return twist, deflection
 
 
-def mass_with_air(structure: StripStructure) -> tuple[Floats, Floats, Floats]:
+def mass_with_air(structure: StripStructure) -> tuple[Floats, Floats, Floats, Floats]:
     """Generalised inertia, mass and imbalance of the modes with the apparent mass of the air.
 
-    Of rows and columns (Theta, W) they are the blocks of the first, of the second and between, of
-    shapes (N, n_t, n_t), (N, n_b, n_b) and (N, n_t, n_b).
+    Of rows and columns (Theta, W) they are the blocks of the first, of the second, between them and
+    between them the other way, of shapes (N, n_t, n_t), (N, n_b, n_b), (N, n_t, n_b) and
+    (N, n_b, n_t). With the air of a finite span the blocks between are not each other's transpose.
     """
     weighted_f = structure.weights[:, None] * structure.torsion_shapes
     weighted_g = structure.weights[:, None] * structure.bending_shapes
@@ -410,34 +459,19 @@ def mass_with_air(structure: StripStructure) -> tuple[Floats, Floats, Floats]:
         values[:, None, None]
         for values in (structure.axis, structure.lift_factor, structure.moment_factor)
     )
-    both_f = weighted_f.T @ structure.torsion_shapes
+    air_mass, air_inertia = structure.apparent
+    f, g = structure.torsion_shapes, structure.bending_shapes
     inertia = (
         diagonal(structure.torsion_inertia)
-        + moment_factor * APPARENT_INERTIA * both_f
-        + lift_factor * APPARENT_MASS * axis**2 * both_f
+        + moment_factor * (weighted_f.T @ air_inertia @ f)
+        + lift_factor * axis**2 * (weighted_f.T @ air_mass @ f)
     )
-    mass = diagonal(structure.bending_mass) + lift_factor * APPARENT_MASS * (
-        weighted_g.T @ structure.bending_shapes
+    mass = diagonal(structure.bending_mass) + lift_factor * (weighted_g.T @ air_mass @ g)
+    across = lift_factor * axis * (weighted_f.T @ air_mass @ g) - structure.imbalance
+    back = lift_factor * axis * (weighted_g.T @ air_mass @ f) - structure.imbalance.transpose(
+        0, 2, 1
     )
-    across = lift_factor * APPARENT_MASS * axis * (weighted_f.T @ structure.bending_shapes)
-    return inertia, mass, across - structure.imbalance
-
-
-def _coupled(
-    inertia: Floats, mass: Floats, across: Floats, torque: Floats, force: Floats
-) -> tuple[Floats, Floats]:
-    """Theta'' and W'' of twist and deflection that imbalance and apparent mass couple."""
-    matrix = np.concatenate(
-        [
-            np.concatenate([inertia, across], axis=2),
-            np.concatenate([across.transpose(0, 2, 1), mass], axis=2),
-        ],
-        axis=1,
-    )
-    both = np.asarray(
-        np.linalg.solve(matrix, np.concatenate([torque, force], axis=1)), dtype=np.float64
-    )
-    return both[:, : torque.shape[1]], both[:, torque.shape[1] :]
+    return inertia, mass, across, back
 
 
 def diagonal(values: Floats) -> Floats:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:  # the graph is built from what solvers provide, without numer
     from equisection.results.section_mesh import SectionMesh
     from equisection.results.steady_result import SteadyResult
     from equisection.results.unsteady_result import UnsteadyResult
+    from equisection.solvers.known_error import KnownError
 
 
 class Capability(StrEnum):
@@ -140,4 +141,13 @@ class HasSectionLoads(Protocol):
     @property
     def section_loads(self) -> tuple[Polar, SeparationLags]:
         """Polar of the section, and lags of its separation."""
+        ...
+
+
+@runtime_checkable
+class HasKnownError(Protocol):
+    """Solver of whose growth it is known how far it is from that of a flow solver."""
+
+    def known_error(self, dimension: str, basis: str) -> KnownError | None:
+        """Return the error of runs of a dimension and basis, or None where nobody knows it."""
         ...

@@ -19,9 +19,9 @@ FLAT_PLATE = "flat-plate"
 class Separation(KeyGroup):
     """Lags of the separation bubble (c/V); the defaults are identified from CFD releases."""
 
-    relaxation: NotNegative = Field(2.58, description="tau_1 of the bubble (c/V).")
-    delay: Number = Field(0.64, description="tau_2 of the bubble (c/V); 0 where `relaxation` is 0.")
-    lift_lag: NotNegative = Field(0.55, description="tau_3 of the lift behind the bubble (c/V).")
+    relaxation: NotNegative = Field(2.37, description="tau_1 of the bubble (c/V).")
+    delay: Number = Field(0.46, description="tau_2 of the bubble (c/V); 0 where `relaxation` is 0.")
+    lift_lag: NotNegative = Field(0.59, description="tau_3 of the lift behind the bubble (c/V).")
 
 
 #: The sweep that is kept, and the k* of its section that the lags are fitted to.

@@ -16,10 +16,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.aerodynamics.induction import SpanStrips, cosine_strips, induction_matrix
 from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
+from equisection.aerodynamics.span_strips import SpanStrips, cosine_strips
+from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.beam.beam import MID_CHORD
 from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.config import Config
@@ -27,6 +28,8 @@ from equisection.config.groups import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.embedded.known_errors import known_error
+from equisection.solvers.known_error import KnownError
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 Floats = NDArray[np.float64]
@@ -41,7 +44,7 @@ class Adapter:
     """The embedded solver on one section polar; fulfils the solver protocol."""
 
     name = "embedded"
-    version = "5"
+    version = "6"
     provides = frozenset({Capability.BATCH})
 
     def __init__(
@@ -107,6 +110,10 @@ class Adapter:
         """Polar of the section, and lags of its separation."""
         return self._polar, self._lags
 
+    def known_error(self, dimension: str, basis: str) -> KnownError | None:
+        """Return the error of the growth that is known with this polar and these lags."""
+        return known_error(dimension, basis, self._polar.label, self._lags)
+
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
     ) -> list[SteadyResult]:
@@ -143,6 +150,7 @@ class Adapter:
 
     def _release(self, cases: list[UnsteadyCase], progress: Progress) -> list[UnsteadyResult]:
         # Imported here: writing a case file takes this module too, and none of what follows.
+        from equisection.aerodynamics.finite_span import FiniteSpan  # noqa: PLC0415
         from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
         from equisection.solvers.embedded.releases import (  # noqa: PLC0415
             release_all_beams,
@@ -153,8 +161,8 @@ class Adapter:
         loads = UnsteadyLoads.from_polar(self._polar, self._lags, rear_point)
         if cases[0].dimension == "2d":
             return release_all_sections(cases, loads, progress)
-        strips, matrix = self._induction(cases[0].geometry)
-        return release_all_beams(cases, loads, strips, matrix, progress)
+        strips, span = self._span(cases[0].geometry)
+        return release_all_beams(cases, loads, strips, FiniteSpan.of(span), progress)
 
     def _section(self, case: SteadyCase) -> SteadyResult:
         alpha = math.radians(case.incidence_deg)
@@ -170,8 +178,9 @@ class Adapter:
         )
 
     def _beam(self, case: SteadyCase) -> SteadyResult:
-        strips, matrix = self._induction(case.geometry)
-        loads = LiftingLine(self._polar, strips, matrix).solve(math.radians(case.incidence_deg))
+        strips, span = self._span(case.geometry)
+        line = LiftingLine.of(self._polar, strips, span)
+        loads = line.solve(math.radians(case.incidence_deg))
         return SteadyResult(
             drag=loads.drag,
             lift=loads.lift,
@@ -182,10 +191,10 @@ class Adapter:
             method="lifting line on the section polar",
         )
 
-    def _induction(self, geometry: Geometry) -> tuple[SpanStrips, Floats]:
+    def _span(self, geometry: Geometry) -> tuple[SpanStrips, SpanGeometry]:
         strips = cosine_strips(self._strips, geometry.root_on_wall)
         width = None if geometry.tip_gap is None else geometry.span + geometry.tip_gap
-        matrix = induction_matrix(
+        return strips, SpanGeometry.of(
             strips,
             1.0,
             geometry.span,
@@ -193,7 +202,6 @@ class Adapter:
             geometry.channel_height,
             root_on_wall=geometry.root_on_wall,
         )
-        return strips, matrix
 
 
 def read_section_polar(section: Embedded, resolution: str) -> Polar:

@@ -9,7 +9,8 @@ from typing import TypedDict
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.aerodynamics.induction import SpanStrips
+from equisection.aerodynamics.finite_span import FiniteSpan
+from equisection.aerodynamics.span_strips import SpanStrips
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.beam import MID_CHORD
 from equisection.beam.section import Section
@@ -104,12 +105,12 @@ def release_all_beams(
     cases: list[UnsteadyCase],
     loads: UnsteadyLoads,
     strips: SpanStrips,
-    induction: Floats,
+    finite_span: FiniteSpan,
     progress: Progress,
 ) -> list[UnsteadyResult]:
     """Release the beams of some cases that share all but their frequencies.
 
-    ``strips`` and ``induction`` are those of :mod:`equisection.aerodynamics.induction`.
+    ``finite_span`` is what the ``strips`` do to each other.
     """
     modes = [case.beam for case in cases if case.beam]
     parameters = BeamParameters.from_modes(
@@ -122,7 +123,7 @@ def release_all_beams(
         mass=np.array([beam.mass for beam in modes]),
         stations=strips.stations,
         weights=strips.weights,
-        induction=induction,
+        finite_span=finite_span,
         imbalance=np.array([beam.imbalance for beam in modes]),
         damping_ratios=(modes[0].bending_damping, modes[0].torsion_damping),
         axis=modes[0].elastic_axis - MID_CHORD,
