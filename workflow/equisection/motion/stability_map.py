@@ -1,0 +1,308 @@
+r"""Stability of a section or beam over incidence and speed: growth, mechanism and critical speed.
+
+At each rigid incidence the body is followed from rest (:mod:`equisection.motion.equilibrium_path`),
+linearised about its equilibrium, and its modes are followed from near vacuum on
+(:mod:`equisection.motion.mode_tracking`). The *onset* is the lowest speed on this branch at which a
+motion ceases to decay: where the largest growth of all motions crosses zero, or at the fold in which
+the branch ends. A motion that decays again at a higher speed leaves a *hump*, which is named.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.motion.body_in_flow import BodyInFlow
+from equisection.motion.equilibrium_path import (
+    PathFromRest,
+    SectionPath,
+    path_from_rest,
+    systems_of_sections,
+)
+from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes
+from equisection.motion.static_branch import BranchEnd
+from equisection.motion.strip_system import StripSystem
+
+Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
+
+STILL_AIR = 20.0
+"""Lowest frequency (V/c) of a body in air that is next to nothing to it."""
+BELOW, WITHIN = 1.15, 1.03
+"""Largest ratio of two speeds below the range that is asked for, and within it."""
+TO_THE_END = 1.0 - 1e-6
+"""Part of the speed of a branch's end up to which it is looked at."""
+WIDTH = 1e-6
+"""Relative width of the interval that an onset is known to."""
+MOST_ROUNDS = 12
+#: Entries of the matrices that are in memory together.
+_TOGETHER = 2_000_000
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Change of sign of the largest growth at some incidence.
+
+    Attributes
+    ----------
+    low, high
+        Speeds (m/s) below and above it.
+    rises
+        Whether the body is stable at ``low`` and unstable at ``high``.
+    """
+
+    low: float
+    high: float
+    rises: bool
+
+    @property
+    def speed(self) -> float:
+        """Speed (m/s) in the middle."""
+        return 0.5 * (self.low + self.high)
+
+
+@dataclass(frozen=True)
+class MapLine:
+    """Motions of a body over speed at one incidence.
+
+    Attributes
+    ----------
+    body, path
+        The body and its equilibria from rest.
+    incidence_rad
+        theta_0 (rad).
+    modes
+        Its motions and modes at all speeds that were looked at, rising.
+    crossings
+        Changes of sign of the largest growth, by rising speed.
+    """
+
+    body: BodyInFlow
+    path: PathFromRest
+    incidence_rad: float
+    modes: FollowedModes
+    crossings: tuple[Crossing, ...]
+
+    @property
+    def lowest(self) -> float:
+        """Lowest speed (m/s) that was looked at."""
+        return float(self.modes.spectrum.speed[0])
+
+    @cached_property
+    def least_stable(self) -> Complexes:
+        """Eigenvalue (V/c) of largest growth at each speed."""
+        return self.modes.spectrum.least_stable
+
+    @property
+    def onset(self) -> Crossing | None:
+        """First loss of stability that eigenvalues tell; None without one."""
+        return next((one for one in self.crossings if one.rises), None)
+
+    @property
+    def is_unstable_at_rest(self) -> bool:
+        """Growth already at the lowest speed."""
+        return bool(self.least_stable[0].real > 0.0)
+
+    @property
+    def humps(self) -> list[tuple[float, float]]:
+        """Speeds (m/s) from and to which it is unstable, of those bands that end."""
+        found, start = [], self.lowest if self.is_unstable_at_rest else math.nan
+        for one in self.crossings:
+            if one.rises:
+                start = one.speed
+            else:
+                found.append((start, one.speed))
+        return found
+
+    def place(self, speed: float) -> int:
+        """Return the place among the speeds that is nearest to a speed (m/s)."""
+        return int(np.abs(self.modes.spectrum.speed - speed).argmin())
+
+    def mode_at(self, place: int) -> tuple[str, Complexes]:
+        """Return name and eigenvector (n,) of the least stable motion at one of the speeds.
+
+        A motion that is not one of the structure's has the name ``air``.
+        """
+        spectrum = self.modes.spectrum
+        growth = spectrum.values[place].real
+        least = int(growth.argmax())
+        conjugate = np.flatnonzero(
+            np.isclose(spectrum.values[place], spectrum.values[place, least].conj())
+        )
+        for number, name in enumerate(self.modes.names):
+            if self.modes.places[place, number] in (least, *conjugate):
+                return name, spectrum.right[place, :, self.modes.places[place, number]]
+        return "air", spectrum.right[place, :, least]
+
+    def tip(self, place: int) -> tuple[float, float]:
+        """Return twist (rad) and deflection (m) of the tip in equilibrium at one of the speeds."""
+        states = self.modes.spectrum.states[place]
+        twist, deflection = tip_motion(self.body, states)
+        return float(twist.real), float(deflection.real) * self.body.chord
+
+
+def tip_motion(body: BodyInFlow, states: NDArray[np.generic]) -> tuple[np.generic, np.generic]:
+    """Return twist (rad) and deflection (chords) of the tip in states Y, shape (..., n)."""
+    torsion, bending = body.twist_of_tip.size, body.deflection_of_tip.size
+    twist = states[..., :torsion] @ body.twist_of_tip
+    deflection = states[..., 2 * torsion : 2 * torsion + bending] @ body.deflection_of_tip
+    return twist, deflection
+
+
+def map_lines(body: BodyInFlow, incidences_rad: Sequence[float], speeds: Floats) -> list[MapLine]:
+    """Return the motions of a body over speed at each incidence.
+
+    Parameters
+    ----------
+    body
+        The body.
+    incidences_rad
+        Rigid incidences theta_0 (rad).
+    speeds
+        Speeds (m/s) that are asked for, rising; others are looked at too.
+
+    Raises
+    ------
+    IncidenceOutOfRangeError
+        The polar does not cover an incidence.
+    """
+    highest = float(speeds[-1])
+    paths = [path_from_rest(body, rigid, highest) for rigid in incidences_rad]
+    start = min(body.slowest * body.chord / STILL_AIR, 0.5 * float(speeds[0]))
+    grids = [_grid(start, speeds, path) for path in paths]
+    system, _, _ = paths[0].system(np.array([start]))
+    lines: list[MapLine] = []
+    for group in _groups([grid.size for grid in grids], system.layout.size):
+        chosen = [paths[place] for place in group]
+        lines += _lines(
+            body, chosen, [incidences_rad[p] for p in group], [grids[p] for p in group], system
+        )
+    return lines
+
+
+def _groups(sizes: list[int], n: int) -> list[list[int]]:
+    """Return incidences in groups whose matrices fit into memory together."""
+    groups: list[list[int]] = [[]]
+    filled = 0
+    for place, size in enumerate(sizes):
+        if groups[-1] and filled + size * n * n > _TOGETHER:
+            groups.append([])
+            filled = 0
+        groups[-1].append(place)
+        filled += size * n * n
+    return groups
+
+
+def _lines(
+    body: BodyInFlow,
+    paths: list[PathFromRest],
+    incidences_rad: list[float],
+    grids: list[Floats],
+    system: StripSystem,
+) -> list[MapLine]:
+    def further(wanted: list[Floats]) -> list[Spectrum]:
+        return spectra(paths, wanted, system.layout.size)
+
+    found = further(grids)
+    found = [
+        spectrum.joined(more)
+        for spectrum, more in zip(found, further([_near_humps(one) for one in found]), strict=True)
+    ]
+    modes = follow_modes(found, further, system)
+    brackets = [_sign_changes(one.spectrum) for one in modes]
+    brackets = _narrowed(brackets, further)
+    return [
+        MapLine(body, path, rigid, followed, tuple(crossings))
+        for path, rigid, followed, crossings in zip(
+            paths, incidences_rad, modes, brackets, strict=True
+        )
+    ]
+
+
+def spectra(paths: Sequence[PathFromRest], speeds: list[Floats], size: int) -> list[Spectrum]:
+    """Return the motions about the equilibria of some paths, at the speeds (m/s) of each.
+
+    ``size`` is the number n of states.
+    """
+    exact = [path for path in paths if isinstance(path, SectionPath)]
+    if len(exact) < len(paths):
+        return [
+            Spectrum.of(v, *path.system(v)) if v.size else Spectrum.without_any(size)
+            for path, v in zip(paths, speeds, strict=True)
+        ]
+    if not any(v.size for v in speeds):
+        return [Spectrum.without_any(size) for _ in speeds]
+    together = Spectrum.of(np.concatenate(speeds), *systems_of_sections(exact, speeds))
+    bounds = np.cumsum([0, *(len(v) for v in speeds)])
+    return [together.taken(slice(a, b)) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
+
+
+def _grid(start: float, speeds: Floats, path: PathFromRest) -> Floats:
+    """Speeds from near vacuum on, through those asked for, to the end of a path."""
+    first, last = float(speeds[0]), float(speeds[-1])
+    below = np.geomspace(start, first, math.ceil(math.log(first / start) / math.log(BELOW)) + 1)
+    count = math.ceil(math.log(last / first) / math.log(WITHIN)) + 1 if last > first else 1
+    known = np.concatenate([below, np.geomspace(first, last, count), speeds])
+    end = path.end_speed * TO_THE_END
+    if end < last:
+        known = np.append(known[known < end], [0.999 * end, end])
+    return np.unique(known)
+
+
+def _near_humps(spectrum: Spectrum) -> Floats:
+    """Speeds at which a parabola through the largest growth has a top above zero, unseen so far."""
+    growth = spectrum.least_stable.real
+    if growth.size < 3:  # noqa: PLR2004
+        return np.empty(0)
+    before, here, after = growth[:-2], growth[1:-1], growth[2:]
+    is_top = (here < 0.0) & (here >= before) & (here >= after)
+    found = []
+    for place in np.flatnonzero(is_top) + 1:
+        left, right = spectrum.speed[place - 1], spectrum.speed[place + 1]
+        if growth[place] + abs(growth[place - 1] - growth[place + 1]) > 0.0:
+            found += list(np.linspace(left, right, 7)[1:-1])
+    return np.setdiff1d(found, spectrum.speed)
+
+
+def _sign_changes(spectrum: Spectrum) -> list[Crossing]:
+    growth = spectrum.least_stable.real
+    places = np.flatnonzero((growth[:-1] > 0.0) != (growth[1:] > 0.0))
+    return [
+        Crossing(float(spectrum.speed[p]), float(spectrum.speed[p + 1]), bool(growth[p + 1] > 0.0))
+        for p in places
+    ]
+
+
+def _narrowed(brackets: list[list[Crossing]], further) -> list[list[Crossing]]:  # type: ignore[no-untyped-def]
+    """Narrow the changes of sign at all incidences together, to seven parts a round."""
+    for _ in range(MOST_ROUNDS):
+        wide = [[one for one in row if one.high - one.low > WIDTH * one.low] for row in brackets]
+        if not any(wide):
+            break
+        wanted = [
+            np.concatenate(
+                [np.linspace(one.low, one.high, 9)[1:-1] for one in row] or [np.empty(0)]
+            )
+            for row in wide
+        ]
+        seen = further(wanted)
+        brackets = [
+            [_within(one, spectrum) if one in row else one for one in old]
+            for old, row, spectrum in zip(brackets, wide, seen, strict=True)
+        ]
+    return brackets
+
+
+def _within(one: Crossing, spectrum: Spectrum) -> Crossing:
+    inside = (spectrum.speed > one.low) & (spectrum.speed < one.high) & spectrum.exists
+    speed = spectrum.speed[inside]
+    grows = spectrum.least_stable.real[inside] > 0.0
+    changed = grows if one.rises else ~grows
+    place = int(changed.argmax()) if changed.any() else speed.size
+    ends = np.concatenate([[one.low], speed, [one.high]])
+    return Crossing(float(ends[place]), float(ends[place + 1]), one.rises)
