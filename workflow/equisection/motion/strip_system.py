@@ -377,16 +377,7 @@ def _accelerations(
         values[:, None, None]
         for values in (structure.axis, structure.lift_factor, structure.moment_factor)
     )
-    both_f = weighted_f.T @ structure.torsion_shapes
-    inertia = (
-        diagonal(structure.torsion_inertia)
-        + moment_factor * APPARENT_INERTIA * both_f
-        + lift_factor * APPARENT_MASS * axis**2 * both_f
-    )
-    mass = diagonal(structure.bending_mass) + lift_factor * APPARENT_MASS * (
-        weighted_g.T @ structure.bending_shapes
-    )
-    across = lift_factor * APPARENT_MASS * axis * (weighted_f.T @ structure.bending_shapes)
+    inertia, mass, across = mass_with_air(structure)
     lift = lift_factor * rows.lift
     torque = (
         weighted_f.T
@@ -400,10 +391,35 @@ def _accelerations(
         - structure.bending_damping @ unit[layout.deflection_rate]
     )
     if structure.imbalance.any() or structure.is_offset:
-        return _coupled(inertia, mass, across - structure.imbalance, torque, force)
+        return _coupled(inertia, mass, across, torque, force)
     twist = np.asarray(np.linalg.solve(inertia, torque), dtype=np.float64)
     deflection = np.asarray(np.linalg.solve(mass, force), dtype=np.float64)
     return twist, deflection
+
+
+def mass_with_air(structure: StripStructure) -> tuple[Floats, Floats, Floats]:
+    """Generalised inertia, mass and imbalance of the modes with the apparent mass of the air.
+
+    Of rows and columns (Theta, W) they are the blocks of the first, of the second and between, of
+    shapes (N, n_t, n_t), (N, n_b, n_b) and (N, n_t, n_b).
+    """
+    weighted_f = structure.weights[:, None] * structure.torsion_shapes
+    weighted_g = structure.weights[:, None] * structure.bending_shapes
+    axis, lift_factor, moment_factor = (
+        values[:, None, None]
+        for values in (structure.axis, structure.lift_factor, structure.moment_factor)
+    )
+    both_f = weighted_f.T @ structure.torsion_shapes
+    inertia = (
+        diagonal(structure.torsion_inertia)
+        + moment_factor * APPARENT_INERTIA * both_f
+        + lift_factor * APPARENT_MASS * axis**2 * both_f
+    )
+    mass = diagonal(structure.bending_mass) + lift_factor * APPARENT_MASS * (
+        weighted_g.T @ structure.bending_shapes
+    )
+    across = lift_factor * APPARENT_MASS * axis * (weighted_f.T @ structure.bending_shapes)
+    return inertia, mass, across - structure.imbalance
 
 
 def _coupled(
