@@ -84,13 +84,36 @@ class BodyInFlow:
     ) -> BodyInFlow:
         """Return a section (SI) in a fluid of a density (kg/m^3)."""
         speed = section.k_star(density, 1.0) ** 0.5  # k* is 1 there
-        system = section_system([section.in_flow(density, speed)], loads, 0.0)
+        flowing = section.in_flow(density, speed)
+        return cls.of_section_in_flow(
+            flowing, loads, speed=speed, chord=section.chord, k_star=1.0, correction=correction
+        )
+
+    @classmethod
+    def of_section_in_flow(
+        cls,
+        section: Section,
+        loads: UnsteadyLoads,
+        *,
+        speed: float,
+        chord: float,
+        k_star: float,
+        correction: SpanCorrection | None = None,
+    ) -> BodyInFlow:
+        """Return a section in a flow of a speed (m/s), at which it is said to have a k* (-).
+
+        Raises
+        ------
+        EquisectionError
+            The section is in SI units.
+        """
+        system = section_system([section], loads, 0.0)
         return cls(
             system.structure,
             loads,
             speed,
-            section.chord,
-            1.0,
+            chord,
+            k_star,
             np.array([1.0 / section.twist_recovery]),
             np.array([1.0 / section.deflection_recovery]),
             correction,

@@ -24,6 +24,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.errors import IncidenceOutOfRangeError, SolverError
 from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.static_branch import (
     BranchEnd,
@@ -31,7 +32,7 @@ from equisection.motion.static_branch import (
     fold_function,
     section_equilibrium,
 )
-from equisection.motion.steady_states import equilibrium
+from equisection.motion.steady_states import equilibrium, rigid_state
 from equisection.motion.strip_system import StripSystem
 
 Floats = NDArray[np.float64]
@@ -76,8 +77,15 @@ class EquilibriumCurve:
 class PathFromRest(Protocol):
     """Branch of equilibria that a body comes along when the speed rises slowly from zero."""
 
-    end: BranchEnd
-    end_speed: float
+    @property
+    def end(self) -> BranchEnd:
+        """Kind of its end."""
+        ...
+
+    @property
+    def end_speed(self) -> float:
+        """Speed (m/s) at its end; infinite of a branch without one."""
+        ...
 
     def system(self, speeds: Floats) -> tuple[StripSystem, Floats, Floats]:
         """Return system, states Y and deficits u of equilibrium at speeds (m/s); NaN beyond."""
@@ -107,12 +115,17 @@ class SectionPath:
     @property
     def end_speed(self) -> float:
         """Speed (m/s) at its end; infinite of a branch without one."""
-        k_star = self.branch.k_star_end
-        return self.body.speed * math.sqrt(self.body.k_star / k_star) if k_star else math.inf
+        lowest = self.branch.k_star_end
+        return self.body.speed * math.sqrt(self._stiffness / lowest) if lowest else math.inf
 
     def incidences(self, speeds: Floats) -> Floats:
         """Incidence alpha (rad) of equilibrium at speeds (m/s); NaN beyond the end."""
-        return self.branch.incidence(self.body.k_star_at(speeds))
+        return self.branch.incidence(self._stiffness * (self.body.speed / speeds) ** 2)
+
+    @property
+    def _stiffness(self) -> float:
+        """k* (-) of the section itself at the speed of reference."""
+        return float(self.body.structure.torsion_stiffness[0, 0])
 
     def system(self, speeds: Floats) -> tuple[StripSystem, Floats, Floats]:
         """Return system, states Y and deficits u of equilibrium at speeds (m/s); NaN beyond."""
@@ -155,14 +168,17 @@ class BeamPath:
     def __post_init__(self) -> None:
         curve, left_polar = continued(self.body, self.incidence_rad, self.highest)
         end = BranchEnd.POLAR if left_polar else BranchEnd.NONE
+        end = BranchEnd.FOLD if curve.folds else end
         object.__setattr__(self, "curve", curve)
-        object.__setattr__(self, "end", BranchEnd.FOLD if curve.folds else end)
+        object.__setattr__(self, "end", end if curve.branches else BranchEnd.MISSING)
 
     @property
     def end_speed(self) -> float:
         """Speed (m/s) at its end; infinite of a branch that goes on above the highest speed."""
         if self.end is BranchEnd.NONE:
             return math.inf
+        if self.end is BranchEnd.MISSING:
+            return 0.0
         return float(self.curve.branches[0].speed[-1])
 
     def system(self, speeds: Floats) -> tuple[StripSystem, Floats, Floats]:
@@ -177,20 +193,46 @@ class BeamPath:
         return system, states, deficits
 
 
+@dataclass(frozen=True)
+class NoPath:
+    """No branch: there is no steady flow at rest, for a reason in words."""
+
+    reason: str
+    end: BranchEnd = BranchEnd.MISSING
+    end_speed: float = 0.0
+
+    def system(self, speeds: Floats) -> tuple[StripSystem, Floats, Floats]:
+        """Refuse, since there is nothing to linearise about.
+
+        Raises
+        ------
+        SolverError
+            Always.
+        """
+        raise SolverError(f"at {speeds} m/s: {self.reason}")
+
+
 def path_from_rest(body: BodyInFlow, incidence_rad: float, highest: float) -> PathFromRest:
     """Return the branch from rest of a section or beam at theta_0 (rad).
 
     ``highest`` is the speed (m/s) up to which a beam is followed.
 
-    Raises
-    ------
-    IncidenceOutOfRangeError
-        The polar does not cover theta_0.
+    Where the polar does not cover theta_0, or the flow about the beam at rest has no solution, there
+    is none (:class:`NoPath`).
     """
-    body.loads.branches.polar.require(incidence_rad)
-    if body.is_section:
-        return SectionPath(body, incidence_rad)
-    return BeamPath(body, incidence_rad, highest)
+    try:
+        body.loads.branches.polar.require(incidence_rad)
+        if body.is_section:
+            return SectionPath(body, incidence_rad)
+    except IncidenceOutOfRangeError as error:
+        return NoPath(str(error))
+    path = BeamPath(body, incidence_rad, highest)
+    if path.end is not BranchEnd.MISSING:
+        return path
+    return NoPath(
+        f"no steady flow about the beam at rest was found at {math.degrees(incidence_rad):.4g} deg: "
+        "the lift falls too steeply; take fewer strips"
+    )
 
 
 def all_branches(body: BodyInFlow, incidence_rad: float, highest: float) -> list[EquilibriumCurve]:
@@ -215,7 +257,8 @@ def all_branches(body: BodyInFlow, incidence_rad: float, highest: float) -> list
         k_star = cubic(alpha) / (alpha - incidence_rad)
         if k_star[k_star.size // 2] <= 0.0:
             continue
-        speed = body.speed * np.sqrt(body.k_star / np.maximum(k_star, 1e-300))
+        own = float(body.structure.torsion_stiffness[0, 0])
+        speed = body.speed * np.sqrt(own / np.maximum(k_star, 1e-300))
         near = (k_star > 0.0) & (speed <= highest)
         if near.any():
             order = np.argsort(speed[near])
@@ -244,6 +287,8 @@ class _StaticMap:
         self.loads = both.rates[0, :, n:]
         self.probe = both.probe[0, :strips]
         self.n = n
+        held, _ = rigid_state(self.system)
+        self.at_rest = held[0, both.layout.lag(2)]  # where the bubble has come to rest
 
     def response(self, speed: float) -> tuple[Floats, Floats]:
         """Return [G | x_0] (S, d S + 1) and its derivative by V."""
@@ -274,7 +319,7 @@ def continued(
         Whether it has left the polar.
     """
     follower = _Follower(_StaticMap(body, incidence_rad), highest)
-    return follower.curve(incidence_rad, 1e-3 * min(highest, body.slowest * body.chord))
+    return follower.curve(1e-3 * min(highest, body.slowest * body.chord))
 
 
 class _Follower:
@@ -284,13 +329,11 @@ class _Follower:
         self.static = static
         self.scale = highest
 
-    def curve(self, incidence_rad: float, lowest: float) -> tuple[EquilibriumCurve, bool]:
+    def curve(self, lowest: float) -> tuple[EquilibriumCurve, bool]:
         """Return the curve from the lowest speed (m/s) on, and whether it has left the polar."""
         strips = self.static.probe.shape[0]
-        start = self._corrected(
-            np.append(np.full(strips, incidence_rad), lowest / self.scale),
-            np.append(np.zeros(strips), 1.0),
-        )
+        at_rest = np.append(self.static.at_rest, lowest / self.scale)
+        start = self._corrected(at_rest, np.append(np.zeros(strips), 1.0))
         if start is None:
             return EquilibriumCurve(np.array([lowest]), np.full((1, strips), np.nan)), True
         points, folds, step, left = [start], [], STEP, False

@@ -153,6 +153,11 @@ class FollowedModes:
         return np.asarray(self.spectrum.right[place, :, self.places[place, mode]])
 
 
+def no_modes(size: int) -> FollowedModes:
+    """Return the modes of a body of n states that has no equilibrium."""
+    return FollowedModes(Spectrum.without_any(size), (), np.empty((0, 0), dtype=np.intp), ())
+
+
 def follow_modes(
     spectra: Sequence[Spectrum],
     further: Callable[[list[Floats]], Sequence[Spectrum]],
@@ -201,7 +206,7 @@ def _chained(spectrum: Spectrum, system: StripSystem) -> tuple[NDArray[np.intp],
     """Place of each mode among the motions at each speed (N, m), and the names of the modes."""
     first, names = _in_still_air(spectrum, system)
     places = np.empty((spectrum.speed.size, first.size), dtype=np.intp)
-    places[0] = first
+    places[:1] = first
     best = spectrum.likeness.argmax(axis=2) if spectrum.speed.size > 1 else first[None]
     for step in range(1, spectrum.speed.size):
         places[step] = best[step - 1, places[step - 1]]
@@ -214,6 +219,8 @@ def _in_still_air(
     """Return the fastest motions at the lowest speed, with names by their energies."""
     layout, structure = system.layout, system.structure
     count = layout.torsion_modes + layout.bending_modes
+    if not spectrum.speed.size:
+        return np.empty(0, dtype=np.intp), ()
     frequency = spectrum.values[0].imag
     fastest = np.argsort(frequency)[::-1][:count]
     chosen = fastest[np.argsort(frequency[fastest])]

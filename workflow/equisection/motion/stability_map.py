@@ -10,7 +10,7 @@ the branch ends. A motion that decays again at a higher speed leaves a *hump*, w
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,12 +19,13 @@ from numpy.typing import NDArray
 
 from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.equilibrium_path import (
+    NoPath,
     PathFromRest,
     SectionPath,
     path_from_rest,
     systems_of_sections,
 )
-from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes
+from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes, no_modes
 from equisection.motion.static_branch import BranchEnd
 from equisection.motion.strip_system import StripSystem
 
@@ -40,6 +41,10 @@ TO_THE_END = 1.0 - 1e-6
 WIDTH = 1e-6
 """Relative width of the interval that an onset is known to."""
 MOST_ROUNDS = 12
+NEARNESS = 0.02
+"""Part of an interval to either side of where a straight line has an onset."""
+Further = Callable[[list[Floats]], list[Spectrum]]
+"""Motions at further speeds (m/s), a list for each incidence."""
 #: Entries of the matrices that are in memory together.
 _TOGETHER = 2_000_000
 
@@ -52,18 +57,32 @@ class Crossing:
     ----------
     low, high
         Speeds (m/s) below and above it.
-    rises
-        Whether the body is stable at ``low`` and unstable at ``high``.
+    growth_low, growth_high
+        Largest growth (V/c) there.
     """
 
     low: float
     high: float
-    rises: bool
+    growth_low: float
+    growth_high: float
+
+    @property
+    def rises(self) -> bool:
+        """Stability at ``low`` and instability at ``high``."""
+        return self.growth_high > 0.0
 
     @property
     def speed(self) -> float:
         """Speed (m/s) in the middle."""
         return 0.5 * (self.low + self.high)
+
+    @property
+    def guesses(self) -> Floats:
+        """Speeds near that at which a straight line has no growth, and to either side of it."""
+        width = self.high - self.low
+        part = self.growth_low / (self.growth_low - self.growth_high)
+        near = np.array([part - NEARNESS, part, part + NEARNESS, 0.5])
+        return np.unique(self.low + width * np.clip(near, 0.5 * NEARNESS, 1.0 - 0.5 * NEARNESS))
 
 
 @dataclass(frozen=True)
@@ -89,6 +108,11 @@ class MapLine:
     crossings: tuple[Crossing, ...]
 
     @property
+    def exists(self) -> bool:
+        """Presence of an equilibrium at any speed."""
+        return self.modes.spectrum.speed.size > 0
+
+    @property
     def lowest(self) -> float:
         """Lowest speed (m/s) that was looked at."""
         return float(self.modes.spectrum.speed[0])
@@ -106,7 +130,7 @@ class MapLine:
     @property
     def is_unstable_at_rest(self) -> bool:
         """Growth already at the lowest speed."""
-        return bool(self.least_stable[0].real > 0.0)
+        return self.exists and bool(self.least_stable[0].real > 0.0)
 
     @property
     def humps(self) -> list[tuple[float, float]]:
@@ -166,28 +190,37 @@ def map_lines(body: BodyInFlow, incidences_rad: Sequence[float], speeds: Floats)
     speeds
         Speeds (m/s) that are asked for, rising; others are looked at too.
 
-    Raises
-    ------
-    IncidenceOutOfRangeError
-        The polar does not cover an incidence.
+    Notes
+    -----
+    Where there is no steady flow at rest (an incidence beyond the polar) a line has no motions.
     """
     highest = float(speeds[-1])
     paths = [path_from_rest(body, rigid, highest) for rigid in incidences_rad]
     start = min(body.slowest * body.chord / STILL_AIR, 0.5 * float(speeds[0]))
-    grids = [_grid(start, speeds, path) for path in paths]
-    system, _, _ = paths[0].system(np.array([start]))
-    lines: list[MapLine] = []
+    system = body.system(np.array([start]), np.zeros(1))
+    lines = {
+        place: MapLine(body, path, incidences_rad[place], no_modes(system.layout.size), ())
+        for place, path in enumerate(paths)
+        if isinstance(path, NoPath)
+    }
+    there = [place for place in range(len(paths)) if place not in lines]
+    grids = [_grid(start, speeds, paths[place]) for place in there]
     for group in _groups([grid.size for grid in grids], system.layout.size):
-        chosen = [paths[place] for place in group]
-        lines += _lines(
-            body, chosen, [incidences_rad[p] for p in group], [grids[p] for p in group], system
+        chosen = [there[number] for number in group]
+        found = _lines(
+            body,
+            [paths[place] for place in chosen],
+            [incidences_rad[place] for place in chosen],
+            [grids[number] for number in group],
+            system,
         )
-    return lines
+        lines.update(zip(chosen, found, strict=True))
+    return [lines[place] for place in range(len(paths))]
 
 
 def _groups(sizes: list[int], n: int) -> list[list[int]]:
     """Return incidences in groups whose matrices fit into memory together."""
-    groups: list[list[int]] = [[]]
+    groups: list[list[int]] = [[]] if sizes else []
     filled = 0
     for place, size in enumerate(sizes):
         if groups[-1] and filled + size * n * n > _TOGETHER:
@@ -245,13 +278,18 @@ def spectra(paths: Sequence[PathFromRest], speeds: list[Floats], size: int) -> l
 def _grid(start: float, speeds: Floats, path: PathFromRest) -> Floats:
     """Speeds from near vacuum on, through those asked for, to the end of a path."""
     first, last = float(speeds[0]), float(speeds[-1])
-    below = np.geomspace(start, first, math.ceil(math.log(first / start) / math.log(BELOW)) + 1)
-    count = math.ceil(math.log(last / first) / math.log(WITHIN)) + 1 if last > first else 1
-    known = np.concatenate([below, np.geomspace(first, last, count), speeds])
+    known = np.concatenate([_filled(start, first, BELOW), speeds])
+    for low, high in zip(speeds[:-1], speeds[1:], strict=True):
+        known = np.concatenate([known, _filled(float(low), float(high), WITHIN)])
     end = path.end_speed * TO_THE_END
     if end < last:
-        known = np.append(known[known < end], [0.999 * end, end])
+        known = np.append(known[known < end], [0.999 * end, end] if end > start else [])
     return np.unique(known)
+
+
+def _filled(low: float, high: float, ratio: float) -> Floats:
+    """Return speeds from one to another, each at most so many times the one before it."""
+    return np.geomspace(low, high, math.ceil(math.log(high / low) / math.log(ratio)) + 1)
 
 
 def _near_humps(spectrum: Spectrum) -> Floats:
@@ -270,26 +308,21 @@ def _near_humps(spectrum: Spectrum) -> Floats:
 
 
 def _sign_changes(spectrum: Spectrum) -> list[Crossing]:
+    """Return the changes of sign of the largest growth over rising speed."""
     growth = spectrum.least_stable.real
-    places = np.flatnonzero((growth[:-1] > 0.0) != (growth[1:] > 0.0))
     return [
-        Crossing(float(spectrum.speed[p]), float(spectrum.speed[p + 1]), bool(growth[p + 1] > 0.0))
-        for p in places
+        Crossing(*map(float, (*spectrum.speed[p : p + 2], *growth[p : p + 2])))
+        for p in np.flatnonzero((growth[:-1] > 0.0) != (growth[1:] > 0.0))
     ]
 
 
-def _narrowed(brackets: list[list[Crossing]], further) -> list[list[Crossing]]:  # type: ignore[no-untyped-def]
-    """Narrow the changes of sign at all incidences together, to seven parts a round."""
+def _narrowed(brackets: list[list[Crossing]], further: Further) -> list[list[Crossing]]:
+    """Narrow the changes of sign at all incidences together."""
     for _ in range(MOST_ROUNDS):
         wide = [[one for one in row if one.high - one.low > WIDTH * one.low] for row in brackets]
         if not any(wide):
             break
-        wanted = [
-            np.concatenate(
-                [np.linspace(one.low, one.high, 9)[1:-1] for one in row] or [np.empty(0)]
-            )
-            for row in wide
-        ]
+        wanted = [np.concatenate([np.empty(0), *(one.guesses for one in row)]) for row in wide]
         seen = further(wanted)
         brackets = [
             [_within(one, spectrum) if one in row else one for one in old]
@@ -299,10 +332,12 @@ def _narrowed(brackets: list[list[Crossing]], further) -> list[list[Crossing]]: 
 
 
 def _within(one: Crossing, spectrum: Spectrum) -> Crossing:
+    """Return the part of a bracket that has the first change of sign."""
     inside = (spectrum.speed > one.low) & (spectrum.speed < one.high) & spectrum.exists
-    speed = spectrum.speed[inside]
-    grows = spectrum.least_stable.real[inside] > 0.0
-    changed = grows if one.rises else ~grows
-    place = int(changed.argmax()) if changed.any() else speed.size
-    ends = np.concatenate([[one.low], speed, [one.high]])
-    return Crossing(float(ends[place]), float(ends[place + 1]), one.rises)
+    speed = np.concatenate([[one.low], spectrum.speed[inside], [one.high]])
+    growth = np.concatenate(
+        [[one.growth_low], spectrum.least_stable.real[inside], [one.growth_high]]
+    )
+    changed = (growth > 0.0) == one.rises
+    place = int(changed.argmax())
+    return Crossing(*map(float, (*speed[place - 1 : place + 1], *growth[place - 1 : place + 1])))

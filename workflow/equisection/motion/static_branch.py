@@ -42,6 +42,7 @@ class BranchEnd(StrEnum):
 
     FOLD = "fold"
     POLAR = "end of the polar"
+    MISSING = "no steady flow at rest"
     NONE = "none"
 
 

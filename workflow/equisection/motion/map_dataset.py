@@ -1,0 +1,382 @@
+"""Stability over incidence and speed as a data set, and the critical speed at each incidence."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from equisection.aerodynamics.polar import Polar
+from equisection.motion.body_in_flow import BodyInFlow
+from equisection.motion.equilibrium_path import NoPath, SectionPath, systems_of_sections
+from equisection.motion.mechanism import Instabilities, least_stable_instabilities
+from equisection.motion.stability_map import MapLine, map_lines, tip_motion
+from equisection.motion.static_branch import BranchEnd
+
+Floats = NDArray[np.float64]
+
+STEEPEST = 100.0
+"""Slope (1/rad) of a coefficient above which a polar has a jump; attached flow has 2 pi."""
+
+
+@dataclass(frozen=True)
+class Critical:
+    """Critical speed of a body at one incidence; NaN where there is none.
+
+    Attributes
+    ----------
+    critical_speed, speed_low, speed_high
+        Onset (m/s), and the interval that it is known to: stable at the first, unstable at the
+        second.
+    critical_mechanism, critical_mode
+        Mechanism, and name of the mode that loses its stability.
+    critical_frequency
+        Its frequency (Hz).
+    critical_k_star
+        k* (-).
+    critical_twist, critical_deflection
+        Static twist (rad) and deflection (m) of the tip there.
+    divergence_speed
+        Speed (m/s) of the fold, or of the first positive real eigenvalue.
+    growth_slope
+        Rise of the growth rate with the speed at the onset (1/s per m/s): small is a soft onset.
+    tip_ratio, tip_phase
+        Deflection in chords over twist of the tip in the motion at the onset (-), and the phase
+        (deg) by which it leads.
+    heave_share, twist_share, coupling_share
+        Parts of the power that the air puts in (-), by :mod:`equisection.motion.mechanism`.
+    unstable_to
+        Speed (m/s) above which it is stable again.
+    note
+        All that one has to know of it in words.
+    """
+
+    critical_speed: float = math.nan
+    speed_low: float = math.nan
+    speed_high: float = math.nan
+    critical_mechanism: str = "unknown"
+    critical_mode: str = ""
+    critical_frequency: float = math.nan
+    critical_k_star: float = math.nan
+    critical_twist: float = math.nan
+    critical_deflection: float = math.nan
+    divergence_speed: float = math.nan
+    growth_slope: float = math.nan
+    tip_ratio: float = math.nan
+    tip_phase: float = math.nan
+    heave_share: float = math.nan
+    twist_share: float = math.nan
+    coupling_share: float = math.nan
+    unstable_to: float = math.nan
+    note: str = ""
+
+
+def map_of_body(
+    body: BodyInFlow,
+    incidences_deg: Sequence[float],
+    speeds: Sequence[float],
+    highest: float | None = None,
+) -> xr.Dataset:
+    """Return stability over incidence and speed of a body, with its critical speeds.
+
+    Parameters
+    ----------
+    body
+        A section or a beam in its air.
+    incidences_deg
+        Rigid incidences theta_0 (deg), rising.
+    speeds
+        Speeds (m/s), rising.
+    highest
+        Speed (m/s) up to which an onset is looked for; by default the last one.
+
+    Returns
+    -------
+    xarray.Dataset
+        Over ``incidence_deg`` and ``speed`` (:data:`MEANING` has all variables with their units);
+        ``mode_*`` are over ``mode`` too.
+    """
+    asked = np.asarray(speeds, dtype=np.float64)
+    looked = asked
+    if highest is not None and highest > asked[-1]:
+        looked = np.append(asked, highest)
+    lines = map_lines(body, [math.radians(angle) for angle in incidences_deg], looked)
+    names = next((line.modes.names for line in lines if line.exists), ())
+    shape = (len(lines), asked.size)
+    values = {name: np.full(shape, np.nan) for name in _OVER_BOTH}
+    of_modes = {name: np.full((*shape, len(names)), np.nan) for name in _OVER_MODES}
+    for row, line in enumerate(lines):
+        _fill(line, asked, {name: each[row] for name, each in values.items()})
+        _fill_modes(line, asked, {name: each[row] for name, each in of_modes.items()})
+    mechanism = _mechanisms(lines, asked, values["growth_rate"])
+    critical = [critical_of(line, float(looked[-1])) for line in lines]
+    dataset = xr.Dataset(
+        {
+            **{name: (("incidence_deg", "speed"), each) for name, each in values.items()},
+            "mechanism": (("incidence_deg", "speed"), mechanism),
+            **{name: (("incidence_deg", "speed", "mode"), each) for name, each in of_modes.items()},
+            **{
+                field.name: (
+                    "incidence_deg",
+                    np.array([getattr(one, field.name) for one in critical]),
+                )
+                for field in fields(Critical)
+            },
+            "k_star": ("speed", body.k_star_at(asked)),
+        },
+        {
+            "incidence_deg": np.asarray(incidences_deg, dtype=np.float64),
+            "speed": asked,
+            "mode": list(names),
+        },
+        attrs={
+            "equilibrium": "on the branch that comes from rest",
+            "polar": body.loads.branches.polar.label,
+            "lags": body.loads.lags.provenance,
+            "basis": "eigenvalue",
+            "highest_speed": float(looked[-1]),
+        },
+    )
+    return described(dataset)
+
+
+def described(dataset: xr.Dataset) -> xr.Dataset:
+    """Put units and meaning on the variables of a map."""
+    for name, variable in dataset.variables.items():
+        units, long_name = MEANING[str(name)]
+        variable.attrs = {"units": units, "long_name": long_name}
+        if variable.dtype.kind == "f" and name not in dataset.coords:
+            variable.attrs["missing_allowed"] = "1"
+    return dataset
+
+
+_OVER_BOTH = ("growth_rate", "frequency", "equilibrium_twist", "equilibrium_deflection")
+_OVER_MODES = ("mode_growth_rate", "mode_frequency", "mode_damping")
+
+
+def _fill(line: MapLine, speeds: Floats, values: dict[str, Floats]) -> None:
+    """Fill in the least stable motion and the equilibrium at each speed that has one."""
+    spectrum = line.modes.spectrum
+    there = np.isin(speeds, spectrum.speed)
+    places = np.searchsorted(spectrum.speed, speeds[there])
+    rate = speeds[there] / line.body.chord
+    least = line.least_stable[places]
+    twist, deflection = tip_motion(line.body, spectrum.states[places])
+    values["growth_rate"][there] = least.real * rate
+    values["frequency"][there] = least.imag * rate / math.tau
+    values["equilibrium_twist"][there] = twist
+    values["equilibrium_deflection"][there] = deflection * line.body.chord
+
+
+def _fill_modes(line: MapLine, speeds: Floats, values: dict[str, Floats]) -> None:
+    if not line.exists:
+        return
+    spectrum = line.modes.spectrum
+    there = np.isin(speeds, spectrum.speed)
+    found = line.modes.values[np.searchsorted(spectrum.speed, speeds[there])]
+    rate = (speeds[there] / line.body.chord)[:, None]
+    values["mode_growth_rate"][there] = found.real * rate
+    values["mode_frequency"][there] = found.imag * rate / math.tau
+    values["mode_damping"][there] = -found.real / np.abs(found)
+
+
+def _mechanisms(lines: Sequence[MapLine], speeds: Floats, growth: Floats) -> NDArray[np.str_]:
+    """Mechanism at each incidence and speed; that of the end of its branch beyond it."""
+    found = np.full(growth.shape, "none", dtype=object)
+    for row, line in enumerate(lines):
+        lost = np.isnan(growth[row])
+        found[row, lost] = "divergence" if line.path.end is BranchEnd.FOLD else "unknown"
+    grows = growth > 0.0
+    rows = np.flatnonzero(grows.any(axis=1))
+    exact = [lines[row].path for row in rows]
+    if rows.size and all(isinstance(path, SectionPath) for path in exact):
+        sections = [path for path in exact if isinstance(path, SectionPath)]
+        system = systems_of_sections(sections, [speeds[grows[row]] for row in rows])
+        found[grows] = least_stable_instabilities(*system)[1].mechanism
+        return found.astype(np.str_)
+    for row in rows:
+        system = lines[row].path.system(speeds[grows[row]])
+        found[row, grows[row]] = least_stable_instabilities(*system)[1].mechanism
+    return found.astype(np.str_)
+
+
+def critical_of(line: MapLine, highest: float) -> Critical:
+    """Return the critical speed of a body at one incidence, looked for up to a speed (m/s)."""
+    if isinstance(line.path, NoPath):
+        return Critical(note=line.path.reason)
+    if not line.exists:
+        return Critical(note="there is no equilibrium at any speed")
+    notes = [*_humps_in_words(line), *_crossings_in_words(line)]
+    if line.is_unstable_at_rest:
+        reason = f"unstable already at {line.lowest:.4g} m/s, the lowest speed that was looked at"
+        mechanism = str(_at(line, line.lowest).mechanism[0])
+        return Critical(
+            speed_high=line.lowest,
+            critical_mechanism=mechanism,
+            note="; ".join([reason, *notes]),
+        )
+    fold = line.path.end_speed if line.path.end is BranchEnd.FOLD else math.nan
+    onset = line.onset
+    if onset is not None:
+        return _of_onset(line, onset.low, onset.high, fold, notes)
+    last = float(line.modes.spectrum.speed[-1])
+    if line.path.end is BranchEnd.FOLD and fold < highest:
+        twist, deflection = line.tip(len(line.modes.spectrum.speed) - 1)
+        notes.append(f"the branch from rest has a fold at {math.degrees(twist):.3g} deg of twist")
+        return Critical(
+            critical_speed=fold,
+            speed_low=last,
+            speed_high=fold,
+            critical_mechanism="divergence",
+            critical_frequency=0.0,
+            critical_k_star=float(line.body.k_star_at(np.array(fold))),
+            critical_twist=twist,
+            critical_deflection=deflection,
+            divergence_speed=fold,
+            note="; ".join([*notes, *_jumps_in_words(line, last)]),
+        )
+    if line.path.end is BranchEnd.POLAR and line.path.end_speed < highest:
+        least, greatest = np.degrees(line.body.loads.branches.polar.incidence_range)
+        notes.append(
+            f"stable up to {last:.4g} m/s, where the equilibrium leaves the polar ({least:.4g} to "
+            f"{greatest:.4g} deg): extend it"
+        )
+        return Critical(speed_low=last, note="; ".join(notes))
+    notes.append(f"stable up to {highest:.4g} m/s")
+    return Critical(speed_low=highest, critical_mechanism="none", note="; ".join(notes))
+
+
+def _of_onset(line: MapLine, low: float, high: float, fold: float, notes: list[str]) -> Critical:
+    speed, chord = 0.5 * (low + high), line.body.chord
+    system, states, deficits = line.path.system(np.array([low, high]))
+    p, kinds = least_stable_instabilities(system, states, deficits)
+    twist, deflection = tip_motion(line.body, states[0])
+    name, shape = line.mode_at(line.place(speed))
+    turned, lifted = tip_motion(line.body, shape)
+    ratio = lifted / turned if turned != 0.0 else complex(math.nan)
+    rate = (p.real[1] * high - p.real[0] * low) / chord / (high - low)
+    if abs(p[1].imag) == 0.0:
+        fold = speed
+    return Critical(
+        critical_speed=speed,
+        speed_low=low,
+        speed_high=high,
+        critical_mechanism=str(kinds.mechanism[1]),
+        critical_mode=name,
+        critical_frequency=float(p[1].imag) / math.tau * speed / chord,
+        critical_k_star=float(line.body.k_star_at(np.array(speed))),
+        critical_twist=float(twist),
+        critical_deflection=float(deflection) * chord,
+        divergence_speed=_divergence(line, fold),
+        growth_slope=float(rate),
+        tip_ratio=float(abs(ratio)),
+        tip_phase=float(np.degrees(np.angle(ratio))),
+        heave_share=float(kinds.heave_share[1]),
+        twist_share=float(kinds.twist_share[1]),
+        coupling_share=float(kinds.coupling_share[1]),
+        unstable_to=line.humps[0][1] if line.humps else math.nan,
+        note="; ".join([*notes, *_jumps_in_words(line, speed)]),
+    )
+
+
+def _at(line: MapLine, speed: float) -> Instabilities:
+    return least_stable_instabilities(*line.path.system(np.array([speed])))[1]
+
+
+def _divergence(line: MapLine, fold: float) -> float:
+    """Speed (m/s) of the first positive real eigenvalue, by a straight line, or of the fold."""
+    real, speed = line.modes.spectrum.largest_real, line.modes.spectrum.speed
+    places = np.flatnonzero((real[:-1] <= 0.0) & (real[1:] > 0.0))
+    if places.size and not math.isfinite(fold):
+        first = places[0]
+        part = -real[first] / (real[first + 1] - real[first]) if np.isfinite(real[first]) else 1.0
+        return float(speed[first] + part * (speed[first + 1] - speed[first]))
+    return fold
+
+
+def _humps_in_words(line: MapLine) -> list[str]:
+    return [
+        f"unstable from {low:.4g} to {high:.4g} m/s, then stable again" for low, high in line.humps
+    ]
+
+
+def _crossings_in_words(line: MapLine) -> list[str]:
+    return [
+        f"{one} and {other} cross at {speed:.4g} m/s, beyond which their names may be exchanged"
+        for speed, one, other in line.modes.crossings
+    ]
+
+
+def _jumps_in_words(line: MapLine, speed: float) -> list[str]:
+    """Name the jumps of the polar between the incidences at rest and at a speed (m/s)."""
+    layout_states = line.modes.spectrum.states[line.place(speed)]
+    system, _, _ = line.path.system(np.array([speed]))
+    there = layout_states[system.layout.lag(2)]
+    low, high = min(*there, line.incidence_rad), max(*there, line.incidence_rad)
+    return [
+        f"the polar jumps between {math.degrees(a):.4g} and {math.degrees(b):.4g} deg, where its "
+        "slopes mean nothing"
+        for a, b in jumps(line.body.loads.branches.polar)
+        if a < high and b > low
+    ]
+
+
+def jumps(polar: Polar) -> list[tuple[float, float]]:
+    """Return the intervals of incidence (rad) over which a coefficient changes too steeply."""
+    step = np.diff(polar.incidence)
+    steep = np.zeros(step.size, dtype=bool)
+    for values in (polar.lift, polar.moment):
+        steep |= np.abs(np.diff(values)) > STEEPEST * step
+    return [
+        (float(polar.incidence[place]), float(polar.incidence[place + 1]))
+        for place in np.flatnonzero(steep)
+    ]
+
+
+#: Units and meaning of coordinates and variables.
+MEANING: dict[str, tuple[str, str]] = {
+    "model": ("1", "model of the sweep"),
+    "incidence_deg": ("deg", "rigid incidence theta_0, nose up"),
+    "speed": ("m s-1", "speed V of the flow"),
+    "mode": ("1", "mode, by its name in still air"),
+    "growth_rate": ("s-1", "growth rate of the least stable motion"),
+    "frequency": ("Hz", "frequency of the least stable motion"),
+    "mechanism": (
+        "1",
+        "none, divergence, flutter, stall-flutter, galloping, or unknown without an equilibrium",
+    ),
+    "equilibrium_twist": ("rad", "twist of the tip in static equilibrium, nose up"),
+    "equilibrium_deflection": ("m", "deflection of the tip in static equilibrium, up"),
+    "mode_growth_rate": ("s-1", "growth rate of a mode"),
+    "mode_frequency": ("Hz", "frequency of a mode"),
+    "mode_damping": ("1", "damping ratio of a mode"),
+    "k_star": ("1", "k* = k_theta/(q c^2)"),
+    "critical_speed": ("m s-1", "lowest speed at which a motion ceases to decay"),
+    "speed_low": ("m s-1", "highest speed up to which it is known to be stable"),
+    "speed_high": ("m s-1", "lowest speed at which it is known to be unstable"),
+    "critical_mechanism": ("1", "mechanism of the instability"),
+    "critical_mode": ("1", "mode that loses its stability"),
+    "critical_frequency": ("Hz", "frequency at the onset"),
+    "critical_k_star": ("1", "k* at the onset"),
+    "critical_twist": ("rad", "twist of the tip in static equilibrium at the onset"),
+    "critical_deflection": ("m", "deflection of the tip in static equilibrium at the onset"),
+    "divergence_speed": ("m s-1", "speed of the fold or of the first positive real eigenvalue"),
+    "growth_slope": ("m-1", "rise of the growth rate with the speed at the onset"),
+    "tip_ratio": ("1", "deflection in chords over twist of the tip in the motion at the onset"),
+    "tip_phase": ("deg", "phase by which the deflection leads the twist at the onset"),
+    "heave_share": ("1", "share of heave alone in the power of the air at the onset"),
+    "twist_share": ("1", "share of twist alone in the power of the air at the onset"),
+    "coupling_share": ("1", "share of their coupling in the power of the air at the onset"),
+    "unstable_to": ("m s-1", "speed above which it is stable again"),
+    "note": ("1", "reservations in words"),
+}
+
+
+def single(dataset: xr.Dataset, given: dict[str, Any]) -> xr.Dataset:
+    """Take away the dimensions of single values."""
+    return dataset.isel({name: 0 for name, value in given.items() if np.ndim(value) == 0})
