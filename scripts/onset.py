@@ -47,8 +47,17 @@ def main(
     _write(with_speeds(table, AsGiven(nominal_k_star(sections), speed)), output)
 
 
-def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: Path) -> None:
-    """Write the critical speed of each model, and tell it."""
+def speeds(
+    summary: Path,
+    equivalent: Path,
+    raw_config: dict[str, Any],
+    output: Path,
+    stability: Path | None = None,
+) -> None:
+    """Write the critical speed of each model, and tell it.
+
+    ``stability`` is the table of the map of stability, of a run that has one.
+    """
     config, data = load_config(raw_config), read_dataset(equivalent)
     flow, table = config.flow, pd.read_csv(summary)
     given = AsGiven(nominal_k_star(data), flow.speed)
@@ -67,7 +76,9 @@ def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: 
         for model in models
         if model.dimension == "2d" and not model.corrected
     }
-    if isinstance(solver, HasSectionLoads) and sections:
+    if stability is not None:
+        found.append(critical_speeds.from_map(pd.read_csv(stability)))
+    elif isinstance(solver, HasSectionLoads) and sections:
         values = config.sweep.values()
         if onset_axis(varied(config)) is not SPEED:
             values = tuple(map(given.speed_at, values))
@@ -134,6 +145,7 @@ if __name__ == "__main__":
             equivalent,
             snakemake.params.config,
             Path(snakemake.output.critical_speed),
+            next(map(Path, snakemake.input.stability), None),
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

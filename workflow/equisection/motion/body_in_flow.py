@@ -9,8 +9,10 @@ speed of reference, and any number of speeds and incidences are lanes of one sys
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -154,7 +156,23 @@ class BodyInFlow:
             (structure.torsion_stiffness / structure.torsion_inertia).min(),
             (structure.bending_stiffness / structure.bending_mass).min(),
         ]
-        return float(min(squares)) ** 0.5 * self.speed / self.chord
+        return math.sqrt(float(min(squares))) * self.speed / self.chord
+
+    @property
+    def pitch_frequency(self) -> float:
+        """Frequency (Hz) of the first torsion mode in vacuum, without imbalance."""
+        structure = self.structure
+        square = float(structure.torsion_stiffness[0, 0] / structure.torsion_inertia[0, 0])
+        return math.sqrt(square) * self.speed / (math.tau * self.chord)
+
+    def tip(self, states: NDArray[Any]) -> tuple[Any, Any]:
+        """Return twist (rad) and deflection (chords) of the tip in states Y of shape (..., n)."""
+        torsion, bending = self.twist_of_tip.size, self.deflection_of_tip.size
+        first = 2 * torsion
+        return (
+            states[..., :torsion] @ self.twist_of_tip,
+            states[..., first : first + bending] @ self.deflection_of_tip,
+        )
 
     def k_star_at(self, speeds: Floats) -> Floats:
         """Return k* (-) at speeds (m/s)."""

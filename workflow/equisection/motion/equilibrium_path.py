@@ -347,7 +347,7 @@ class _Follower:
                     break
                 continue
             turned = self._tangent(reached, tangent)
-            if turned @ tangent < 0.95 and step > 100 * SHORTEST:  # noqa: PLR2004 - 18 degrees
+            if turned @ tangent < 0.95 and step > 100 * SHORTEST:
                 step *= 0.5
                 continue
             if turned[-1] * tangent[-1] < 0.0:

@@ -15,7 +15,7 @@ from equisection.aerodynamics.polar import Polar
 from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.equilibrium_path import NoPath, SectionPath, systems_of_sections
 from equisection.motion.mechanism import Instabilities, least_stable_instabilities
-from equisection.motion.stability_map import MapLine, map_lines, tip_motion
+from equisection.motion.stability_map import MapLine, map_lines
 from equisection.motion.static_branch import BranchEnd
 
 Floats = NDArray[np.float64]
@@ -106,6 +106,14 @@ def map_of_body(
     if highest is not None and highest > asked[-1]:
         looked = np.append(asked, highest)
     lines = map_lines(body, [math.radians(angle) for angle in incidences_deg], looked)
+    return (
+        map_of_lines(lines, asked).assign_coords(incidence_deg=list(incidences_deg)).pipe(described)
+    )
+
+
+def map_of_lines(lines: Sequence[MapLine], asked: Floats) -> xr.Dataset:
+    """Return the data set of a body at some incidences, at speeds (m/s) that were looked at."""
+    body, highest = lines[0].body, lines[0].highest
     names = next((line.modes.names for line in lines if line.exists), ())
     shape = (len(lines), asked.size)
     values = {name: np.full(shape, np.nan) for name in _OVER_BOTH}
@@ -114,7 +122,7 @@ def map_of_body(
         _fill(line, asked, {name: each[row] for name, each in values.items()})
         _fill_modes(line, asked, {name: each[row] for name, each in of_modes.items()})
     mechanism = _mechanisms(lines, asked, values["growth_rate"])
-    critical = [critical_of(line, float(looked[-1])) for line in lines]
+    critical = [critical_of(line) for line in lines]
     dataset = xr.Dataset(
         {
             **{name: (("incidence_deg", "speed"), each) for name, each in values.items()},
@@ -130,7 +138,7 @@ def map_of_body(
             "k_star": ("speed", body.k_star_at(asked)),
         },
         {
-            "incidence_deg": np.asarray(incidences_deg, dtype=np.float64),
+            "incidence_deg": [round(math.degrees(line.incidence_rad), 9) for line in lines],
             "speed": asked,
             "mode": list(names),
         },
@@ -139,7 +147,7 @@ def map_of_body(
             "polar": body.loads.branches.polar.label,
             "lags": body.loads.lags.provenance,
             "basis": "eigenvalue",
-            "highest_speed": float(looked[-1]),
+            "highest_speed": highest,
         },
     )
     return described(dataset)
@@ -166,7 +174,7 @@ def _fill(line: MapLine, speeds: Floats, values: dict[str, Floats]) -> None:
     places = np.searchsorted(spectrum.speed, speeds[there])
     rate = speeds[there] / line.body.chord
     least = line.least_stable[places]
-    twist, deflection = tip_motion(line.body, spectrum.states[places])
+    twist, deflection = line.body.tip(spectrum.states[places])
     values["growth_rate"][there] = least.real * rate
     values["frequency"][there] = least.imag * rate / math.tau
     values["equilibrium_twist"][there] = twist
@@ -205,8 +213,9 @@ def _mechanisms(lines: Sequence[MapLine], speeds: Floats, growth: Floats) -> NDA
     return found.astype(np.str_)
 
 
-def critical_of(line: MapLine, highest: float) -> Critical:
-    """Return the critical speed of a body at one incidence, looked for up to a speed (m/s)."""
+def critical_of(line: MapLine) -> Critical:
+    """Return the critical speed of a body at one incidence."""
+    highest = line.highest
     if isinstance(line.path, NoPath):
         return Critical(note=line.path.reason)
     if not line.exists:
@@ -255,9 +264,9 @@ def _of_onset(line: MapLine, low: float, high: float, fold: float, notes: list[s
     speed, chord = 0.5 * (low + high), line.body.chord
     system, states, deficits = line.path.system(np.array([low, high]))
     p, kinds = least_stable_instabilities(system, states, deficits)
-    twist, deflection = tip_motion(line.body, states[0])
+    twist, deflection = line.body.tip(states[0])
     name, shape = line.mode_at(line.place(speed))
-    turned, lifted = tip_motion(line.body, shape)
+    turned, lifted = line.body.tip(shape)
     ratio = lifted / turned if turned != 0.0 else complex(math.nan)
     rate = (p.real[1] * high - p.real[0] * low) / chord / (high - low)
     if abs(p[1].imag) == 0.0:
@@ -314,14 +323,16 @@ def _crossings_in_words(line: MapLine) -> list[str]:
 
 def _jumps_in_words(line: MapLine, speed: float) -> list[str]:
     """Name the jumps of the polar between the incidences at rest and at a speed (m/s)."""
-    layout_states = line.modes.spectrum.states[line.place(speed)]
-    system, _, _ = line.path.system(np.array([speed]))
-    there = layout_states[system.layout.lag(2)]
+    steep = jumps(line.body.loads.branches.polar)
+    if not steep:
+        return []
+    system, states, _ = line.path.system(np.array([speed]))
+    there = states[0, system.layout.lag(2)]
     low, high = min(*there, line.incidence_rad), max(*there, line.incidence_rad)
     return [
         f"the polar jumps between {math.degrees(a):.4g} and {math.degrees(b):.4g} deg, where its "
         "slopes mean nothing"
-        for a, b in jumps(line.body.loads.branches.polar)
+        for a, b in steep
         if a < high and b > low
     ]
 

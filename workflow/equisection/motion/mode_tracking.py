@@ -79,7 +79,7 @@ class Spectrum:
     @property
     def exists(self) -> NDArray[np.bool_]:
         """Presence of an equilibrium at each speed, shape (N,)."""
-        return np.isfinite(self.values.real).all(axis=1)
+        return np.asarray(np.isfinite(self.values.real).all(axis=1), dtype=np.bool_)
 
     @property
     def least_stable(self) -> Complexes:
@@ -94,7 +94,7 @@ class Spectrum:
         real = np.where(self.values.imag == 0.0, self.values.real, -np.inf)
         return np.asarray(np.where(self.exists, real.max(axis=1), np.nan))
 
-    def taken(self, places: NDArray[np.intp] | slice) -> Spectrum:
+    def taken(self, places: NDArray[np.bool_] | slice) -> Spectrum:
         """Return those at some of the speeds."""
         return Spectrum(
             self.speed[places],
@@ -188,7 +188,7 @@ def follow_modes(
 
 def _unclear(spectrum: Spectrum, system: StripSystem) -> Floats:
     """Return speeds in the middle of the intervals over which modes cannot be told apart."""
-    if spectrum.speed.size < 2:  # noqa: PLR2004
+    if spectrum.speed.size < 2:
         return np.empty(0)
     places, _ = _chained(spectrum, system)
     unclear = np.flatnonzero((_clearness(spectrum, places) < CLEAR).any(axis=1))

@@ -2,13 +2,14 @@ r"""Stability of a section or beam over incidence and speed: growth, mechanism a
 
 At each rigid incidence the body is followed from rest (:mod:`equisection.motion.equilibrium_path`),
 linearised about its equilibrium, and its modes are followed from near vacuum on
-(:mod:`equisection.motion.mode_tracking`). The *onset* is the lowest speed on this branch at which a
-motion ceases to decay: where the largest growth of all motions crosses zero, or at the fold in which
-the branch ends. A motion that decays again at a higher speed leaves a *hump*, which is named.
+(:mod:`equisection.motion.mode_tracking`). The *onset* is the lowest speed on this branch at which
+a motion ceases to decay: where the largest growth of all motions crosses zero, or at the fold in
+which the branch ends. A motion that decays again at a higher speed leaves a *hump*, which is named.
 """
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -26,7 +27,6 @@ from equisection.motion.equilibrium_path import (
     systems_of_sections,
 )
 from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes, no_modes
-from equisection.motion.static_branch import BranchEnd
 from equisection.motion.strip_system import StripSystem
 
 Floats = NDArray[np.float64]
@@ -99,6 +99,8 @@ class MapLine:
         Its motions and modes at all speeds that were looked at, rising.
     crossings
         Changes of sign of the largest growth, by rising speed.
+    highest
+        Speed (m/s) up to which an onset was looked for.
     """
 
     body: BodyInFlow
@@ -106,6 +108,7 @@ class MapLine:
     incidence_rad: float
     modes: FollowedModes
     crossings: tuple[Crossing, ...]
+    highest: float
 
     @property
     def exists(self) -> bool:
@@ -166,16 +169,8 @@ class MapLine:
     def tip(self, place: int) -> tuple[float, float]:
         """Return twist (rad) and deflection (m) of the tip in equilibrium at one of the speeds."""
         states = self.modes.spectrum.states[place]
-        twist, deflection = tip_motion(self.body, states)
+        twist, deflection = self.body.tip(states)
         return float(twist.real), float(deflection.real) * self.body.chord
-
-
-def tip_motion(body: BodyInFlow, states: NDArray[np.generic]) -> tuple[np.generic, np.generic]:
-    """Return twist (rad) and deflection (chords) of the tip in states Y, shape (..., n)."""
-    torsion, bending = body.twist_of_tip.size, body.deflection_of_tip.size
-    twist = states[..., :torsion] @ body.twist_of_tip
-    deflection = states[..., 2 * torsion : 2 * torsion + bending] @ body.deflection_of_tip
-    return twist, deflection
 
 
 def map_lines(body: BodyInFlow, incidences_rad: Sequence[float], speeds: Floats) -> list[MapLine]:
@@ -199,7 +194,7 @@ def map_lines(body: BodyInFlow, incidences_rad: Sequence[float], speeds: Floats)
     start = min(body.slowest * body.chord / STILL_AIR, 0.5 * float(speeds[0]))
     system = body.system(np.array([start]), np.zeros(1))
     lines = {
-        place: MapLine(body, path, incidences_rad[place], no_modes(system.layout.size), ())
+        place: MapLine(body, path, incidences_rad[place], no_modes(system.layout.size), (), highest)
         for place, path in enumerate(paths)
         if isinstance(path, NoPath)
     }
@@ -209,10 +204,11 @@ def map_lines(body: BodyInFlow, incidences_rad: Sequence[float], speeds: Floats)
         chosen = [there[number] for number in group]
         found = _lines(
             body,
-            [paths[place] for place in chosen],
-            [incidences_rad[place] for place in chosen],
-            [grids[number] for number in group],
-            system,
+            paths=[paths[place] for place in chosen],
+            incidences_rad=[incidences_rad[place] for place in chosen],
+            grids=[grids[number] for number in group],
+            system=system,
+            highest=highest,
         )
         lines.update(zip(chosen, found, strict=True))
     return [lines[place] for place in range(len(paths))]
@@ -233,10 +229,12 @@ def _groups(sizes: list[int], n: int) -> list[list[int]]:
 
 def _lines(
     body: BodyInFlow,
+    *,
     paths: list[PathFromRest],
     incidences_rad: list[float],
     grids: list[Floats],
     system: StripSystem,
+    highest: float,
 ) -> list[MapLine]:
     def further(wanted: list[Floats]) -> list[Spectrum]:
         return spectra(paths, wanted, system.layout.size)
@@ -250,7 +248,7 @@ def _lines(
     brackets = [_sign_changes(one.spectrum) for one in modes]
     brackets = _narrowed(brackets, further)
     return [
-        MapLine(body, path, rigid, followed, tuple(crossings))
+        MapLine(body, path, rigid, followed, tuple(crossings), highest)
         for path, rigid, followed, crossings in zip(
             paths, incidences_rad, modes, brackets, strict=True
         )
@@ -272,15 +270,15 @@ def spectra(paths: Sequence[PathFromRest], speeds: list[Floats], size: int) -> l
         return [Spectrum.without_any(size) for _ in speeds]
     together = Spectrum.of(np.concatenate(speeds), *systems_of_sections(exact, speeds))
     bounds = np.cumsum([0, *(len(v) for v in speeds)])
-    return [together.taken(slice(a, b)) for a, b in zip(bounds[:-1], bounds[1:], strict=True)]
+    return [together.taken(slice(a, b)) for a, b in itertools.pairwise(bounds)]
 
 
 def _grid(start: float, speeds: Floats, path: PathFromRest) -> Floats:
     """Speeds from near vacuum on, through those asked for, to the end of a path."""
     first, last = float(speeds[0]), float(speeds[-1])
     known = np.concatenate([_filled(start, first, BELOW), speeds])
-    for low, high in zip(speeds[:-1], speeds[1:], strict=True):
-        known = np.concatenate([known, _filled(float(low), float(high), WITHIN)])
+    for low, high in itertools.pairwise(map(float, speeds)):
+        known = np.concatenate([known, _filled(low, high, WITHIN)])
     end = path.end_speed * TO_THE_END
     if end < last:
         known = np.append(known[known < end], [0.999 * end, end] if end > start else [])
@@ -295,7 +293,7 @@ def _filled(low: float, high: float, ratio: float) -> Floats:
 def _near_humps(spectrum: Spectrum) -> Floats:
     """Speeds at which a parabola through the largest growth has a top above zero, unseen so far."""
     growth = spectrum.least_stable.real
-    if growth.size < 3:  # noqa: PLR2004
+    if growth.size < 3:
         return np.empty(0)
     before, here, after = growth[:-2], growth[1:-1], growth[2:]
     is_top = (here < 0.0) & (here >= before) & (here >= after)

@@ -60,10 +60,10 @@ def release_state(
     if not np.any(heave_rate):
         return states, deficits
     states[:, layout.deflection_rate.start] += heave_rate
-    return states, _consistent_deficits(system, states, deficits)
+    return states, consistent_deficits(system, states, deficits)
 
 
-def _consistent_deficits(system: StripSystem, states: Floats, near: Floats) -> Floats:
+def consistent_deficits(system: StripSystem, states: Floats, near: Floats) -> Floats:
     """Deficits u of given states, by iteration from near ones; NaN where it does not end."""
     one = np.ones((states.shape[0], 1))
     u = near
