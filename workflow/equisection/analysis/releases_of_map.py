@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,6 +23,7 @@ from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.equilibrium_path import SectionPath, systems_of_sections
 from equisection.motion.map_dataset import critical_of
 from equisection.motion.march import Failure, Recording, march
+from equisection.motion.mode_tracking import Spectrum
 from equisection.motion.stability_map import MapLine
 from equisection.motion.steady_states import consistent_deficits
 from equisection.motion.strip_system import StripSystem
@@ -70,8 +71,8 @@ def checked_in_time(
 ) -> pd.DataFrame:
     """Return ``comparison/stability.csv`` with the regimes of releases next to each onset.
 
-    Columns :data:`RELEASES` have regime and amplitude of the twist (deg); ``in_time`` is ``agrees``,
-    or says what a release contradicts, and is empty where there is no onset by eigenvalues.
+    Columns :data:`RELEASES` have regime and amplitude of the twist (deg); ``in_time`` is
+    ``agrees``, or says what a release contradicts; empty where there is no onset by eigenvalues.
     """
     words: dict[str, list[str]] = {name: [] for name in (*RELEASES, "in_time")}
     for model in models:
@@ -172,8 +173,6 @@ def _at_design(
         return row
     system, states, deficits = line.path.system(np.array([speed]))
     twist, deflection = body.tip(states)
-    from equisection.motion.mode_tracking import Spectrum  # noqa: PLC0415
-
     p = complex(Spectrum.of(np.array([speed]), system, states, deficits).least_stable[0])
     moment, torque = root_loads(body, system, states, deficits, speed, config)
     row.update(
@@ -239,6 +238,11 @@ def _released(releases: Sequence[MapRelease], config: Config) -> list[dict[str, 
     outputs = _tip_rows(body, system)
     criteria = Criteria(**unsteady.verdict.model_dump())
     judges = [Judge(criteria, body.pitch_frequency * body.chord / one.speed) for one in releases]
+    look = monitor_of(judges, _tip_of)
+
+    def monitor(recording: Recording, active: NDArray[np.intp]) -> NDArray[np.intp]:
+        return look(_so_far(recording), active)
+
     recording = march(
         system,
         (states, deficits),
@@ -246,7 +250,7 @@ def _released(releases: Sequence[MapRelease], config: Config) -> list[dict[str, 
         duration=unsteady.duration,
         time_step=unsteady.time_step,
         output_interval=unsteady.output_interval,
-        monitor=monitor_of(judges, _tip_of),
+        monitor=monitor,
     )
     return [
         judge.attributes(
@@ -284,10 +288,15 @@ def _tip_rows(body: BodyInFlow, system: StripSystem) -> Floats:
     return np.broadcast_to(rows, (system.rates.shape[0], *rows.shape))
 
 
+def _so_far(recording: Recording) -> Recording:
+    """Return the part of a recording that has been reached."""
+    end = recording.recorded
+    return replace(recording, time=recording.time[:end], values=recording.values[:end])
+
+
 def _tip_of(recording: Recording, lane: int, part: slice) -> TipMotion:
-    until = slice(part.start, min(part.stop or recording.recorded, recording.recorded))
-    values = recording.values[until, lane]
-    return TipMotion(recording.time[until], values[:, 0], values[:, 1])
+    values = recording.values[part, lane]
+    return TipMotion(recording.time[part], values[:, 0], values[:, 1])
 
 
 def _failure(failures: Sequence[Failure], lane: int) -> str:

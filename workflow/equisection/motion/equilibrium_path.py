@@ -17,6 +17,7 @@ equilibrium near, and the body diverges, while the curve goes on to lower speeds
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -69,7 +70,7 @@ class EquilibriumCurve:
         bounds = [0, *self.folds, self.speed.size - 1]
         return [
             EquilibriumCurve(self.speed[a : b + 1], self.incidence[a : b + 1])
-            for a, b in zip(bounds[:-1], bounds[1:], strict=True)
+            for a, b in itertools.pairwise(bounds)
             if b > a
         ]
 
@@ -217,8 +218,8 @@ def path_from_rest(body: BodyInFlow, incidence_rad: float, highest: float) -> Pa
 
     ``highest`` is the speed (m/s) up to which a beam is followed.
 
-    Where the polar does not cover theta_0, or the flow about the beam at rest has no solution, there
-    is none (:class:`NoPath`).
+    Where the polar does not cover theta_0, or the flow about the beam at rest has no solution,
+    there is none (:class:`NoPath`).
     """
     try:
         body.loads.branches.polar.require(incidence_rad)
@@ -230,8 +231,8 @@ def path_from_rest(body: BodyInFlow, incidence_rad: float, highest: float) -> Pa
     if path.end is not BranchEnd.MISSING:
         return path
     return NoPath(
-        f"no steady flow about the beam at rest was found at {math.degrees(incidence_rad):.4g} deg: "
-        "the lift falls too steeply; take fewer strips"
+        f"no steady flow about the beam at rest was found at {math.degrees(incidence_rad):.4g} "
+        "deg: the lift falls too steeply; take fewer strips"
     )
 
 
@@ -252,7 +253,7 @@ def all_branches(body: BodyInFlow, incidence_rad: float, highest: float) -> list
     inside = zeros[np.isfinite(zeros) & (zeros > least) & (zeros < greatest)]
     bounds = np.unique(np.concatenate([[least], inside, [greatest], [incidence_rad]]))
     found = []
-    for low, high in zip(bounds[:-1], bounds[1:], strict=True):
+    for low, high in itertools.pairwise(bounds):
         alpha = np.linspace(low, high, POINTS_OF_A_BRANCH + 2)[1:-1]
         k_star = cubic(alpha) / (alpha - incidence_rad)
         if k_star[k_star.size // 2] <= 0.0:

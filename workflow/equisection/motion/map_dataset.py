@@ -154,13 +154,24 @@ def map_of_lines(lines: Sequence[MapLine], asked: Floats) -> xr.Dataset:
 
 
 def described(dataset: xr.Dataset) -> xr.Dataset:
-    """Put units and meaning on the variables of a map."""
+    """Put units and meaning on the variables of a map, whose texts become plain ones."""
+    texts = {
+        name: (variable.dims, _plain(variable.values))
+        for name, variable in dataset.variables.items()
+        if variable.dtype.kind not in "fiu"
+    }
+    dataset = dataset.assign({name: text for name, text in texts.items() if name in dataset})
     for name, variable in dataset.variables.items():
         units, long_name = MEANING[str(name)]
         variable.attrs = {"units": units, "long_name": long_name}
         if variable.dtype.kind == "f" and name not in dataset.coords:
             variable.attrs["missing_allowed"] = "1"
     return dataset
+
+
+def _plain(values: NDArray[Any]) -> NDArray[np.object_]:
+    """Return texts of any type as those of the language, which NetCDF takes."""
+    return np.array([str(one) for one in values.ravel()], dtype=object).reshape(values.shape)
 
 
 _OVER_BOTH = ("growth_rate", "frequency", "equilibrium_twist", "equilibrium_deflection")
@@ -201,13 +212,13 @@ def _mechanisms(lines: Sequence[MapLine], speeds: Floats, growth: Floats) -> NDA
         found[row, lost] = "divergence" if line.path.end is BranchEnd.FOLD else "unknown"
     grows = growth > 0.0
     rows = np.flatnonzero(grows.any(axis=1))
-    exact = [lines[row].path for row in rows]
+    exact = [lines[int(row)].path for row in rows]
     if rows.size and all(isinstance(path, SectionPath) for path in exact):
         sections = [path for path in exact if isinstance(path, SectionPath)]
         system = systems_of_sections(sections, [speeds[grows[row]] for row in rows])
         found[grows] = least_stable_instabilities(*system)[1].mechanism
         return found.astype(np.str_)
-    for row in rows:
+    for row in map(int, rows):
         system = lines[row].path.system(speeds[grows[row]])
         found[row, grows[row]] = least_stable_instabilities(*system)[1].mechanism
     return found.astype(np.str_)
@@ -215,12 +226,20 @@ def _mechanisms(lines: Sequence[MapLine], speeds: Floats, growth: Floats) -> NDA
 
 def critical_of(line: MapLine) -> Critical:
     """Return the critical speed of a body at one incidence."""
-    highest = line.highest
     if isinstance(line.path, NoPath):
         return Critical(note=line.path.reason)
     if not line.exists:
         return Critical(note="there is no equilibrium at any speed")
     notes = [*_humps_in_words(line), *_crossings_in_words(line)]
+    fold = line.path.end_speed if line.path.end is BranchEnd.FOLD else math.nan
+    if line.onset is not None and not line.is_unstable_at_rest:
+        return _of_onset(line, line.onset.low, line.onset.high, fold, notes)
+    return _without_crossing(line, fold, notes)
+
+
+def _without_crossing(line: MapLine, fold: float, notes: list[str]) -> Critical:
+    """Return what is known where no growth crosses zero from below."""
+    highest = line.highest
     if line.is_unstable_at_rest:
         reason = f"unstable already at {line.lowest:.4g} m/s, the lowest speed that was looked at"
         mechanism = str(_at(line, line.lowest).mechanism[0])
@@ -229,10 +248,6 @@ def critical_of(line: MapLine) -> Critical:
             critical_mechanism=mechanism,
             note="; ".join([reason, *notes]),
         )
-    fold = line.path.end_speed if line.path.end is BranchEnd.FOLD else math.nan
-    onset = line.onset
-    if onset is not None:
-        return _of_onset(line, onset.low, onset.high, fold, notes)
     last = float(line.modes.spectrum.speed[-1])
     if line.path.end is BranchEnd.FOLD and fold < highest:
         twist, deflection = line.tip(len(line.modes.spectrum.speed) - 1)

@@ -5,11 +5,11 @@ u_i^H v_j = delta_ij. From one speed to the next a motion goes on as that with t
 
     W_ij = |(u_i^H v'_j) (u'_j^H v_i)|,
 
-which is 1 for the same vector, whatever its length, and sums to about 1 over i and over j: the modal
-assurance criterion in the metric of J itself. Where the largest is not clear of the second one, the
-interval is halved; what is unclear at the shortest interval is a *crossing* of two modes, and is
-named as such. Modes have their names where the air is next to nothing, by the part of their kinetic
-energy in twist: ``torsion 1``, ``bending 1``, ``bending 2``, and so on.
+which is 1 for the same vector, whatever its length, and sums to about 1 over i and over j: the
+modal assurance criterion in the metric of J itself. Where the largest is not clear of the second
+one, the interval is halved; what is unclear at the shortest interval is a *crossing* of two modes,
+and is named as such. Modes have their names where the air is next to nothing, by the part of their
+kinetic energy in twist: ``torsion 1``, ``bending 1``, ``bending 2``, and so on.
 """
 
 from __future__ import annotations
