@@ -121,6 +121,11 @@ def _agreement(verdicts: dict[str, dict[str, Any]]) -> str:
         )
     if regime["above_small"] == "settled":
         found.append("decays above the onset from a small start")
+    elif regime["above_large"] == "settled":
+        found.append(
+            f"{100 * ASIDE:g} % above the onset a start of {LARGE_DEG:g} deg dies down, towards "
+            "the cycle to which a small one grows"
+        )
     found += [f"{name} failed: {verdicts[name]['reason']}" for name in failed]
     return "; ".join(found) or "agrees"
 

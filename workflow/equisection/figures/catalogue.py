@@ -180,6 +180,10 @@ _RESOLUTION = {"resolution": "steady.resolution"}
 _INCIDENCE = {"incidence_deg": "flow.incidence_deg"}
 _OF_MODES, _OF_LOADS = "figures_of_modes", "figures_of_loads"
 
+_MAP = {"stability_map": "comparison/stability_map.nc"}
+_DESIGN = {"design_speed": "flow.design_speed"}
+_OF_MAP = "figures_of_map"
+
 #: Every figure, in the order of Fig. 1: structure, steady loads, response.
 CATALOGUE = (
     Entry("mode-shapes", "modes", _MODES, {"beam": "beam"}, family=_OF_MODES),
@@ -299,6 +303,46 @@ CATALOGUE = (
         {**_SUMMARY, "deviations": "comparison/section_and_beam.csv"},
         exists=plan.has_both,
         drawn_with="growth_rate",
+    ),
+    Entry(
+        "critical-speed",
+        "critical speed over incidence",
+        _MAP,
+        _DESIGN,
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
+    ),
+    Entry(
+        "modes-over-speed",
+        "damping and frequency over speed",
+        _MAP,
+        {**_INCIDENCE, **_DESIGN},
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
+    ),
+    Entry(
+        "static-twist",
+        "static twist and share of the divergence speed",
+        _MAP,
+        _DESIGN,
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
+    ),
+    Entry(
+        "damping-below-design",
+        "damping up to 1.2 of the design speed",
+        _MAP,
+        _DESIGN,
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
+    ),
+    Entry(
+        "motion-at-onset",
+        "motion at the onset",
+        _MAP,
+        _INCIDENCE,
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
     ),
 )
 

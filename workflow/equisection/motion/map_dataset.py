@@ -135,12 +135,14 @@ def map_of_lines(lines: Sequence[MapLine], asked: Floats) -> xr.Dataset:
                 )
                 for field in fields(Critical)
             },
+            **_motions(lines),
             "k_star": ("speed", body.k_star_at(asked)),
         },
         {
             "incidence_deg": [round(math.degrees(line.incidence_rad), 9) for line in lines],
             "speed": asked,
             "mode": list(names),
+            "strip": np.arange(1, body.structure.strips + 1),
         },
         attrs={
             "equilibrium": "on the branch that comes from rest",
@@ -151,6 +153,34 @@ def map_of_lines(lines: Sequence[MapLine], asked: Floats) -> xr.Dataset:
         },
     )
     return described(dataset)
+
+
+def _motions(lines: Sequence[MapLine]) -> dict[str, Any]:
+    """Motion at the onset along the span, over the amplitude of the tip's twist, strip by strip."""
+    structure = lines[0].body.structure
+    shape = (len(lines), structure.strips)
+    twist, deflection = np.full((2, *shape), np.nan, dtype=np.complex128)
+    for row, line in enumerate(lines):
+        if line.onset is None or line.is_unstable_at_rest:
+            continue
+        _, vector = line.mode_at(line.place(line.onset.speed))
+        tip, _ = line.body.tip(vector)
+        torsion = line.body.twist_of_tip.size
+        bending = line.body.deflection_of_tip.size
+        on_modes = vector[2 * torsion : 2 * torsion + bending]
+        # a section moves as its tip does
+        scale = line.body.deflection_of_tip[0] if line.body.is_section else 1.0
+        turn = line.body.twist_of_tip[0] if line.body.is_section else 1.0
+        twist[row] = turn * (structure.torsion_shapes @ vector[:torsion]) / tip
+        deflection[row] = scale * (structure.bending_shapes @ on_modes) / tip
+    over = ("incidence_deg", "strip")
+    parts = {
+        f"onset_{name}_{part}": (over, getattr(values, part))
+        for name, values in (("twist", twist), ("deflection", deflection))
+        for part in ("real", "imag")
+    }
+    weights = structure.weights
+    return {**parts, "strip_place": ("strip", np.cumsum(weights) - 0.5 * weights)}
 
 
 def described(dataset: xr.Dataset) -> xr.Dataset:
@@ -382,6 +412,12 @@ MEANING: dict[str, tuple[str, str]] = {
     "mode_frequency": ("Hz", "frequency of a mode"),
     "mode_damping": ("1", "damping ratio of a mode"),
     "k_star": ("1", "k* = k_theta/(q c^2)"),
+    "strip": ("1", "number of a strip of the span; a section is one"),
+    "strip_place": ("1", "middle of a strip z/L"),
+    "onset_twist_real": ("1", "twist in the motion at the onset over that of the tip, real part"),
+    "onset_twist_imag": ("1", "twist in the motion at the onset over that of the tip, imaginary"),
+    "onset_deflection_real": ("1", "deflection in chords over the tip's twist, real part"),
+    "onset_deflection_imag": ("1", "deflection in chords over the tip's twist, imaginary"),
     "critical_speed": ("m s-1", "lowest speed at which a motion ceases to decay"),
     "speed_low": ("m s-1", "highest speed up to which it is known to be stable"),
     "speed_high": ("m s-1", "lowest speed at which it is known to be unstable"),
