@@ -329,7 +329,7 @@ def test_band_of_instability_that_ends_is_named():
     """Galloping from -c_l' - c_d > 0 in a band of twist that the section leaves as it turns."""
     degrees = np.array([-10.0, -4.0, 0.0, 4.0, 6.0, 8.0, 10.0, 14.0, 20.0, 30.0])
     lift = np.array([-1.0, -0.4, 0.0, 0.4, 0.5, 0.3, 0.1, 0.4, 0.8, 1.4])
-    polar = Polar(np.radians(degrees), 0.01 + 0.0 * degrees, lift, 0.02 * degrees / 10, "dip")
+    polar = Polar(np.radians(degrees), 0.01 + 0.0 * degrees, lift, 0.01 * degrees, "dip")
     section = damped(PLATE, 0.001)
     line = one_line(body_of(section, polar, ATTACHED), 3.0, list(np.linspace(2.0, 140.0, 70)))
     assert line.humps, critical_of(line)

@@ -2,8 +2,8 @@
 
 Eigenvalues tell of small motions. A body may be stable to them and still be carried off by a large
 one (a *subcritical* cycle), or be unstable to them and end in a small cycle. So at each incidence
-the body is let go close below and above its onset, from its static equilibrium with its twist moved
-by a small and by a large angle.
+the body is let go close below and above its onset, displaced from its static equilibrium along the
+motion at the onset, by a small and by a large angle of the tip.
 """
 
 from __future__ import annotations
@@ -57,13 +57,26 @@ class MapRelease:
         Motions of the body at that incidence.
     speed
         V (m/s).
-    twist_deg
-        Twist of the tip (deg) beyond that of equilibrium at the start.
+    amplitude_deg
+        Twist of the tip (deg) beyond that of equilibrium at the start, or its deflection (a radian
+        for each chord) where that is larger.
     """
 
     line: MapLine
     speed: float
-    twist_deg: float
+    amplitude_deg: float
+
+    @property
+    def moved(self) -> Floats:
+        """States Y by which the start is off equilibrium: those of the motion at the onset.
+
+        Without an onset they are those of the least stable motion at the speed.
+        """
+        onset = self.line.onset
+        _, vector = self.line.mode_at(self.line.place(onset.speed if onset else self.speed))
+        twist, deflection = self.line.body.tip(vector)
+        turned = twist if abs(twist) >= abs(deflection) else deflection
+        return np.asarray((math.radians(self.amplitude_deg) * vector / turned).real)
 
 
 def checked_in_time(
@@ -237,8 +250,7 @@ def released(releases: Sequence[MapRelease], config: Config) -> list[dict[str, A
 def _released(releases: Sequence[MapRelease], config: Config) -> list[dict[str, Any]]:
     body, unsteady = releases[0].line.body, config.unsteady
     system, states, deficits = _together(releases)
-    moved = np.radians([one.twist_deg for one in releases]) / body.twist_of_tip[0]
-    states[:, system.layout.twist.start] += moved
+    states = states + np.stack([one.moved for one in releases])
     deficits = consistent_deficits(system, states, deficits)
     outputs = _tip_rows(body, system)
     criteria = Criteria(**unsteady.verdict.model_dump())

@@ -72,8 +72,8 @@ def draw(stability_map: xr.Dataset, incidence_deg: float) -> Figure:
     right.set(xlabel="twist over its amplitude", ylabel="deflection in chords over twist (1/rad)")
     if drawn:
         right.legend(fontsize="x-small")
-    letter(left, "a", "along the span")
-    letter(right, "b", "tip over a period")
-    figure.suptitle(f"incidence {float(chosen['incidence_deg']):g} deg", fontsize="medium")
+    angle = float(chosen["incidence_deg"])
+    letter(left, "a", f"along the span at {angle:g} deg")
+    letter(right, "b", f"tip over a period at {angle:g} deg")
     say_origin(figure, stability_map)
     return figure

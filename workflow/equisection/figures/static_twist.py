@@ -59,7 +59,9 @@ def draw(stability_map: xr.Dataset, design_speed: float | None) -> Figure:
             right.plot(angles, share, label=look.label, **style)
             drawn = True
     if drawn:
-        right.set_ylim(bottom=0.0)
+        right.set_ylim(0.0, 1.1 * right.dataLim.y1)
+        right.set_xlim(angles[0] - 0.5, angles[-1] + 0.5)
+        right.set_title("no point: no divergence in the range", fontsize="x-small", loc="right")
         right.legend(fontsize="x-small")
     elif design_speed is None:
         say(right, "No flow.design_speed is given.")

@@ -221,7 +221,8 @@ def varied(config: Config) -> dict[Axis, tuple[float, ...]]:
     """Return the axes that the sweep of a configuration varies, with their values, ascending."""
     onset = K_STAR if config.sweep.speed is None else SPEED
     angles = config.sweep.incidence_deg
-    return ({INCIDENCE: tuple(sorted(angles))} if angles else {}) | {onset: config.sweep.values()}
+    values = {INCIDENCE: tuple(sorted(angles))} if angles else {}
+    return values | {onset: config.sweep.values()}
 
 
 def sweep_points(config: Config) -> list[Point]:
