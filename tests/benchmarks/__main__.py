@@ -25,6 +25,7 @@ from tests.benchmarks import (  # noqa: E402
     modes,
     openfoam,
     plate,
+    stability_map,
 )
 from tests.benchmarks.measure import Row  # noqa: E402
 
@@ -37,6 +38,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "early-verdict": early_verdict.rows,
     "openfoam": openfoam.rows,
     "plate": plate.rows,
+    "stability-map": stability_map.rows,
 }
 
 
