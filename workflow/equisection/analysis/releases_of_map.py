@@ -23,6 +23,7 @@ from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.equilibrium_path import SectionPath, systems_of_sections
 from equisection.motion.map_dataset import critical_of
 from equisection.motion.march import Failure, Recording, march
+from equisection.motion.mechanism import Mechanism
 from equisection.motion.mode_tracking import Spectrum
 from equisection.motion.stability_map import MapLine
 from equisection.motion.steady_states import consistent_deficits
@@ -70,11 +71,14 @@ class MapRelease:
     def moved(self) -> Floats:
         """States Y by which the start is off equilibrium: those of the motion at the onset.
 
-        Without an onset they are those of the least stable motion at the speed.
+        Without an onset they are those of the least damped mode at the speed.
         """
-        onset = self.line.onset
-        _, vector = self.line.mode_at(self.line.place(onset.speed if onset else self.speed))
-        twist, deflection = self.line.body.tip(vector)
+        line = self.line
+        if line.onset is None:
+            _, vector = line.least_damped_mode_at(line.place(self.speed))
+        else:
+            _, vector = line.mode_at(line.place(line.onset.speed))
+        twist, deflection = line.body.tip(vector)
         turned = twist if abs(twist) >= abs(deflection) else deflection
         return np.asarray((math.radians(self.amplitude_deg) * vector / turned).real)
 
@@ -106,7 +110,7 @@ def checked_in_time(
             by_name = dict(zip(RELEASES, found, strict=False))
             for name in RELEASES:
                 words[name].append(_regime(by_name[name]) if by_name else "")
-            words["in_time"].append(_agreement(by_name) if by_name else "")
+            words["in_time"].append(_agreement(by_name, line) if by_name else "")
         if model.refusal:
             for column in words.values():
                 column.append("")
@@ -121,7 +125,9 @@ def _regime(verdict: dict[str, Any]) -> str:
     return str(verdict["regime"])
 
 
-def _agreement(verdicts: dict[str, dict[str, Any]]) -> str:
+def _agreement(verdicts: dict[str, dict[str, Any]], line: MapLine) -> str:
+    if critical_of(line).critical_mechanism == Mechanism.DIVERGENCE:
+        return _at_divergence(verdicts, line)
     regime = {name: str(verdict["regime"]) for name, verdict in verdicts.items()}
     failed = [name for name, word in regime.items() if word == "failed"]
     found = []
@@ -143,13 +149,28 @@ def _agreement(verdicts: dict[str, dict[str, Any]]) -> str:
     return "; ".join(found) or "agrees"
 
 
+def _at_divergence(verdicts: dict[str, dict[str, Any]], line: MapLine) -> str:
+    """Say whether the body leaves its equilibrium above the speed of divergence, and to where."""
+    above = verdicts["above_small"]
+    if above["regime"] != "settled":
+        return "agrees"
+    onset = line.onset
+    assert onset is not None, "there are no releases without one"
+    twist, _ = line.tip(line.place(onset.speed))
+    away = above["mean_twist_deg"] - math.degrees(twist)
+    if abs(away) > SMALL_DEG:
+        return f"agrees: it comes to rest {away:.2g} deg away from the equilibrium"
+    return "stays at the equilibrium above the onset from a small start"
+
+
 def in_use(models: Sequence[MappedModel], config: Config) -> pd.DataFrame:
     """Return ``comparison/in_use.csv``: each model at the design speed, incidence by incidence.
 
-    Static twist (deg) and deflection (m) of the tip, root bending moment (N m, that lifts the beam)
-    and root torque (N m, nose up, about the elastic axis) of a cantilever by the static loads of
-    the air alone, damping ratio and frequency of the least stable motion, share of the speed of
-    divergence, and the regime with its amplitudes after a release from 3 deg beyond equilibrium.
+    Static twist (deg) and deflection (m) of the tip, root bending moment (N m, that lifts the
+    beam) and root torque (N m, nose up, about the elastic axis) of a cantilever by the static loads
+    of the air alone, damping ratio and frequency of the least damped oscillation, share of the
+    speed of divergence, and the regime after a release from 3 deg beyond equilibrium with the
+    amplitude of the tip's twist (deg) if it is a limit cycle.
     """
     design = config.flow.design_speed
     assert design is not None, "the plan asks for it with a design speed alone"
@@ -191,7 +212,9 @@ def _at_design(
         return row
     system, states, deficits = line.path.system(np.array([speed]))
     twist, deflection = body.tip(states)
-    p = complex(Spectrum.of(np.array([speed]), system, states, deficits).least_stable[0])
+    values = Spectrum.of(np.array([speed]), system, states, deficits).values[0]
+    turning = values[values.imag > 0.0]
+    p = complex(turning[turning.real.argmax()]) if turning.size else complex(values.real.max())
     moment, torque = root_loads(body, system, states, deficits, speed, config)
     row.update(
         tip_twist_deg=math.degrees(twist[0]),

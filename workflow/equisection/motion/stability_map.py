@@ -153,7 +153,8 @@ class MapLine:
     def mode_at(self, place: int) -> tuple[str, Complexes]:
         """Return name and eigenvector (n,) of the least stable motion at one of the speeds.
 
-        A motion that is not one of the structure's has the name ``air``.
+        A motion that is not one of the structure's has no name: one that does not turn comes from
+        the lags of the air.
         """
         spectrum = self.modes.spectrum
         growth = spectrum.values[place].real
@@ -164,7 +165,12 @@ class MapLine:
         for number, name in enumerate(self.modes.names):
             if self.modes.places[place, number] in (least, *conjugate):
                 return name, spectrum.right[place, :, self.modes.places[place, number]]
-        return "air", spectrum.right[place, :, least]
+        return "", spectrum.right[place, :, least]
+
+    def least_damped_mode_at(self, place: int) -> tuple[complex, Complexes]:
+        """Return eigenvalue (V/c) and eigenvector (n,) of the structural mode of largest growth."""
+        number = int(self.modes.values[place].real.argmax())
+        return complex(self.modes.values[place, number]), self.modes.shape(place, number)
 
     def tip(self, place: int) -> tuple[float, float]:
         """Return twist (rad) and deflection (m) of the tip in equilibrium at one of the speeds."""
