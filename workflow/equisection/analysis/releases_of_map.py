@@ -32,9 +32,12 @@ from equisection.solvers.verdicts import Judge, TipMotion, monitor_of
 from equisection.verdict import Criteria
 
 Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
 
 ASIDE = 0.05
 """Part of the critical speed by which a release is below or above it."""
+FIRST_MODES = 2
+"""Modes of a kind that the damping in use is of; higher ones have little but the structure's."""
 SMALL_DEG, LARGE_DEG = 0.1, 3.0
 """Twist of the tip (deg) beyond equilibrium from which the body is let go."""
 #: Lanes that are marched together.
@@ -142,7 +145,7 @@ def _agreement(verdicts: dict[str, dict[str, Any]], line: MapLine) -> str:
         found.append("decays above the onset from a small start")
     elif regime["above_large"] == "settled":
         found.append(
-            f"{100 * ASIDE:g} % above the onset a start of {LARGE_DEG:g} deg dies down, towards "
+            f"{100 * ASIDE:g} % above the onset a start of {LARGE_DEG:g} deg dies down towards "
             "the cycle to which a small one grows"
         )
     found += [f"{name} failed: {verdicts[name]['reason']}" for name in failed]
@@ -168,8 +171,8 @@ def in_use(models: Sequence[MappedModel], config: Config) -> pd.DataFrame:
 
     Static twist (deg) and deflection (m) of the tip, root bending moment (N m, that lifts the
     beam) and root torque (N m, nose up, about the elastic axis) of a cantilever by the static loads
-    of the air alone, damping ratio and frequency of the least damped oscillation, share of the
-    speed of divergence, and the regime after a release from 3 deg beyond equilibrium with the
+    of the air alone, damping ratio and frequency of the least damped of the first two modes of
+    each kind, share of the speed of divergence, and the regime after a release from 3 deg beyond equilibrium with the
     amplitude of the tip's twist (deg) if it is a limit cycle.
     """
     design = config.flow.design_speed
@@ -213,8 +216,7 @@ def _at_design(
     system, states, deficits = line.path.system(np.array([speed]))
     twist, deflection = body.tip(states)
     values = Spectrum.of(np.array([speed]), system, states, deficits).values[0]
-    turning = values[values.imag > 0.0]
-    p = complex(turning[turning.real.argmax()]) if turning.size else complex(values.real.max())
+    p = _least_damped(line, speed, values)
     moment, torque = root_loads(body, system, states, deficits, speed, config)
     row.update(
         tip_twist_deg=math.degrees(twist[0]),
@@ -230,6 +232,18 @@ def _at_design(
         note=str(verdict["reason"]),
     )
     return row
+
+
+def _least_damped(line: MapLine, speed: float, values: Complexes) -> complex:
+    """Return the eigenvalue (V/c) at a speed of the least damped of the first modes of a kind."""
+    over = line.modes.spectrum.speed
+    near = [
+        complex(np.interp(speed, over, mode.real), np.interp(speed, over, mode.imag))
+        for name, mode in zip(line.modes.names, line.modes.values.T, strict=True)
+        if int(name.split()[-1]) <= FIRST_MODES
+    ]
+    found = [complex(values[np.abs(values - guess).argmin()]) for guess in near]
+    return max(found, key=lambda p: p.real / abs(p))
 
 
 def root_loads(  # noqa: PLR0917 - a state, its speed and its beam
