@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from equisection.config import Config
 from equisection.errors import EquisectionError
 from equisection.motion.body_in_flow import BodyInFlow, SpanCorrection
-from equisection.motion.map_dataset import Critical, critical_of, described, map_of_lines
+from equisection.motion.critical import Critical, critical_of
+from equisection.motion.map_dataset import described, map_of_lines
 from equisection.motion.stability_map import MapLine, map_lines
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.correction_dataset import factors_from_dataset

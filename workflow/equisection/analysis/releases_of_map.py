@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 from equisection.analysis.mapped_models import MappedModel
 from equisection.config import Config
 from equisection.motion.body_in_flow import BodyInFlow
+from equisection.motion.critical import critical_of
 from equisection.motion.equilibrium_path import SectionPath, systems_of_sections
-from equisection.motion.map_dataset import critical_of
 from equisection.motion.march import Failure, Recording, march
 from equisection.motion.mechanism import Mechanism
 from equisection.motion.mode_tracking import Spectrum
