@@ -14,8 +14,9 @@ from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.motion.beams import BeamParameters
 from equisection.motion.body_in_flow import BodyInFlow
+from equisection.motion.continuation import continued
 from equisection.motion.critical import Critical, critical_of, jumps
-from equisection.motion.equilibrium_path import BeamPath, SectionPath, all_branches, continued
+from equisection.motion.equilibrium_path import BeamPath, SectionPath, all_branches
 from equisection.motion.map_dataset import map_of_body
 from equisection.motion.sections import section_system
 from equisection.motion.stability import critical_speed
