@@ -107,6 +107,22 @@ def test_a_run_without_incidences_has_no_map() -> None:
     assert not names & {entry.name for entry in catalogue.CATALOGUE if entry.job() == MAP}
 
 
+def test_figures_of_one_incidence_are_left_out_of_a_run_over_several() -> None:
+    """Their lines over k* or speed would join incidences."""
+    of_one = {"response", "hysteresis", "growth-rate", "section-and-beam"}
+    over = {
+        count: {entry.name for entry in catalogue.figures(load_config(raw))}
+        for count, raw in (
+            (0, {}),
+            (1, {"sweep": {"incidence_deg": [2.5]}}),
+            (2, {"sweep": {"incidence_deg": [2.5, 5]}}),
+        )
+    }
+    assert of_one <= over[0]
+    assert of_one <= over[1]
+    assert not of_one & over[2]
+
+
 MAP = "figures_of_map"
 
 

@@ -144,6 +144,19 @@ def grid_study(run: RunFiles) -> list[str]:
     return [f"{run.folder}/tables/grid_study.csv"] if plan.has_grid_study(run.config) else []
 
 
+def _at_one_incidence(config: Config) -> bool:
+    """Tell whether the sweep is at one incidence, so that a line over k* or speed is one beam."""
+    return len(config.sweep.incidence_deg) <= 1
+
+
+def _has_section_at_one_incidence(config: Config) -> bool:
+    return _has_section_model(config) and _at_one_incidence(config)
+
+
+def _has_both_at_one_incidence(config: Config) -> bool:
+    return plan.has_both(config) and _at_one_incidence(config)
+
+
 def _has_section_model(config: Config) -> bool:
     return "2d" in plan.dimensions(config)
 
@@ -279,13 +292,14 @@ CATALOGUE = (
         "response",
         _HISTORIES,
         {"reduction": "reduction", "boundary": "beam.boundary"},
+        exists=_at_one_incidence,
     ),
     Entry(
         "hysteresis",
         "hysteresis",
         _HISTORIES,
         {"reduction": "reduction"},
-        exists=_has_section_model,
+        exists=_has_section_at_one_incidence,
         drawn_with="response",
     ),
     Entry(
@@ -296,12 +310,13 @@ CATALOGUE = (
             "linear_theory": "comparison/linear_theory.csv",
             "references": references,
         },
+        exists=_at_one_incidence,
     ),
     Entry(
         "section-and-beam",
         "section against beam",
         {**_SUMMARY, "deviations": "comparison/section_and_beam.csv"},
-        exists=plan.has_both,
+        exists=_has_both_at_one_incidence,
         drawn_with="growth_rate",
     ),
     Entry(
