@@ -71,9 +71,14 @@ def speeds(
     equivalent: Path,
     raw_config: dict[str, Any],
     output: Path,
+    *,
     known: KnownErrors | None = None,
+    stability: Path | None = None,
 ) -> None:
-    """Write the critical speed of each model with its known error, and tell it."""
+    """Write the critical speed of each model with its known error, and tell it.
+
+    ``stability`` is the table of the map of stability, of a run that has one.
+    """
     config, data = load_config(raw_config), read_dataset(equivalent)
     flow, table = config.flow, pd.read_csv(summary)
     given = AsGiven(nominal_k_star(data), flow.speed)
@@ -94,7 +99,9 @@ def speeds(
         and not model.corrected
         and not section_refusal(data, model.reduction)
     }
-    if isinstance(solver, HasSectionLoads) and sections:
+    if stability is not None:
+        found.append(critical_speeds.from_map(pd.read_csv(stability)))
+    elif isinstance(solver, HasSectionLoads) and sections:
         values = config.sweep.values()
         if onset_axis(varied(config)) is not SPEED:
             values = tuple(map(given.speed_at, values))
@@ -163,7 +170,8 @@ if __name__ == "__main__":
             equivalent,
             snakemake.params.config,
             Path(snakemake.output.critical_speed),
-            known,
+            known=known,
+            stability=next(map(Path, snakemake.input.stability), None),
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

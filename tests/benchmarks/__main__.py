@@ -28,6 +28,7 @@ from tests.benchmarks import (  # noqa: E402
     openfoam,
     outlines,
     plate,
+    stability_map,
 )
 from tests.benchmarks.measure import Row  # noqa: E402
 
@@ -43,6 +44,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "openfoam": openfoam.rows,
     "outlines": outlines.rows,
     "plate": plate.rows,
+    "stability-map": stability_map.rows,
 }
 
 

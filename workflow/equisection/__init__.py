@@ -34,6 +34,7 @@ __all__ = [
     "reduce",
     "release",
     "stability",
+    "stability_map",
 ]
 
 if TYPE_CHECKING:
@@ -43,6 +44,7 @@ if TYPE_CHECKING:
     from equisection.beam.beam import Beam
     from equisection.beam.section import Section
     from equisection.errors import EquisectionError
+    from equisection.motion.map_dataset import stability_map
     from equisection.motion.stability import critical_speed, stability
     from equisection.reduction.beam_section import reduce
     from equisection.solvers.embedded.section_release import release
@@ -58,6 +60,7 @@ else:
         "reduce": "reduction.beam_section",
         "release": "solvers.embedded.section_release",
         "stability": "motion.stability",
+        "stability_map": "motion.map_dataset",
     }
 
     def __getattr__(name: str) -> object:

@@ -278,11 +278,46 @@ def sections_against_beam():
     return [f"{RESULTS}/comparison/section_and_beam.csv"]
 
 
+def stability_table_of_map():
+    """Return the table of the map of stability, if the run has one."""
+    if not plan.has_stability_map(CONFIG):
+        return []
+    return [f"{RESULTS}/comparison/stability.csv"]
+
+
+def in_use_of_map():
+    """Return the table of what the models are like at the design speed, if the run has one."""
+    if not plan.has_stability_map(CONFIG) or CONFIG.flow.design_speed is None:
+        return {}
+    return {"in_use": f"{RESULTS}/comparison/in_use.csv"}
+
+
+def structure_of_map():
+    """Return the files that the models of the map of stability are made from."""
+    return {
+        name: path
+        for model in CONFIG.sweep.models
+        for name, path in structure_of(model).items()
+    }
+
+
+def map_files():
+    """Return the map of stability with its tables, if the run has one."""
+    if not plan.has_stability_map(CONFIG):
+        return []
+    return [
+        f"{RESULTS}/comparison/stability_map.nc",
+        *stability_table_of_map(),
+        *in_use_of_map().values(),
+    ]
+
+
 def comparison_files():
     """Return the tables that compare the models with each other."""
     tables = ("summary", "onset", "critical_speed", "linear_theory")
     missing = () if CONFIG.compute else ("missing",)
     return [
+        *map_files(),
         *(f"{RESULTS}/comparison/{name}.csv" for name in (*tables, *missing)),
         *sections_against_beam(),
     ]

@@ -76,6 +76,7 @@ rule onset:
         summary=f"{RESULTS}/comparison/summary.csv",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+        stability=stability_table_of_map(),
     output:
         onset=report(
             f"{RESULTS}/comparison/onset.csv",
@@ -132,3 +133,37 @@ rule onset:
         "onset of the instability"
     script:
         "../../scripts/onset.py"
+
+
+if plan.has_stability_map(CONFIG):
+
+    rule stability_map:
+        """Stability over incidence and speed, its critical speeds, and the design speed."""
+        input:
+            **structure_of_map(),
+            polars=solver_input_files(),
+        output:
+            **in_use_of_map(),
+            stability_map=f"{RESULTS}/comparison/stability_map.nc",
+            stability=report(
+                f"{RESULTS}/comparison/stability.csv",
+                caption="../report/stability.rst",
+                category="Tables",
+                labels={
+                    "table": "stability",
+                    "shows": "critical speed over incidence",
+                },
+            ),
+        log:
+            f"{LOGS}/stability_map.log",
+        priority: FIRST
+        localrule: True
+        conda:
+            ENVIRONMENT
+        params:
+            code=code("stability_map"),
+            config=RESOLVED,
+        message:
+            "stability over incidence and speed"
+        script:
+            "../../scripts/stability_map.py"

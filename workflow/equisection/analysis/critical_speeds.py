@@ -176,6 +176,14 @@ def from_eigenvalues(
     return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
 
 
+def from_map(stability: pd.DataFrame) -> pd.DataFrame:
+    """Return the critical speed of the models of a map of stability (``stability.csv``)."""
+    known = stability[np.isfinite(stability["incidence_deg"])].assign(
+        basis=EIGENVALUE, energy_share=lambda table: table[list(SHARES)].max(axis=1)
+    )
+    return known[[name for name in COLUMNS if name != "margin"]]
+
+
 def with_margin(tables: Iterable[pd.DataFrame], design_speed: float | None) -> pd.DataFrame:
     """Return ``comparison/critical_speed.csv`` of some tables, by model and incidence.
 

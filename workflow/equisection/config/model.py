@@ -207,18 +207,38 @@ def _resolutions_exist(
             )
 
 
-@check("flow.incidence_deg", "embedded.symmetric", "solver", "unsteady.start")
+@check(
+    "flow.incidence_deg", "sweep.incidence_deg", "embedded.symmetric", "solver", "unsteady.start"
+)
 def _set_in_motion(
-    incidence_deg: float, symmetric: bool, solver: str, start: StartKeys
+    incidence_deg: float,
+    of_sweep: tuple[float, ...],
+    symmetric: bool,
+    solver: str,
+    start: StartKeys,
 ) -> Iterator[Problem]:
     """Refuse a release from an equilibrium, after which anything looks stable."""
-    if incidence_deg == 0 and (symmetric or solver != "embedded") and not start.is_given:
+    if of_sweep:
+        yield from _set_in_motion_at(of_sweep, symmetric, solver, start)
+    elif incidence_deg == 0 and (symmetric or solver != "embedded") and not start.is_given:
         yield Problem(
             "flow.incidence_deg",
             incidence_deg,
             "allowed is 0 with unsteady.start.twist_deg, or any other, such as 0.1: a symmetric "
             "section has no loads at 0 deg, so nothing sets it in motion and the sweep would say "
             "nothing of its stability",
+        )
+
+
+def _set_in_motion_at(
+    incidences_deg: tuple[float, ...], symmetric: bool, solver: str, start: StartKeys
+) -> Iterator[Problem]:
+    if 0.0 in incidences_deg and (symmetric or solver != "embedded") and not start.is_given:
+        yield Problem(
+            f"sweep.incidence_deg.{incidences_deg.index(0.0)}",
+            0.0,
+            "allowed is 0 with unsteady.start.twist_deg, such as 0.1: a symmetric section has no "
+            "loads at 0 deg, so nothing sets it in motion and its runs would say nothing",
         )
 
 

@@ -144,6 +144,19 @@ def grid_study(run: RunFiles) -> list[str]:
     return [f"{run.folder}/tables/grid_study.csv"] if plan.has_grid_study(run.config) else []
 
 
+def _at_one_incidence(config: Config) -> bool:
+    """Tell whether the sweep is at one incidence, so that a line over k* or speed is one beam."""
+    return len(config.sweep.incidence_deg) <= 1
+
+
+def _has_section_at_one_incidence(config: Config) -> bool:
+    return _has_section_model(config) and _at_one_incidence(config)
+
+
+def _has_both_at_one_incidence(config: Config) -> bool:
+    return plan.has_both(config) and _at_one_incidence(config)
+
+
 def _has_section_model(config: Config) -> bool:
     return "2d" in plan.dimensions(config)
 
@@ -179,6 +192,10 @@ _CORRECTION = {**_POLAR_2D, **_POLAR_3D, "correction": "steady/correction.nc"}
 _RESOLUTION = {"resolution": "steady.resolution"}
 _INCIDENCE = {"incidence_deg": "flow.incidence_deg"}
 _OF_MODES, _OF_LOADS = "figures_of_modes", "figures_of_loads"
+
+_MAP = {"stability_map": "comparison/stability_map.nc"}
+_DESIGN = {"design_speed": "flow.design_speed"}
+_OF_MAP = "figures_of_map"
 
 #: Every figure, in the order of Fig. 1: structure, steady loads, response.
 CATALOGUE = (
@@ -275,13 +292,14 @@ CATALOGUE = (
         "response",
         _HISTORIES,
         {"reduction": "reduction"},
+        exists=_at_one_incidence,
     ),
     Entry(
         "hysteresis",
         "hysteresis",
         _HISTORIES,
         {"reduction": "reduction"},
-        exists=_has_section_model,
+        exists=_has_section_at_one_incidence,
         drawn_with="response",
     ),
     Entry(
@@ -292,13 +310,54 @@ CATALOGUE = (
             "linear_theory": "comparison/linear_theory.csv",
             "references": references,
         },
+        exists=_at_one_incidence,
     ),
     Entry(
         "section-and-beam",
         "section against beam",
         {**_SUMMARY, "deviations": "comparison/section_and_beam.csv"},
-        exists=plan.has_both,
+        exists=_has_both_at_one_incidence,
         drawn_with="growth_rate",
+    ),
+    Entry(
+        "critical-speed",
+        "critical speed over incidence",
+        _MAP,
+        _DESIGN,
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
+    ),
+    Entry(
+        "modes-over-speed",
+        "damping and frequency over speed",
+        _MAP,
+        {**_INCIDENCE, **_DESIGN},
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
+    ),
+    Entry(
+        "static-twist",
+        "static twist and share of the divergence speed",
+        _MAP,
+        _DESIGN,
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
+    ),
+    Entry(
+        "damping-below-design",
+        "damping up to 1.2 of the design speed",
+        _MAP,
+        _DESIGN,
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
+    ),
+    Entry(
+        "motion-at-onset",
+        "motion at the onset",
+        _MAP,
+        _INCIDENCE,
+        exists=plan.has_stability_map,
+        drawn_with=_OF_MAP,
     ),
 )
 

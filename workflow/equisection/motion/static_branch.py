@@ -42,6 +42,7 @@ class BranchEnd(StrEnum):
 
     FOLD = "fold"
     POLAR = "end of the polar"
+    MISSING = "no steady flow at rest"
     NONE = "none"
 
 
@@ -93,7 +94,7 @@ class StaticBranch:
         way = math.copysign(1.0, moment)
         limit = polar.incidence_range[1 if way > 0 else 0]
         ends = {
-            BranchEnd.FOLD: _first(_fold_function(cubic, incidence_rad), incidence_rad, way),
+            BranchEnd.FOLD: _first(fold_function(cubic, incidence_rad), incidence_rad, way),
             BranchEnd.NONE: _first(cubic, incidence_rad, way),
             BranchEnd.POLAR: limit,
         }
@@ -135,13 +136,14 @@ def section_equilibrium(system: StripSystem, incidence_rad: Floats) -> tuple[Flo
     layout = system.layout
     states = np.zeros((alpha.size, layout.size))
     states[:, layout.twist] = (alpha - system.incidence)[:, None]
-    states[:, layout.deflection] = lift[:, None] / system.structure.bending_stiffness
+    carried = system.structure.lift_factor * lift
+    states[:, layout.deflection] = carried[:, None] / system.structure.bending_stiffness
     for number, value in enumerate((alpha, alpha, alpha, lift)):
         states[:, layout.lag(number)] = value[:, None]
     return states, system.deficits(alpha[:, None])
 
 
-def _fold_function(cubic: scipy.interpolate.PPoly, start: float) -> scipy.interpolate.PPoly:
+def fold_function(cubic: scipy.interpolate.PPoly, start: float) -> scipy.interpolate.PPoly:
     """c_m - (alpha - theta_0) dc_m/dalpha, which vanishes where q has a maximum or minimum."""
     third, second, first, constant = cubic.c
     arm = cubic.x[:-1] - start

@@ -60,10 +60,10 @@ def release_state(
     if not np.any(heave_rate):
         return states, deficits
     states[:, layout.deflection_rate.start] += heave_rate
-    return states, _consistent_deficits(system, states, deficits)
+    return states, consistent_deficits(system, states, deficits)
 
 
-def _consistent_deficits(system: StripSystem, states: Floats, near: Floats) -> Floats:
+def consistent_deficits(system: StripSystem, states: Floats, near: Floats) -> Floats:
     """Deficits u of given states, by iteration from near ones; NaN where it does not end."""
     one = np.ones((states.shape[0], 1))
     u = near
@@ -76,17 +76,21 @@ def _consistent_deficits(system: StripSystem, states: Floats, near: Floats) -> F
     return u
 
 
-def equilibrium(system: StripSystem) -> tuple[Floats, Floats]:
+def equilibrium(system: StripSystem, near: Floats | None = None) -> tuple[Floats, Floats]:
     """States Y (N, n) and deficits u (N, d S) of static aeroelastic equilibrium.
 
     Lanes that have none inside the polar (or near which Newton's method does not converge)
-    are NaN.
+    are NaN. Of several equilibria the one near the bubble incidences ``near`` (rad), shape
+    (N, S), is found.
     """
-    return _steady(system, np.arange(system.layout.size))
+    return _steady(system, np.arange(system.layout.size), near=near)
 
 
 def _steady(
-    system: StripSystem, free: NDArray[np.intp], held: Floats | None = None
+    system: StripSystem,
+    free: NDArray[np.intp],
+    held: Floats | None = None,
+    near: Floats | None = None,
 ) -> tuple[Floats, Floats]:
     """Steady state of the states ``free``; the first ones are ``held`` (N, m), others are zero."""
     n = system.layout.size
@@ -101,6 +105,7 @@ def _steady(
     probe = constant + bubbles[:, :, free] @ response
     gain, offset = probe[:, :, :-1], probe[:, :, -1]
     start = offset.copy() if not np.any(gain) else np.zeros_like(offset)
+    start = start if near is None else near.copy()
     x = _newton(system, gain, offset, start)
     lost = np.asarray(np.isnan(x).any(axis=1))
     if lost.any():

@@ -12,6 +12,7 @@ if TYPE_CHECKING:  # the graph is built from what solvers provide, without numer
     from equisection.aerodynamics.polar import Polar
     from equisection.aerodynamics.separation import SeparationLags
     from equisection.cases import SteadyCase, UnsteadyCase
+    from equisection.motion.body_in_flow import BodyInFlow
     from equisection.results.plate_grid import PlateGrid
     from equisection.results.section_mesh import SectionMesh
     from equisection.results.steady_result import SteadyResult
@@ -26,6 +27,7 @@ class Capability(StrEnum):
     SURFACE = "surface"  # pressure and friction along the section and over the beam
     FIELDS = "fields"  # the flow near the tip of the beam
     MESH = "mesh"  # a mesh of section and beam, which can be shown and refined
+    STATES = "states"  # motions are equations, so that eigenvalues tell their stability
 
 
 #: What starts the ranks of MPI where no scheduler says otherwise.
@@ -150,4 +152,13 @@ class HasKnownError(Protocol):
 
     def known_error(self, dimension: str, basis: str) -> KnownError | None:
         """Return the error of runs of a dimension and basis, or None where nobody knows it."""
+        ...
+
+
+@runtime_checkable
+class HasStates(Protocol):
+    """A solver with the capability ``states``."""
+
+    def body(self, case: UnsteadyCase) -> BodyInFlow:
+        """Return section or beam of a case in a flow of any speed, without its correction."""
         ...

@@ -39,7 +39,7 @@ class SolverEntry:
 SOLVERS: dict[str, SolverEntry] = {
     "embedded": SolverEntry(
         "equisection.solvers.embedded.adapter",
-        frozenset({Capability.BATCH}),
+        frozenset({Capability.BATCH, Capability.STATES}),
         work="equisection.solvers.embedded.job_work",
     ),
     "openfoam": SolverEntry(

@@ -219,7 +219,10 @@ def _axis_of(piece: str, among: Iterable[Axis]) -> Axis | None:
 
 def varied(config: Config) -> dict[Axis, tuple[float, ...]]:
     """Return the axes that the sweep of a configuration varies, with their values, ascending."""
-    return {K_STAR if config.sweep.speed is None else SPEED: config.sweep.values()}
+    onset = K_STAR if config.sweep.speed is None else SPEED
+    angles = config.sweep.incidence_deg
+    values = {INCIDENCE: tuple(sorted(angles))} if angles else {}
+    return values | {onset: config.sweep.values()}
 
 
 def sweep_points(config: Config) -> list[Point]:

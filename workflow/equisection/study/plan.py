@@ -251,6 +251,11 @@ def has_surface(config: Config) -> bool:
     return Capability.SURFACE in SOLVERS[config.solver].provides
 
 
+def has_stability_map(config: Config) -> bool:
+    """Tell whether the run has a map of stability: incidences, and motions that are equations."""
+    return bool(config.sweep.incidence_deg) and Capability.STATES in SOLVERS[config.solver].provides
+
+
 def has_grid_study(config: Config) -> bool:
     """Tell whether the section is run on the three meshes that an order of convergence needs."""
     return has_mesh(config) and len(resolutions(config)) >= 3

@@ -10,7 +10,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
-from equisection.keys.values import NULLABLE, NUMBER, WHOLE, Positive
+from equisection.keys.values import NULLABLE, NUMBER, WHOLE, Angle, Positive
 
 ModelName = Literal[
     "2d",
@@ -64,6 +64,12 @@ class Sweep(KeyGroup):
         description="Speeds V (m/s) in the place of `k_star`, in the same forms: the beam as it is "
         "given, in a flow of each speed, up to Mach 0.3. Rigid polars are those at `flow.speed`.",
     )
+    incidence_deg: tuple[Angle, ...] = Field(
+        (),
+        description="Rigid incidences theta_0 (deg) in the place of `flow.incidence_deg`: each "
+        "model runs at each of them, and `comparison/stability_map.nc` has its stability over "
+        "incidence and speed. Empty for `flow.incidence_deg` alone.",
+    )
     models: Annotated[tuple[ModelName, ...], Field(min_length=1)] = Field(
         ("2d", "2d-corrected", "3d", "2d-paper", "2d-corrected-paper"),
         description="Models to run, each once. `2d` and `2d-corrected` use the chosen "
@@ -112,6 +118,11 @@ class Sweep(KeyGroup):
         if given is None:  # the check below refuses it
             return ()
         return given.values() if isinstance(given, Range) else tuple(sorted(given))
+
+
+@check("sweep.incidence_deg")
+def _distinct_incidences(angles: tuple[float, ...]) -> Iterator[Problem]:
+    yield from _distinct("sweep.incidence_deg", "incidence", angles)
 
 
 @check("sweep.k_star")

@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,10 @@ from equisection.solvers.embedded.known_errors import known_error
 from equisection.solvers.known_error import KnownError
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
+if TYPE_CHECKING:
+    from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+    from equisection.motion.body_in_flow import BodyInFlow
+
 Floats = NDArray[np.float64]
 
 #: Incidences that the thin analytic plate covers (rad).
@@ -45,7 +49,7 @@ class Adapter:
 
     name = "embedded"
     version = "6"
-    provides = frozenset({Capability.BATCH})
+    provides = frozenset({Capability.BATCH, Capability.STATES})
 
     def __init__(
         self, polar: Polar, strips: int, lags: SeparationLags, incidence_point: float
@@ -151,18 +155,38 @@ class Adapter:
     def _release(self, cases: list[UnsteadyCase], progress: Progress) -> list[UnsteadyResult]:
         # Imported here: writing a case file takes this module too, and none of what follows.
         from equisection.aerodynamics.finite_span import FiniteSpan  # noqa: PLC0415
-        from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
         from equisection.solvers.embedded.releases import (  # noqa: PLC0415
             release_all_beams,
             release_all_sections,
         )
 
-        rear_point = self._incidence_point - MID_CHORD
-        loads = UnsteadyLoads.from_polar(self._polar, self._lags, rear_point)
+        loads = self._loads()
         if cases[0].dimension == "2d":
             return release_all_sections(cases, loads, progress)
         strips, span = self._span(cases[0].geometry)
         return release_all_beams(cases, loads, strips, FiniteSpan.of(span), progress)
+
+    def body(self, case: UnsteadyCase) -> BodyInFlow:
+        """Return section or beam of a case in a flow of any speed, without its correction."""
+        from equisection.aerodynamics.finite_span import FiniteSpan  # noqa: PLC0415
+        from equisection.motion.body_in_flow import BodyInFlow  # noqa: PLC0415
+        from equisection.solvers.embedded.releases import beam_parameters  # noqa: PLC0415
+
+        loads, speed, chord = self._loads(), case.medium.speed, case.geometry.chord
+        if case.beam is None:
+            assert case.section is not None, "a case that is not run has no body"
+            return BodyInFlow.of_section_in_flow(
+                case.section, loads, speed=speed, chord=chord, k_star=case.k_star
+            )
+        strips, span = self._span(case.geometry)
+        parameters = beam_parameters([case.beam], strips, FiniteSpan.of(span))
+        return BodyInFlow.of_beam(parameters, loads, speed=speed, chord=chord, k_star=case.k_star)
+
+    def _loads(self) -> UnsteadyLoads:
+        from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
+
+        rear_point = self._incidence_point - MID_CHORD
+        return UnsteadyLoads.from_polar(self._polar, self._lags, rear_point)
 
     def _section(self, case: SteadyCase) -> SteadyResult:
         alpha = math.radians(case.incidence_deg)

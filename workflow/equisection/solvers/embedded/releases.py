@@ -112,8 +112,22 @@ def release_all_beams(
 
     ``finite_span`` is what the ``strips`` do to each other.
     """
-    modes = [case.beam for case in cases if case.beam]
-    parameters = BeamParameters.from_modes(
+    parameters = beam_parameters([case.beam for case in cases if case.beam], strips, finite_span)
+    histories = release_beams(
+        parameters,
+        loads,
+        **_common_settings(cases[0]),
+        monitor=monitor_of([Judge.of(case) for case in cases], _beam_tip),
+        progress=progress,
+    )
+    return [_beam_result(case, histories, lane) for lane, case in enumerate(cases)]
+
+
+def beam_parameters(
+    modes: list[BeamModes], strips: SpanStrips, finite_span: FiniteSpan
+) -> BeamParameters:
+    """Return the modes of some beams at the strips, with what these do to each other."""
+    return BeamParameters.from_modes(
         span=np.array(modes[0].span),
         torsion_shapes=np.array(modes[0].torsion_shape),
         torsion_frequencies=np.array([beam.torsion_frequency for beam in modes]),
@@ -129,14 +143,6 @@ def release_all_beams(
         axis=modes[0].elastic_axis - MID_CHORD,
         fittings=_fittings(modes),
     )
-    histories = release_beams(
-        parameters,
-        loads,
-        **_common_settings(cases[0]),
-        monitor=monitor_of([Judge.of(case) for case in cases], _beam_tip),
-        progress=progress,
-    )
-    return [_beam_result(case, histories, lane) for lane, case in enumerate(cases)]
 
 
 def _fittings(modes: list[BeamModes]) -> Fittings | None:
