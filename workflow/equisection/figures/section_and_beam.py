@@ -24,8 +24,8 @@ _QUANTITIES = {
     "frequency": ("frequency", "section over beam $- 1$ (%)", 100.0),
     "growth": ("growth rate", "section $-$ beam ($10^{-3}$ V/c)", 1000.0),
 }
-#: Height (pt) above a panel of what is on the line of its title, with an axis at the top or without.
-_ABOVE_AXIS, _ABOVE = 30.0, 3.0
+#: Height (pt) of the words beside the title above a panel, with an axis at the top and without.
+_ABOVE_AXIS, _ABOVE = 24.0, 3.0
 #: Units of the root mean squares beside the panels' titles.
 _UNITS = {"twist": " %", "deflection": " %", "frequency": " %", "growth": ""}
 
