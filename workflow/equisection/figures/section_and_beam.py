@@ -24,6 +24,8 @@ _QUANTITIES = {
     "frequency": ("frequency", "section over beam $- 1$ (%)", 100.0),
     "growth": ("growth rate", "section $-$ beam ($10^{-3}$ V/c)", 1000.0),
 }
+#: Height (pt) of the words beside the title above a panel, with an axis at the top and without.
+_ABOVE_AXIS, _ABOVE = 24.0, 3.0
 #: Units of the root mean squares beside the panels' titles.
 _UNITS = {"twist": " %", "deflection": " %", "frequency": " %", "growth": ""}
 
@@ -84,11 +86,12 @@ def _root_mean_squares(axes: Axes, values: pd.Series, unit: str) -> None:
     words = [(str(model), f"{value:.2g}{unit}") for model, value in values.dropna().items()]
     place = 1.0
     for model, word in reversed(words):
-        axes.text(
-            place,
-            1.02,
+        axes.annotate(
             word,
-            transform=axes.transAxes,
+            (place, 1.0),
+            xycoords="axes fraction",
+            xytext=(0.0, _ABOVE_AXIS if axes.child_axes else _ABOVE),
+            textcoords="offset points",
             ha="right",
             va="bottom",
             fontsize=6.5,
