@@ -3,7 +3,7 @@
 From each vertex of the wall goes a ray along the bisector of its edges. At a sharp convex corner
 rays fan out, at a concave one the ends of the rays beside it give way to that of the corner. The
 layers are as thick as their cells' growth allows, less where another wall is near. Where a cell
-folds or the front crosses itself all of them are made thinner.
+folds, or the front crosses itself or its edges become too short, all of them are made thinner.
 """
 
 from __future__ import annotations
@@ -35,6 +35,9 @@ _SLOPE = 0.4
 _GIVES_WAY = 3.0
 #: Factor by which layers that fold are made thinner, and how often.
 _THINNER, _TRIES = 0.8, 14
+#: Least length of an edge of the front over that of its edge on the wall: cells beyond it would be
+#: as much smaller than those along the wall.
+_NARROWEST = 0.15
 #: Passes that smooth the thickness.
 _SMOOTHING = 10
 #: Least cosine of half the turning at a mitred corner.
@@ -87,7 +90,12 @@ def layers_of(wall: Wall, sizes: OutlineSizes, refinement: float) -> Layers:
             break
         layers = _layers(wall, rays, sizes, refinement, thinner)
         areas = corner_areas(layers.cells)
-        if areas.min() > 0 and shapely.Polygon(layers.cells.points[layers.front]).is_valid:
+        front = layers.cells.points[layers.front]
+        if (
+            areas.min() > 0
+            and _narrowing(wall, rays, front) > _NARROWEST
+            and shapely.Polygon(front).is_valid
+        ):
             return layers
         worst = layers.cells.points[layers.cells.corners[int(np.argmin(areas))][0]]
         thinner *= _THINNER
@@ -95,6 +103,15 @@ def layers_of(wall: Wall, sizes: OutlineSizes, refinement: float) -> Layers:
         f"no layers of cells fit around the outline at x/c = {worst[0] + 0.5:.4g}, y/c = "
         f"{worst[1]:.4g}: widen or fill gaps and smooth the outline there"
     )
+
+
+def _narrowing(wall: Wall, rays: _Rays, front: Floats) -> float:
+    """Return the least length of an edge of the front over that of its edge on the wall."""
+    on_wall = wall.points[rays.base]
+    lengths = np.hypot(*(np.roll(on_wall, -1, axis=0) - on_wall).T)
+    at_front = np.hypot(*(np.roll(front, -1, axis=0) - front).T)
+    has_edge = lengths > 0  # not between the rays of a fan
+    return float((at_front[has_edge] / lengths[has_edge]).min())
 
 
 def _layers(
