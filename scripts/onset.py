@@ -7,7 +7,9 @@ from typing import Any
 
 import pandas as pd
 
+from equisection.aerodynamics.derivatives import Derivatives
 from equisection.analysis import critical_speeds
+from equisection.analysis.derivative_speeds import from_derivatives
 from equisection.analysis.deviations import deviations
 from equisection.analysis.linear_theory import (
     linear_onset,
@@ -16,13 +18,16 @@ from equisection.analysis.linear_theory import (
     with_linear_theory,
 )
 from equisection.analysis.onset import onset_table, with_speeds
-from equisection.config import load_config
+from equisection.config import Config, load_config
 from equisection.files import written_whole
+from equisection.motion.derivative_flutter import FlowingBody
+from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import nominal_k_star, section_from_dataset
 from equisection.run.script import logged
 from equisection.solvers.protocol import HasSectionLoads
 from equisection.solvers.registry import solver_from_config
+from equisection.structure.modal_matrices import modal_matrices
 from equisection.study import plan
 from equisection.study.axes import INCIDENCE, SPEED, AsGiven, onset_axis, varied
 
@@ -47,7 +52,14 @@ def main(
     _write(with_speeds(table, AsGiven(nominal_k_star(sections), speed)), output)
 
 
-def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: Path) -> None:
+def speeds(
+    summary: Path,
+    equivalent: Path,
+    raw_config: dict[str, Any],
+    output: Path,
+    *,
+    modes: Path | None = None,
+) -> None:
     """Write the critical speed of each model, and tell it."""
     config, data = load_config(raw_config), read_dataset(equivalent)
     flow, table = config.flow, pd.read_csv(summary)
@@ -83,10 +95,33 @@ def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: 
                 density=flow.density,
             )
         )
+    if config.derivatives.table:
+        bodies = {
+            name: FlowingBody.of_section(section, flow.density)
+            for name, section in sections.items()
+        }
+        if modes is not None:
+            bodies |= _beam(config, modes)
+        derivatives = Derivatives.read(config.derivatives.table)
+        by_table, remarks = from_derivatives(
+            bodies, derivatives, given=given, incidence_deg=flow.incidence_deg
+        )
+        for remark in remarks:
+            logging.getLogger(__name__).warning("%s", remark)
+        found.append(by_table)
     critical = critical_speeds.with_margin(found, flow.design_speed)
     for line in critical_speeds.in_words(critical):
         logging.getLogger(__name__).info("%s", line)
     _write(critical, output)
+
+
+def _beam(config: Config, modes: Path) -> dict[str, FlowingBody]:
+    """Return the beam on the modes of its structure."""
+    beam, structure = config.beam, config.structure
+    of_both = structure.bending_modes, structure.torsion_modes
+    matrices = modal_matrices(beam, modes_from_dataset(read_dataset(modes)), *of_both)
+    body = FlowingBody.of_beam(matrices, beam.chord, beam.elastic_axis, config.flow.density)
+    return {"3d": body}
 
 
 def growth_by_linear_theory(
@@ -134,6 +169,7 @@ if __name__ == "__main__":
             equivalent,
             snakemake.params.config,
             Path(snakemake.output.critical_speed),
+            modes=next(map(Path, snakemake.input.modes), None),
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

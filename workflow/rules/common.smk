@@ -103,6 +103,17 @@ def solver_input_files():
     return given(CONFIG.solver_section.input_files())
 
 
+def table_of_derivatives():
+    """Return the table of flutter derivatives, if the configuration names one."""
+    return [CONFIG.derivatives.table] if CONFIG.derivatives.table else []
+
+
+def modes_of_table():
+    """Return the modes of the beam, if the table of derivatives gives its onset too."""
+    wanted = CONFIG.derivatives.table and "3d" in CONFIG.sweep.models
+    return [f"{RESULTS}/structure/modes.nc"] if wanted else []
+
+
 def kept_files():
     """Return the kept results that are taken where none is computed, so that new ones are seen."""
     found = Path(CONFIG.reuse).rglob("*.nc") if not CONFIG.compute else []

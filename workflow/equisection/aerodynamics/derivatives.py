@@ -118,7 +118,7 @@ class Derivatives:
 
     @classmethod
     def theodorsen(cls, reduced_velocity: ArrayLike, axis: float = _MID_CHORD) -> Derivatives:
-        """Derivatives of a thin plate in attached flow, in closed form.
+        """Return the derivatives of a thin plate in attached flow, in closed form.
 
         Those of Theodorsen's loads (NACA Report 496, 1935).
 
@@ -145,7 +145,7 @@ class Derivatives:
         incidence_deg: float = math.nan,
         label: str = "",
     ) -> Derivatives:
-        """Derivatives of loads Q with (c_l, c_m) = Q (w/c, theta) in harmonic motion.
+        """Return the derivatives of loads Q with (c_l, c_m) = Q (w/c, theta) in harmonic motion.
 
         Parameters
         ----------

@@ -12,6 +12,7 @@ from equisection.config.groups import (
     FREE_TIP,
     MID_CHORD,
     Beam,
+    DerivativeKeys,
     Embedded,
     Flow,
     KeyGroup,
@@ -71,6 +72,9 @@ class Config(KeyGroup):
     steady: Steady = Field(Steady(), description="Steady polars.")
     sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
     unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")
+    derivatives: DerivativeKeys = Field(
+        DerivativeKeys(), description="Flutter derivatives of the section."
+    )
     embedded: Embedded = Field(Embedded(), description="The embedded solver.")
     openfoam: OpenFoam = Field(OpenFoam(), description="OpenFOAM.")
 

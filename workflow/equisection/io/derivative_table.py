@@ -26,6 +26,7 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
@@ -117,7 +118,7 @@ def read_derivative_rows(path: Path) -> DerivativeRows:
             "derivatives are interpolated"
         )
     velocities = tuple(map(_velocity, table))
-    for low, high in zip(velocities, velocities[1:], strict=False):
+    for low, high in itertools.pairwise(velocities):
         if not high > low * (1.0 + 1e-9):
             raise DerivativesFileError(
                 f"{path}: two rows at the reduced velocity {high:.6g}; wanted each once (average "

@@ -78,6 +78,11 @@ class DerivativeOnset:
     mechanism: str
     reason: str = ""
 
+    @property
+    def frequency(self) -> float:
+        """Frequency of the onset (Hz)."""
+        return self.omega / math.tau
+
 
 @dataclass(frozen=True)
 class FlowingBody:
@@ -393,7 +398,7 @@ def critical_speed_by_derivatives(
         "speed_low": (found.speed_low, "m s-1", "lower end of its interval"),
         "speed_high": (found.speed_high, "m s-1", "upper end of its interval"),
         "mechanism": (found.mechanism, "1", "flutter, none or unknown"),
-        "frequency": (found.omega / math.tau, "Hz", "frequency at the onset"),
+        "frequency": (found.frequency, "Hz", "frequency at the onset"),
         "k_star": (
             math.nan if math.isnan(found.speed) else section.k_star(density, found.speed),
             "1",

@@ -13,6 +13,7 @@ from equisection.beam.beam import (
     Damping,
 )
 from equisection.beam.supports import Lump, Support
+from equisection.config.groups.derivative_keys import DerivativeKeys
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
 from equisection.config.groups.openfoam_keys import OpenFoam
@@ -33,6 +34,7 @@ __all__ = [
     "Channel",
     "CrossSection",
     "Damping",
+    "DerivativeKeys",
     "Elements",
     "Embedded",
     "Flow",
