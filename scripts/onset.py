@@ -59,6 +59,7 @@ def speeds(
     output: Path,
     *,
     modes: Path | None = None,
+    table_of_derivatives: Path | None = None,
 ) -> None:
     """Write the critical speed of each model, and tell it."""
     config, data = load_config(raw_config), read_dataset(equivalent)
@@ -95,14 +96,14 @@ def speeds(
                 density=flow.density,
             )
         )
-    if config.derivatives.table:
+    if table_of_derivatives is not None:
         bodies = {
             name: FlowingBody.of_section(section, flow.density)
             for name, section in sections.items()
         }
         if modes is not None:
             bodies |= _beam(config, modes)
-        derivatives = Derivatives.read(config.derivatives.table)
+        derivatives = Derivatives.read(table_of_derivatives)
         by_table, remarks = from_derivatives(
             bodies, derivatives, given=given, incidence_deg=flow.incidence_deg
         )
@@ -170,6 +171,7 @@ if __name__ == "__main__":
             snakemake.params.config,
             Path(snakemake.output.critical_speed),
             modes=next(map(Path, snakemake.input.modes), None),
+            table_of_derivatives=next(map(Path, snakemake.input.derivatives), None),
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

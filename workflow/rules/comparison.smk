@@ -75,7 +75,7 @@ rule onset:
         summary=f"{RESULTS}/comparison/summary.csv",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
-        derivatives=given(table_of_derivatives()),
+        derivatives=table_of_derivatives(),
         modes=modes_of_table(),
     output:
         onset=report(

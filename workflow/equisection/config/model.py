@@ -15,6 +15,7 @@ from equisection.config.groups import (
     DerivativeKeys,
     Embedded,
     Flow,
+    ForcedKeys,
     KeyGroup,
     Lump,
     OpenFoam,
@@ -72,6 +73,7 @@ class Config(KeyGroup):
     steady: Steady = Field(Steady(), description="Steady polars.")
     sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
     unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")
+    forced: ForcedKeys = Field(ForcedKeys(), description="Forced motion of the section.")
     derivatives: DerivativeKeys = Field(
         DerivativeKeys(), description="Flutter derivatives of the section."
     )

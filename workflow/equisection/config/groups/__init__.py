@@ -16,6 +16,7 @@ from equisection.beam.supports import Lump, Support
 from equisection.config.groups.derivative_keys import DerivativeKeys
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
+from equisection.config.groups.forced_keys import ForcedKeys
 from equisection.config.groups.openfoam_keys import OpenFoam
 from equisection.config.groups.solver_keys import SolverKeys
 from equisection.config.groups.steady import Steady
@@ -38,6 +39,7 @@ __all__ = [
     "Elements",
     "Embedded",
     "Flow",
+    "ForcedKeys",
     "KeyGroup",
     "Lump",
     "ModelName",
