@@ -118,6 +118,12 @@ def modes_of_table():
     return [f"{RESULTS}/structure/modes.nc"] if wanted else []
 
 
+def case_files_of_motions():
+    """Return the case files of the forced motions."""
+    names = ["forced"] if IN_ONE_JOB else FORCED_NAMES
+    return [f"{RESULTS}/cases/forced/2d/{name}.json" for name in names]
+
+
 def derivative_files():
     """Return the derivatives from forced motion, if the section is moved."""
     names = ("2d", "2d-fit") if FORCED_NAMES else ()

@@ -78,9 +78,7 @@ else:
 
     use rule steady_results as forced_results with:
         input:
-            cases=expand(
-                f"{RESULTS}/cases/forced/2d/{{motion}}.json", motion=FORCED_NAMES
-            ),
+            cases=case_files_of_motions(),
             results=expand(f"{RESULTS}/forced/2d/{{motion}}.nc", motion=FORCED_NAMES),
         output:
             f"{RESULTS}/forced/2d/forced.json",
@@ -93,6 +91,7 @@ else:
 rule forced_derivatives:
     """Find the flutter derivatives from the loads in forced motion."""
     input:
+        cases=case_files_of_motions(),
         index=f"{RESULTS}/forced/2d/forced.json",
     output:
         table=report(

@@ -16,6 +16,7 @@ from equisection.aerodynamics.load_response import LoadResponse, load_response
 from equisection.cases import ForcedCase
 from equisection.errors import ResultFileError
 from equisection.motion.forced_signal import ForcedSignal
+from equisection.results.forced_result import signal_of
 
 Floats = NDArray[np.float64]
 
@@ -71,13 +72,6 @@ def derivatives_of(results: Mapping[str, tuple[ForcedCase, xr.Dataset]]) -> Forc
     return ForcedAnswers(table, pd.DataFrame(fits, columns=list(FIT_COLUMNS)), tuple(remarks))
 
 
-def signal_of(case: ForcedCase) -> ForcedSignal:
-    """Return the motion of a case."""
-    rows = [(one.frequency, one.amplitude, one.phase) for one in case.harmonics]
-    frequencies, amplitudes, phases = np.array(rows).T
-    return ForcedSignal(frequencies, amplitudes, phases, case.ramp)
-
-
 def _record(name: str, case: ForcedCase, data: xr.Dataset) -> xr.Dataset:
     """Return the samples after the settling time."""
     if data.attrs.get("failure"):
@@ -95,7 +89,7 @@ def _per_motion(
     signal: ForcedSignal, found: LoadResponse
 ) -> tuple[list[float], list[complex], list[float]]:
     """Return reduced velocities, load over motion and its spread."""
-    velocity = [float(f"{one:.10g}") for one in math.tau / signal.frequencies]
+    velocity = [float(f"{one:.6g}") for one in math.tau / signal.frequencies]
     moved = signal.response
     return velocity, list(found.response / moved), list(found.spread / np.abs(moved))
 

@@ -9,12 +9,20 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.motion.forced_signal import ForcedSignal
 from equisection.results.spent import Spent
 
 if TYPE_CHECKING:
     from equisection.cases import ForcedCase
 
 Floats = NDArray[np.float64]
+
+
+def signal_of(case: ForcedCase) -> ForcedSignal:
+    """Return the motion of a case."""
+    rows = [(one.frequency, one.amplitude, one.phase) for one in case.harmonics]
+    frequencies, amplitudes, phases = np.array(rows).T
+    return ForcedSignal(frequencies, amplitudes, phases, case.ramp)
 
 
 @dataclass(frozen=True)

@@ -14,20 +14,12 @@ from equisection.aerodynamics.unsteady_loads import ForcedMotion, UnsteadyLoads,
 from equisection.aerodynamics.wake_lags import accurate_lags
 from equisection.cases import ForcedCase
 from equisection.errors import IncidenceOutOfRangeError
-from equisection.motion.forced_signal import ForcedSignal
-from equisection.results.forced_result import ForcedResult
+from equisection.results.forced_result import ForcedResult, signal_of
 
 #: Steps in the shortest period: the rates by differences are then known to 4e-5.
 _STEPS = 400
 #: Steps beyond the end, where differences are one-sided.
 _BEYOND = 4
-
-
-def signal_of(case: ForcedCase) -> ForcedSignal:
-    """Return the motion of a case."""
-    rows = [(one.frequency, one.amplitude, one.phase) for one in case.harmonics]
-    frequencies, amplitudes, phases = np.array(rows).T
-    return ForcedSignal(frequencies, amplitudes, phases, case.ramp)
 
 
 def forced_section(case: ForcedCase, loads: UnsteadyLoads) -> ForcedResult:
@@ -37,7 +29,7 @@ def forced_section(case: ForcedCase, loads: UnsteadyLoads) -> ForcedResult:
     every = max(1, math.ceil(case.output_interval / longest - 1e-9))
     step = case.output_interval / every
     number = round(case.duration / case.output_interval) * every + 1
-    time = step * np.arange(number + _BEYOND)
+    time = np.asarray(step * np.arange(number + _BEYOND), dtype=np.float64)
     moved, still = signal.at(time), np.zeros(time.size)
     twist, deflection = (moved, still) if case.component == "pitch" else (still, moved)
     motion = ForcedMotion(time, math.radians(case.incidence_deg) + twist, deflection)
