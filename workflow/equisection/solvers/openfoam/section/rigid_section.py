@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.cases import ForcedCase, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.results.surface import SectionSurface
 from equisection.solvers.openfoam import flow_setup as flow
@@ -62,7 +62,9 @@ class RigidLoads:
     surface: SectionSurface
 
 
-def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = SIMILAR) -> Mesh:
+def mesh_of(
+    case: SteadyCase | UnsteadyCase | ForcedCase, refinement: float, spacing: Spacing = SIMILAR
+) -> Mesh:
     """Return the mesh of a case.
 
     Raises
@@ -84,7 +86,7 @@ def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing
 
 def run_steady(
     installation: Installation,
-    case: SteadyCase | UnsteadyCase,
+    case: SteadyCase | UnsteadyCase | ForcedCase,
     mesh: Mesh,
     work: Path,
     tell: Tell,
