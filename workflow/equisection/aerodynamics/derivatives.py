@@ -113,7 +113,7 @@ class Derivatives:
             np.array(rows.spread) if rows.spread else None,
             rows.axis,
             rows.incidence_deg,
-            Path(path).name,
+            rows.source or Path(path).name,
         )
 
     @classmethod
@@ -181,9 +181,9 @@ class Derivatives:
             () if self.spread is None else tuple(map(tuple, self.spread.tolist())),
             self.axis,
             self.incidence_deg,
+            self.label,
         )
-        source = [f"source: {self.label}"] if self.label else []
-        write_text(Path(path), derivative_text(rows, (*comments, *source)))
+        write_text(Path(path), derivative_text(rows, comments))
 
     @property
     def frequencies(self) -> tuple[float, float]:

@@ -144,6 +144,10 @@ def grid_study(run: RunFiles) -> list[str]:
     return [f"{run.folder}/tables/grid_study.csv"] if plan.has_grid_study(run.config) else []
 
 
+def _moves_section(config: Config) -> bool:
+    return config.forced.run
+
+
 def _has_section_model(config: Config) -> bool:
     return "2d" in plan.dimensions(config)
 
@@ -269,6 +273,12 @@ CATALOGUE = (
         {**_MODES, "index_of_beam": indices_of_beam},
         exists=_has_beam_model,
         family=_OF_MODES,
+    ),
+    Entry(
+        "flutter-derivatives",
+        "flutter derivatives",
+        {"table": "derivatives/2d.csv"},
+        exists=_moves_section,
     ),
     Entry(
         "response",

@@ -73,6 +73,8 @@ class DerivativeRows:
         Point whose heave it is and that moments are about (x/c from the leading edge).
     incidence_deg
         Mean incidence (deg); NaN where the file does not say.
+    source
+        Where they come from; empty where the file does not say.
     """
 
     reduced_velocity: tuple[float, ...]
@@ -80,6 +82,7 @@ class DerivativeRows:
     spread: tuple[tuple[float, ...], ...]
     axis: float
     incidence_deg: float
+    source: str = ""
 
 
 def read_derivative_rows(path: Path) -> DerivativeRows:
@@ -109,7 +112,8 @@ def read_derivative_rows(path: Path) -> DerivativeRows:
     (line, header), *rows = used
     names = [name.strip().rstrip("*") for name in header.split(",")]
     _check_columns(path, line, names)
-    factor, sign, axis, incidence = _convention(path, lines)
+    said = _said(lines)
+    factor, sign, axis, incidence = _convention(path, said)
     signs = [factor * (sign if mixed < 0.0 else 1.0) for mixed in _MIXED]
     table = sorted((_numbers(path, number, text, names) for number, text in rows), key=_velocity)
     if len(table) < FEWEST_ROWS:
@@ -133,7 +137,7 @@ def read_derivative_rows(path: Path) -> DerivativeRows:
         )
 
     spread = tuple(tuple(map(abs, row)) for row in of(_SPREAD)) if has_spread else ()
-    return DerivativeRows(velocities, of(""), spread, axis, incidence)
+    return DerivativeRows(velocities, of(""), spread, axis, incidence, said.get("source", ""))
 
 
 def _check_columns(path: Path, line: int, names: list[str]) -> None:
@@ -170,13 +174,18 @@ def _check_columns(path: Path, line: int, names: list[str]) -> None:
         )
 
 
-def _convention(path: Path, lines: Iterable[str]) -> tuple[float, float, float, float]:
-    """Return the factor of the force, the sign of heave, the axis and the mean incidence (deg)."""
+def _said(lines: Iterable[str]) -> dict[str, str]:
+    """Return what the comments say, by key."""
     said = {}
     for line in lines:
         key, colon, value = line.strip().removeprefix("#").partition(":")
         if line.strip().startswith("#") and colon:
             said[key.strip().lower()] = value.strip()
+    return said
+
+
+def _convention(path: Path, said: dict[str, str]) -> tuple[float, float, float, float]:
+    """Return the factor of the force, the sign of heave, the axis and the mean incidence (deg)."""
     missing = [key for key in ("convention", "force", "heave", "axis") if key not in said]
     if missing:
         raise DerivativesFileError(
@@ -263,6 +272,8 @@ def derivative_text(rows: DerivativeRows, comments: Sequence[str] = ()) -> str:
     """
     text = io.StringIO()
     said = ["convention: Scanlan", "force: rho V^2 B/2", "heave: down", f"axis: {rows.axis:g}"]
+    if rows.source:
+        said.append(f"source: {rows.source}")
     if math.isfinite(rows.incidence_deg):
         said.append(f"incidence_deg: {rows.incidence_deg:g}")
     text.writelines(f"# {line}\n" for line in (*comments, *said))

@@ -3,8 +3,8 @@
     x(s) = r(s) sum A_i cos(omega_i s + phi_i),    s = tV/c,
 
 where r rises from 0 to 1 over the ramp with no jump in speed or acceleration,
-r = u^3 (10 - 15 u + 6 u^2). The phases phi_i = -pi i (i - 1)/n of Schroeder (IEEE Trans. Inf. Theory
-16, 1970) keep the peak of n harmonics low.
+r = u^3 (10 - 15 u + 6 u^2). The phases phi_i = -pi i (i - 1)/n of Schroeder (IEEE Transactions on
+Information Theory 16, 1970) keep the peak of n harmonics low.
 """
 
 from __future__ import annotations

@@ -41,6 +41,7 @@ def forced_case(config: Config, name: str, solver: Solver) -> ForcedCase:
     unsteady = config.unsteady
     longest = 1.0 / (_SAMPLES * max(frequencies) / math.tau)
     every = max(1, math.floor(min(unsteady.output_interval, longest) / unsteady.time_step + 1e-9))
+    interval = every * unsteady.time_step
     rigid = steady_case(config, "2d", config.flow.incidence_deg, config.steady.resolution, solver)
     shared = {name: getattr(rigid, name) for name in type(rigid).model_fields if name != "kind"}
     return ForcedCase(
@@ -49,10 +50,15 @@ def forced_case(config: Config, name: str, solver: Solver) -> ForcedCase:
         harmonics=harmonics,
         ramp=_RAMP * keys.settling,
         settling=keys.settling,
-        duration=keys.settling + record(frequencies, keys.periods),
+        duration=_multiple(keys.settling + record(frequencies, keys.periods), interval),
         time_step=unsteady.time_step,
-        output_interval=every * unsteady.time_step,
+        output_interval=interval,
     )
+
+
+def _multiple(duration: float, interval: float) -> float:
+    """Return the multiple of an interval that is next to a duration."""
+    return round(math.ceil(duration / interval - 1e-6) * interval, 9)
 
 
 def record(frequencies: list[float], periods: int) -> float:
