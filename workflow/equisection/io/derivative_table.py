@@ -15,7 +15,7 @@ with B the whole chord, K = omega B/V, h heave and lift L positive down, alpha a
     L = (1/2) rho V^2 B   (K H1 h'/V + K H2 B alpha'/V + K^2 H3 alpha + K^2 H4 h/B)
     M = (1/2) rho V^2 B^2 (K A1 h'/V + K A2 B alpha'/V + K^2 A3 alpha + K^2 A4 h/B)
 
-``force`` is what stands before the brackets: older papers have rho V^2 B, which makes derivatives
+``force`` is what stands before the brackets: older tables have rho V^2 B, which makes derivatives
 half as large. ``heave`` is the positive direction of both h and L. ``axis`` is the point (x/c from
 the leading edge) whose heave h is, and that moments are about. The first column is the reduced
 velocity V/(f B), or K, or k = K/2. ``incidence_deg``, the mean incidence (deg), and ``source`` may
