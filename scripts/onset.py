@@ -1,7 +1,8 @@
 """Onset and critical speed of each model, linear theory, and the sections against the beam."""
 
 import logging
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,7 @@ import pandas as pd
 
 from equisection.aerodynamics.derivatives import Derivatives
 from equisection.analysis import critical_speeds
-from equisection.analysis.derivative_speeds import from_derivatives
+from equisection.analysis.derivative_speeds import Equilibrium, from_derivatives
 from equisection.analysis.deviations import deviations
 from equisection.analysis.linear_theory import (
     linear_onset,
@@ -18,14 +19,16 @@ from equisection.analysis.linear_theory import (
     with_linear_theory,
 )
 from equisection.analysis.onset import onset_table, with_speeds
+from equisection.beam.section import Section
 from equisection.config import Config, load_config
 from equisection.files import written_whole
 from equisection.motion.derivative_flutter import FlowingBody
+from equisection.motion.stability import stability
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import nominal_k_star, section_from_dataset
 from equisection.run.script import logged
-from equisection.solvers.protocol import HasSectionLoads
+from equisection.solvers.protocol import HasSectionLoads, Solver
 from equisection.solvers.registry import solver_from_config
 from equisection.structure.modal_matrices import modal_matrices
 from equisection.study import plan
@@ -105,7 +108,11 @@ def speeds(
             bodies |= _beam(config, modes)
         derivatives = Derivatives.read(table_of_derivatives)
         by_table, remarks = from_derivatives(
-            bodies, derivatives, given=given, incidence_deg=flow.incidence_deg
+            bodies,
+            derivatives,
+            given=given,
+            incidence_deg=flow.incidence_deg,
+            equilibrium=_equilibrium(config, solver, sections),
         )
         for remark in remarks:
             logging.getLogger(__name__).warning("%s", remark)
@@ -114,6 +121,31 @@ def speeds(
     for line in critical_speeds.in_words(critical):
         logging.getLogger(__name__).info("%s", line)
     _write(critical, output)
+
+
+def _equilibrium(
+    config: Config, solver: Solver, sections: Mapping[str, Section]
+) -> Equilibrium | None:
+    """Return the incidence of static equilibrium by the solver's polar, if it has equations."""
+    if not isinstance(solver, HasSectionLoads):
+        return None
+    polar, lags = solver.section_loads
+    flow = config.flow
+
+    def incidence(model: str, speed: float) -> float:
+        if model not in sections:
+            return math.nan
+        there = stability(
+            sections[model],
+            polar,
+            incidence_deg=flow.incidence_deg,
+            speed=speed,
+            density=flow.density,
+            lags=lags,
+        )
+        return flow.incidence_deg + math.degrees(float(there["equilibrium_twist"]))
+
+    return incidence
 
 
 def _beam(config: Config, modes: Path) -> dict[str, FlowingBody]:

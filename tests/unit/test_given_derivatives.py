@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
@@ -24,8 +23,8 @@ from equisection.validation.flutter_values import deck
 THIN = Derivatives.theodorsen(np.arange(2.0, 30.0, 2.0))
 
 
-def line_of(folder: Path, **flow: Any) -> str:
-    config = load_config({"derivatives": {"table": "own.csv"}, "flow": flow})
+def line_of(folder: Path) -> str:
+    config = load_config({"derivatives": {"table": "own.csv"}})
     with pytest.raises(ConfigError) as caught:
         check_derivatives(config, folder)
     return str(caught.value)
@@ -40,11 +39,21 @@ def test_a_broken_table_is_named_by_its_key_and_line(tmp_path: Path) -> None:
     assert "\n" not in line
 
 
-def test_a_table_at_another_incidence_is_refused(tmp_path: Path) -> None:
-    replace(THIN, incidence_deg=3.0).write(tmp_path / "own.csv")
-    assert "flow.incidence_deg, 2.5 deg; this one is at 3 deg" in line_of(tmp_path)
-    config = load_config({"derivatives": {"table": "own.csv"}, "flow": {"incidence_deg": 3.0}})
-    check_derivatives(config, tmp_path)
+def test_a_table_off_the_equilibrium_is_said_to_be() -> None:
+    """The row has the incidence of the table, which need not be the rigid one."""
+    bodies = {"2d": FlowingBody.of_section(deck(0.003), 1.22)}
+    table = replace(THIN, incidence_deg=3.0)
+    for there, number in ((3.1, 0), (4.0, 1), (math.nan, 0)):
+        found, remarks = from_derivatives(
+            bodies,
+            table,
+            given=AsGiven(2.0, 80.0),
+            incidence_deg=2.5,
+            equilibrium=lambda model, speed, there=there: there,
+        )
+        assert found["incidence_deg"].tolist() == [3.0]
+        assert len(remarks) == number
+        assert all("forced.incidence_deg" in remark for remark in remarks)
 
 
 def test_a_missing_table_is_named(tmp_path: Path) -> None:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Callable, Mapping
 
 import pandas as pd
 
@@ -11,6 +12,11 @@ from equisection.analysis.critical_speeds import COLUMNS, DERIVATIVES
 from equisection.motion.derivative_flutter import FlowingBody, derivative_onset
 from equisection.study.axes import AsGiven
 
+#: Incidence (deg) of equilibrium of a model at a speed (m/s).
+Equilibrium = Callable[[str, float], float]
+#: Difference of two incidences (deg) beyond which derivatives may be others.
+OFF_EQUILIBRIUM = 0.2
+
 
 def from_derivatives(
     bodies: Mapping[str, FlowingBody],
@@ -18,6 +24,7 @@ def from_derivatives(
     *,
     given: AsGiven,
     incidence_deg: float,
+    equilibrium: Equilibrium | None = None,
 ) -> tuple[pd.DataFrame, list[str]]:
     """Return the critical speeds by flutter derivatives, and what there is to say of them.
 
@@ -30,7 +37,10 @@ def from_derivatives(
     given
         The beam as given.
     incidence_deg
-        Mean incidence of the table (deg).
+        Rigid incidence (deg), that of a table that does not say its own.
+    equilibrium
+        Incidence (deg) of static equilibrium of a model at a speed (m/s), NaN where it is not
+        known. Where the onset of a model is elsewhere than the derivatives, it is said.
 
     Returns
     -------
@@ -41,14 +51,23 @@ def from_derivatives(
         Doubts of the convention, and why a body has no onset or no interval.
     """
     rows, remarks = [], list(table.doubts)
+    mean = incidence_deg if math.isnan(table.incidence_deg) else table.incidence_deg
     for model, body in bodies.items():
         found = derivative_onset(body, table)
         if found.reason:
             remarks.append(f"{model} ({DERIVATIVES}): {found.reason}")
+        if equilibrium is not None and not math.isnan(found.speed):
+            there = equilibrium(model, found.speed)
+            if abs(there - mean) > OFF_EQUILIBRIUM:
+                remarks.append(
+                    f"{model} ({DERIVATIVES}): at {found.speed:.4g} m/s it is in equilibrium at "
+                    f"{there:.3g} deg, and the derivatives are those at {mean:.3g} deg: take them "
+                    "there (forced.incidence_deg)"
+                )
         rows.append(
             {
                 "model": model,
-                "incidence_deg": incidence_deg,
+                "incidence_deg": mean,
                 "speed": found.speed,
                 "speed_low": found.speed_low,
                 "speed_high": found.speed_high,

@@ -42,7 +42,8 @@ def forced_case(config: Config, name: str, solver: Solver) -> ForcedCase:
     longest = 1.0 / (_SAMPLES * max(frequencies) / math.tau)
     every = max(1, math.floor(min(unsteady.output_interval, longest) / unsteady.time_step + 1e-9))
     interval = every * unsteady.time_step
-    rigid = steady_case(config, "2d", config.flow.incidence_deg, config.steady.resolution, solver)
+    mean = config.flow.incidence_deg if keys.incidence_deg is None else keys.incidence_deg
+    rigid = steady_case(config, "2d", mean, config.steady.resolution, solver)
     shared = {name: getattr(rigid, name) for name in type(rigid).model_fields if name != "kind"}
     return ForcedCase(
         **shared,

@@ -12,7 +12,7 @@ from pydantic import Field
 from equisection.io.derivative_table import FEWEST_ROWS
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
-from equisection.keys.values import NUMBER, WHOLE, Positive, Truth
+from equisection.keys.values import NULLABLE, NUMBER, WHOLE, Angle, Positive, Truth
 
 
 class ForcedKeys(KeyGroup):
@@ -32,8 +32,14 @@ class ForcedKeys(KeyGroup):
         (3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0),
         description="Reduced velocities V/(f c), ascending; the onset is looked for between them.",
     )
+    incidence_deg: Annotated[Angle | None, NULLABLE] = Field(
+        None,
+        description="Mean incidence (deg). The onset is that of the section about its static "
+        "equilibrium, so that this is the rigid incidence plus the twist there; "
+        "`flow.incidence_deg` with null.",
+    )
     amplitude_deg: Annotated[float, Field(gt=0, le=20, allow_inf_nan=False), NUMBER] = Field(
-        1.0,
+        0.25,
         description="Amplitude of the incidence (deg), by pitch or by the speed of heave: of a "
         "harmonic, or root mean square times the root of 2 of a multi-sine.",
     )

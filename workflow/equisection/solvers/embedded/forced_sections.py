@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from equisection.aerodynamics.unsteady_loads import ForcedMotion, UnsteadyLoads, forced_loads
-from equisection.aerodynamics.wake_lags import accurate_lags
+from equisection.aerodynamics.wake_lags import WakeLags, accurate_lags
 from equisection.cases import ForcedCase
 from equisection.errors import IncidenceOutOfRangeError
 from equisection.results.forced_result import ForcedResult, signal_of
@@ -22,8 +22,20 @@ _STEPS = 400
 _BEYOND = 4
 
 
-def forced_section(case: ForcedCase, loads: UnsteadyLoads) -> ForcedResult:
-    """Return the history of a case; a failed one where the section leaves its polar."""
+def forced_section(
+    case: ForcedCase, loads: UnsteadyLoads, wake: WakeLags | None = None
+) -> ForcedResult:
+    """Return the history of a case; a failed one where the section leaves its polar.
+
+    Parameters
+    ----------
+    case
+        The case.
+    loads
+        Unsteady loads of its polar.
+    wake
+        Lags of the circulation; Theodorsen's with None.
+    """
     signal = signal_of(case)
     longest = math.tau / float(signal.frequencies.max()) / _STEPS
     every = max(1, math.ceil(case.output_interval / longest - 1e-9))
@@ -33,7 +45,7 @@ def forced_section(case: ForcedCase, loads: UnsteadyLoads) -> ForcedResult:
     moved, still = signal.at(time), np.zeros(time.size)
     twist, deflection = (moved, still) if case.component == "pitch" else (still, moved)
     motion = ForcedMotion(time, math.radians(case.incidence_deg) + twist, deflection)
-    found = forced_loads(motion, loads, accurate_lags())
+    found = forced_loads(motion, loads, wake or accurate_lags())
     failure, kept = "", slice(0, number, every)
     try:
         for incidence in (found.effective_incidence.min(), found.effective_incidence.max()):
