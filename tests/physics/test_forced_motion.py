@@ -151,7 +151,7 @@ def test_onset_of_the_deck_from_forced_motion() -> None:
 def test_onset_of_a_plate_by_derivatives_about_its_equilibrium_is_that_of_eigenvalues() -> None:
     """Same equations, Jones' lags in both: small motion about the static equilibrium at the onset.
 
-    About the rigid incidence, half a degree below, the onset is 45 % higher.
+    About the rigid incidence, half a degree below, the onset is a third higher.
     """
     section = Section(
         torsional_stiffness=20.0,
