@@ -20,6 +20,7 @@ from tests.benchmarks import (  # noqa: E402
     campaign,
     default_run,
     early_verdict,
+    flips,
     large_sweep,
     many_cases,
     modes,
@@ -35,6 +36,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "campaign": campaign.rows,
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
+    "flips": flips.rows,
     "openfoam": openfoam.rows,
     "plate": plate.rows,
 }
