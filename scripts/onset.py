@@ -1,13 +1,16 @@
 """Onset and critical speed of each model, linear theory, and the sections against the beam."""
 
 import logging
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
+from equisection.aerodynamics.derivatives import Derivatives
 from equisection.analysis import critical_speeds
+from equisection.analysis.derivative_speeds import Equilibrium, from_derivatives
 from equisection.analysis.deviations import deviations
 from equisection.analysis.known_growth_error import (
     KnownErrors,
@@ -22,14 +25,19 @@ from equisection.analysis.linear_theory import (
     with_linear_theory,
 )
 from equisection.analysis.onset import onset_table, with_speeds
-from equisection.config import load_config
+from equisection.beam.section import Section
+from equisection.config import Config, load_config
 from equisection.files import written_whole
+from equisection.motion.derivative_flutter import FlowingBody
+from equisection.motion.stability import stability
+from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import nominal_k_star, section_from_dataset
 from equisection.run.script import logged
 from equisection.solvers.known_error import KnownError
-from equisection.solvers.protocol import HasSectionLoads
+from equisection.solvers.protocol import HasSectionLoads, Solver
 from equisection.solvers.registry import solver_from_config
+from equisection.structure.modal_matrices import modal_matrices
 from equisection.study import plan
 from equisection.study.assemble import section_refusal
 from equisection.study.axes import INCIDENCE, SPEED, AsGiven, onset_axis, varied
@@ -74,6 +82,8 @@ def speeds(
     *,
     known: KnownErrors | None = None,
     stability: Path | None = None,
+    modes: Path | None = None,
+    table_of_derivatives: Path | None = None,
 ) -> None:
     """Write the critical speed of each model with its known error, and tell it.
 
@@ -117,10 +127,62 @@ def speeds(
                 density=flow.density,
             )
         )
+    if table_of_derivatives is not None:
+        bodies = {
+            name: FlowingBody.of_section(section, flow.density)
+            for name, section in sections.items()
+        }
+        if modes is not None:
+            bodies |= _beam(config, modes)
+        derivatives = Derivatives.read(table_of_derivatives)
+        by_table, remarks = from_derivatives(
+            bodies,
+            derivatives,
+            given=given,
+            incidence_deg=flow.incidence_deg,
+            equilibrium=_equilibrium(config, solver, sections),
+        )
+        for remark in remarks:
+            logging.getLogger(__name__).warning("%s", remark)
+        found.append(by_table)
     critical = critical_speeds.with_margin(found, flow.design_speed)
     for line in critical_speeds.in_words(critical) + errors_in_words(known or {}):
         logging.getLogger(__name__).info("%s", line)
     _write(with_known_errors(critical, known or {}, list(critical["basis"])), output)
+
+
+def _equilibrium(
+    config: Config, solver: Solver, sections: Mapping[str, Section]
+) -> Equilibrium | None:
+    """Return the incidence of static equilibrium by the solver's polar, if it has equations."""
+    if not isinstance(solver, HasSectionLoads):
+        return None
+    polar, lags = solver.section_loads
+    flow = config.flow
+
+    def incidence(model: str, speed: float) -> float:
+        if model not in sections:
+            return math.nan
+        there = stability(
+            sections[model],
+            polar,
+            incidence_deg=flow.incidence_deg,
+            speed=speed,
+            density=flow.density,
+            lags=lags,
+        )
+        return flow.incidence_deg + math.degrees(float(there["equilibrium_twist"]))
+
+    return incidence
+
+
+def _beam(config: Config, modes: Path) -> dict[str, FlowingBody]:
+    """Return the beam on the modes of its structure."""
+    beam, structure = config.beam, config.structure
+    of_both = structure.bending_modes, structure.torsion_modes
+    matrices = modal_matrices(beam, modes_from_dataset(read_dataset(modes)), *of_both)
+    body = FlowingBody.of_beam(matrices, beam.chord, beam.elastic_axis, config.flow.density)
+    return {"3d": body}
 
 
 def growth_by_linear_theory(
@@ -172,6 +234,8 @@ if __name__ == "__main__":
             Path(snakemake.output.critical_speed),
             known=known,
             stability=next(map(Path, snakemake.input.stability), None),
+            modes=next(map(Path, snakemake.input.modes), None),
+            table_of_derivatives=next(map(Path, snakemake.input.derivatives), None),
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

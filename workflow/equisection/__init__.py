@@ -24,6 +24,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Beam",
+    "Derivatives",
     "EquisectionError",
     "Polar",
     "Section",
@@ -38,6 +39,7 @@ __all__ = [
 ]
 
 if TYPE_CHECKING:
+    from equisection.aerodynamics.derivatives import Derivatives
     from equisection.aerodynamics.polar import Polar
     from equisection.aerodynamics.separation import SeparationLags
     from equisection.analysis.run_tree import open_run
@@ -51,6 +53,7 @@ if TYPE_CHECKING:
 else:
     _PLACES = {
         "Beam": "beam.beam",
+        "Derivatives": "aerodynamics.derivatives",
         "EquisectionError": "errors",
         "Polar": "aerodynamics.polar",
         "Section": "beam.section",

@@ -17,6 +17,10 @@ class ArgumentError(EquisectionError, ValueError):
     """An argument of a function of the package is not one that it can use."""
 
 
+class DerivativesFileError(EquisectionError):
+    """A table of flutter derivatives cannot be used; the message names file and line."""
+
+
 class PolarFileError(EquisectionError):
     """A polar file cannot be used; the message names file and line."""
 

@@ -45,6 +45,7 @@ SECTIONS_TOGETHER = plan.sections_together(CONFIG)
 DIMENSIONS = plan.steady_dimensions(CONFIG)
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
+FORCED_NAMES = list(plan.forced_names(CONFIG))
 MESH_CASE = plan.rigid_case(CONFIG.steady.resolution, CONFIG.flow.incidence_deg)
 
 # Jobs inherit what tells them where the solver is on this machine.
@@ -78,6 +79,7 @@ wildcard_constraints:
     angle=RIGID_PATTERN,
     case=SWEEP_PATTERN,
     batch=plan.BATCH_PATTERN,
+    motion=plan.FORCED_PATTERN,
 
 
 # What may be added to the runs of one beam (paper.smk): further names of figures, tables of values
@@ -117,6 +119,31 @@ def solver_input_files():
     beam's outline.
     """
     return given(CONFIG.solver_section.input_files() + CONFIG.beam.input_files)
+
+
+def table_of_derivatives():
+    """Return the table of flutter derivatives, if the run makes one or the configuration names one."""
+    if FORCED_NAMES:
+        return derivative_files()[:1]
+    return given([CONFIG.derivatives.table] if CONFIG.derivatives.table else [])
+
+
+def modes_of_table():
+    """Return the modes of the beam, if the table of derivatives gives its onset too."""
+    wanted = table_of_derivatives() and "3d" in CONFIG.sweep.models
+    return [f"{RESULTS}/structure/modes.nc"] if wanted else []
+
+
+def case_files_of_motions():
+    """Return the case files of the forced motions."""
+    names = ["forced"] if IN_ONE_JOB else FORCED_NAMES
+    return [f"{RESULTS}/cases/forced/2d/{name}.json" for name in names]
+
+
+def derivative_files():
+    """Return the derivatives from forced motion, if the section is moved."""
+    names = ("2d", "2d-fit") if FORCED_NAMES else ()
+    return [f"{RESULTS}/derivatives/{name}.csv" for name in names]
 
 
 def kept_files():
@@ -217,6 +244,11 @@ def cases_of_batch(wildcards):
 def this_case(wildcards):
     """Return the one case that a rule is about."""
     return [wildcards.case]
+
+
+def this_motion(wildcards):
+    """Return the one forced case that a rule is about."""
+    return [wildcards.motion]
 
 
 def this_angle(wildcards):

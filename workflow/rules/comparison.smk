@@ -77,6 +77,8 @@ rule onset:
         equivalent=f"{RESULTS}/structure/equivalent.nc",
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         stability=stability_table_of_map(),
+        derivatives=table_of_derivatives(),
+        modes=modes_of_table(),
     output:
         onset=report(
             f"{RESULTS}/comparison/onset.csv",

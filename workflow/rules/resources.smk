@@ -44,6 +44,8 @@ def work_of(wildcards):
     dimension = dimension_of(wildcards)
     if not wildcards.keys():
         return jobs.batch_work(CONFIG, kinds.FREE, *SECTIONS_TOGETHER)
+    if "motion" in wildcards.keys():
+        return cost.work_of(CONFIG, kinds.FORCED, dimension, CONFIG.steady.resolution)
     if "angle" in wildcards.keys():
         resolution, _ = plan.rigid_point(wildcards.angle)
         return cost.work_of(CONFIG, kinds.STEADY, dimension, resolution)

@@ -49,10 +49,10 @@ import numpy as np
 import scipy
 from numpy.typing import NDArray
 
-from equisection.aerodynamics.indicial import IMMEDIATE_SHARE, JONES_AMPLITUDES, LAG_RATES
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, Branches, SeparationLags
 from equisection.aerodynamics.velocity_triangle import force_across, pressure_rise
+from equisection.aerodynamics.wake_lags import JONES, WakeLags
 
 Floats = NDArray[np.float64]
 
@@ -156,15 +156,25 @@ def follow(signal: Floats, rate: float, time_step: float) -> Floats:
     return np.asarray(followed + signal[0], dtype=np.float64)
 
 
-def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads) -> LoadHistory:
-    """Find the loads under prescribed motion, from equilibrium at the first sample."""
+def forced_loads(motion: ForcedMotion, loads: UnsteadyLoads, wake: WakeLags = JONES) -> LoadHistory:
+    """Find the loads under prescribed motion, from equilibrium at the first sample.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    loads
+        Unsteady loads of a polar.
+    wake
+        Lags of the circulation; by default those of the free motions.
+    """
     step = motion.time_step
     pitch_rate = np.gradient(motion.incidence, step)
     heave_rate = np.gradient(motion.deflection, step)
     rise = heave_rate - loads.rear_point * pitch_rate
     rear = motion.incidence - rise
-    effective = IMMEDIATE_SHARE * rear
-    for amplitude, rate in zip(JONES_AMPLITUDES, LAG_RATES, strict=True):
+    effective = wake.immediate * rear
+    for amplitude, rate in zip(wake.amplitudes, wake.rates, strict=True):
         effective = effective + amplitude * follow(rear, rate, step)
     lags, branches = loads.lags, loads.branches
     leading = effective - loads.rear_point * pitch_rate

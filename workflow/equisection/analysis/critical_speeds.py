@@ -33,8 +33,8 @@ COLUMNS = (
     "basis",
     "energy_share",
 )
-#: Basis of a speed: runs of CFD, runs in time of another solver, or eigenvalues.
-CFD, TIME, EIGENVALUE = "cfd", "time", "eigenvalue"
+#: Basis of a speed: runs of CFD, runs in time of another solver, eigenvalues, flutter derivatives.
+CFD, TIME, EIGENVALUE, DERIVATIVES = "cfd", "time", "eigenvalue", "derivatives"
 
 
 def from_runs(
@@ -212,6 +212,8 @@ def in_words(table: pd.DataFrame) -> list[str]:
 def _line(row: Mapping[Any, Any]) -> str:
     who = f"{row['model']} at {row['incidence_deg']:g} deg ({row['basis']})"
     low, high = row["speed_low"], row["speed_high"]
+    if np.isfinite(row["speed"]) and not np.isfinite(low):
+        return f"{who}: {row['mechanism']} at {row['speed']:.4g} m/s, without an interval"
     if np.isfinite(row["speed"]):
         return f"{who}: {row['mechanism']} between {low:.4g} and {high:.4g} m/s"
     if np.isfinite(high):

@@ -6,6 +6,7 @@ from equisection.cases.case import (
     EndCriteria,
     FittedModes,
     Geometry,
+    Harmonic,
     Medium,
     SolverBlock,
     Start,
@@ -19,9 +20,11 @@ from equisection.cases.case_file import (
     write_cases,
 )
 from equisection.cases.kinds import (
+    FORCED,
     FREE,
     KINDS,
     STEADY,
+    ForcedCase,
     Kind,
     SteadyCase,
     UnsteadyCase,
@@ -30,6 +33,7 @@ from equisection.cases.kinds import (
 )
 
 __all__ = [
+    "FORCED",
     "FREE",
     "KINDS",
     "STEADY",
@@ -37,7 +41,9 @@ __all__ = [
     "Case",
     "EndCriteria",
     "FittedModes",
+    "ForcedCase",
     "Geometry",
+    "Harmonic",
     "Kind",
     "Medium",
     "SolverBlock",

@@ -180,6 +180,14 @@ class EndCriteria(Block):
     periods: int
 
 
+class Harmonic(Block):
+    """Harmonic of a prescribed motion, amplitude times cos(frequency s + phase)."""
+
+    frequency: float  # omega c/V
+    amplitude: float  # rad of pitch, chords of heave
+    phase: float  # rad
+
+
 class Start(Block):
     """Start of a free motion: twist of the tip until the release (deg), and its heave rate then.
 

@@ -18,7 +18,7 @@ from typing import Any, Literal
 from pydantic import model_validator
 
 from equisection.beam.section import Section
-from equisection.cases.case import BeamModes, Case, EndCriteria, Start
+from equisection.cases.case import BeamModes, Case, EndCriteria, Harmonic, Start
 from equisection.errors import CaseFileError
 
 
@@ -79,6 +79,29 @@ class UnsteadyCase(Case):
         if getattr(self, wanted) is None or (self.section is None) == (self.beam is None):
             raise ValueError(f"a case of dimension {self.dimension} holds '{wanted}' alone")
         return self
+
+
+class ForcedCase(Case):
+    """Section that is moved in pitch or heave about a mean incidence (`2d`)."""
+
+    kind: Literal["forced"] = "forced"
+    component: Literal["pitch", "heave"]  # of mid-chord
+    harmonics: tuple[Harmonic, ...]
+    ramp: float  # c/V in which the motion sets in
+    settling: float  # c/V that are left out of the record
+    duration: float  # c/V
+    time_step: float  # c/V
+    output_interval: float  # c/V
+
+    @property
+    def longest(self) -> float:
+        """Longest duration of its history (c/V)."""
+        return self.duration
+
+    @property
+    def reduced_velocity(self) -> float:
+        """V/(f c) of its slowest harmonic."""
+        return math.tau / min(one.frequency for one in self.harmonics)
 
 
 @dataclass(frozen=True)
@@ -157,8 +180,16 @@ FREE = Kind(
     title="sweep",
 )
 
+FORCED = Kind(
+    "forced",
+    ForcedCase,
+    ("reduced_velocity", "incidence_deg"),
+    has_history=True,
+    title="forced",
+)
+
 #: Kinds by their folders, in the order in which a run's cases are listed.
-KINDS: dict[str, Kind] = {kind.folder: kind for kind in (STEADY, FREE)}
+KINDS: dict[str, Kind] = {kind.folder: kind for kind in (STEADY, FREE, FORCED)}
 
 
 def kind_of(case: Case) -> Kind:

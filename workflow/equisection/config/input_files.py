@@ -21,6 +21,9 @@ OUTLINE = "beam.outline.file"
 #: May be missing where cases are computed: a project need not keep any.
 _USUAL_REUSE = Config.model_fields["reuse"].default
 
+#: Keys that FLAT_PLATE may have for a file.
+_POLARS = "embedded.polars."
+
 
 def find_files(config: Config, project: Path, directory: Path | None = None) -> Config:
     """Return the configuration with the project's files in the place of missing ones.
@@ -64,6 +67,9 @@ def find_files(config: Config, project: Path, directory: Path | None = None) -> 
                 update={"beam_polar": found(config.steady.beam_polar)}
             ),
             "embedded": config.embedded.model_copy(update=embedded),
+            "derivatives": config.derivatives.model_copy(
+                update={"table": found(config.derivatives.table)}
+            ),
         }
     )
 
@@ -76,12 +82,14 @@ def _with_outline(beam: Beam, found: Callable[[str], str]) -> Beam:
 
 
 def named_files(config: Config) -> dict[str, str]:
-    """Return the outline and the polars that a configuration names, by their keys."""
+    """Return outline, polars and derivatives that a configuration names, by their keys."""
     named = dict(zip([OUTLINE], config.beam.input_files, strict=False))
     if config.solver == "embedded":
         named |= {f"embedded.polars.{name}": path for name, path in config.embedded.polars.items()}
     if config.steady.beam_polar:
         named["steady.beam_polar"] = config.steady.beam_polar
+    if config.derivatives.table:
+        named["derivatives.table"] = config.derivatives.table
     return named
 
 
@@ -94,9 +102,9 @@ def check_files(
 ) -> None:
     """Refuse missing files, seen from ``directory`` (by default the working one).
 
-    These are polars, the folder that results come from, and the indices of other runs' results. An
-    index of this run, in ``results``, is made by its rules and may be missing. ``project`` is the
-    folder that :func:`find_files` has searched as well.
+    These are polars, derivatives, the folder that results come from, and the indices of other
+    runs' results. An index of this run, in ``results``, is made by its rules and may be missing.
+    ``project`` is the folder that :func:`find_files` has searched as well.
 
     Braces in a path are refused too, since Snakemake would read them as a wildcard.
 
@@ -112,8 +120,7 @@ def check_files(
     problems = [
         Problem(key, path, _advice(path, directory, seen, key))
         for key, path in named.items()
-        if not (path == FLAT_PLATE and key not in ("steady.beam_polar", OUTLINE))
-        and not _is_file(directory / path)
+        if not (path == FLAT_PLATE and key.startswith(_POLARS)) and not _is_file(directory / path)
     ]
     if config.reuse and not _is_folder(directory / config.reuse):
         otherwise = 'or "" to compute every case' if config.compute else "where compute is false"
@@ -173,7 +180,7 @@ def _is_folder(path: Path) -> bool:
 
 def _advice(polar: str, directory: Path, seen: str, key: str) -> str:
     place = directory / polar
-    built_in = key not in ("steady.beam_polar", OUTLINE)
+    built_in = key.startswith(_POLARS)
     what = "a folder" if "\0" not in polar and place.is_dir() else "no such file"
     allowed = f"a CSV file or {FLAT_PLATE}" if built_in else "a CSV file"
     if key == OUTLINE:

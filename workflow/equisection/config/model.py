@@ -12,8 +12,10 @@ from equisection.config.groups import (
     FREE_TIP,
     MID_CHORD,
     Beam,
+    DerivativeKeys,
     Embedded,
     Flow,
+    ForcedKeys,
     KeyGroup,
     Lump,
     OpenFoam,
@@ -71,6 +73,10 @@ class Config(KeyGroup):
     steady: Steady = Field(Steady(), description="Steady polars.")
     sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
     unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")
+    forced: ForcedKeys = Field(ForcedKeys(), description="Forced motion of the section.")
+    derivatives: DerivativeKeys = Field(
+        DerivativeKeys(), description="Flutter derivatives of the section."
+    )
     embedded: Embedded = Field(Embedded(), description="The embedded solver.")
     openfoam: OpenFoam = Field(OpenFoam(), description="OpenFOAM.")
 

@@ -157,6 +157,10 @@ def _has_both_at_one_incidence(config: Config) -> bool:
     return plan.has_both(config) and _at_one_incidence(config)
 
 
+def _moves_section(config: Config) -> bool:
+    return config.forced.run
+
+
 def _has_section_model(config: Config) -> bool:
     return "2d" in plan.dimensions(config)
 
@@ -286,6 +290,12 @@ CATALOGUE = (
         {**_MODES, "index_of_beam": indices_of_beam},
         exists=_has_beam_model,
         family=_OF_MODES,
+    ),
+    Entry(
+        "flutter-derivatives",
+        "flutter derivatives",
+        {"table": "derivatives/2d.csv"},
+        exists=_moves_section,
     ),
     Entry(
         "response",

@@ -15,6 +15,7 @@ likeness of both shapes alone, which the section takes for 1.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -48,7 +49,7 @@ def section_flutter(section: Section, density: float) -> FlutterOnset:
 
     That of :func:`equisection.motion.linear_flutter.flutter`, as a speed.
     """
-    speed = _reference_speed(section.torsional_stiffness, section.chord, density)
+    speed = reference_speed(section.torsional_stiffness, section.chord, density)
     return _onset(flutter(section.in_flow(density, speed)), speed, section.chord)
 
 
@@ -68,7 +69,7 @@ def beam_flutter(
     density
         Density of the fluid rho (kg/m^3).
     """
-    flow = _BeamInFlow(matrices, chord, elastic_axis, density)
+    flow = BeamInFlow(matrices, chord, elastic_axis, density)
     return _onset(neutral_oscillation(flow.equations), flow.speed, chord)
 
 
@@ -97,20 +98,21 @@ def beam_growth(
     speeds
         Speeds V > 0 (m/s), shape (n,), in any order.
     """
-    flow = _BeamInFlow(matrices, chord, elastic_axis, density)
+    flow = BeamInFlow(matrices, chord, elastic_axis, density)
     roots = growth_and_frequency_of(flow.motion, flow.in_still_air, (flow.speed / speeds) ** 2)
     return np.asarray(roots * speeds[:, None] / chord)
 
 
-class _BeamInFlow:
+class BeamInFlow:
     """A beam on its modes at the speed at which k* is 1: matrices in units of rho/2, V and c."""
 
     def __init__(
         self, matrices: ModalMatrices, chord: float, elastic_axis: float, density: float
     ) -> None:
+        self.chord = chord
         first = matrices.bending
         stiffness = matrices.stiffness[first, first] / matrices.likeness[first, first]
-        self.speed = _reference_speed(stiffness, chord, density)
+        self.speed = reference_speed(stiffness, chord, density)
         pressure = 0.5 * density * self.speed**2
         kinds = np.repeat([0, 1], [first, len(matrices.mass) - first])
         # Rows over force and moment, columns by chords and radians; rates by V/c.
@@ -131,12 +133,22 @@ class _BeamInFlow:
 
     @property
     def equations(self) -> FlutterEquations:
-        """Equations of neutral oscillations."""
+        """Equations of neutral oscillations of thin strips."""
+        return self.equations_with(self.air.influence)
+
+    def equations_with(self, influence: Callable[[float], Complexes]) -> FlutterEquations:
+        """Return the equations of neutral oscillations of strips with some loads.
+
+        Parameters
+        ----------
+        influence
+            Q of a strip about the elastic axis at a frequency omega c/V, shape (2, 2).
+        """
         return FlutterEquations(
             self.mass,
             self.damping,
             self.stiffness,
-            lambda omega: self._on_modes(self.air.influence(omega)),
+            lambda omega: self._on_modes(influence(omega)),
         )
 
     @property
@@ -158,7 +170,7 @@ class _BeamInFlow:
         return np.asarray(np.sqrt(np.sort(squares)))
 
 
-def _reference_speed(torsional_stiffness: float, chord: float, density: float) -> float:
+def reference_speed(torsional_stiffness: float, chord: float, density: float) -> float:
     """Return the speed (m/s) at which k* is 1."""
     return math.sqrt(2.0 * torsional_stiffness / density) / chord
 

@@ -169,7 +169,20 @@ def neutral_oscillation(equations: FlutterEquations) -> Neutral | None:
 
     None if there is none at reduced frequencies k from 0.001 to 10.
     """
-    frequencies = 2.0 * _FREQUENCIES
+    found = neutral_oscillations(equations, 2.0 * _FREQUENCIES)
+    return max(found, key=lambda each: each.scale, default=None)
+
+
+def neutral_oscillations(equations: FlutterEquations, frequencies: Floats) -> list[Neutral]:
+    """Return the neutral oscillations of any number of motions (k method).
+
+    Parameters
+    ----------
+    equations
+        The motions.
+    frequencies
+        Ascending omega c/V between which they are looked for.
+    """
     scales = [_scales(equations, float(omega)) for omega in frequencies]
     found = []
     for place, (low, high) in enumerate(itertools.pairwise(frequencies)):
@@ -177,8 +190,7 @@ def neutral_oscillation(equations: FlutterEquations) -> Neutral | None:
             end = _nearest(scales[place + 1], start)
             if start.imag * end.imag < 0.0:
                 found.append(_neutral_between(equations, start, float(low), float(high)))
-    neutral = (each for each in found if each is not None)
-    return max(neutral, key=lambda each: each.scale, default=None)
+    return [each for each in found if each is not None]
 
 
 def _nearest(values: Complexes, wanted: complex) -> complex:

@@ -24,12 +24,17 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
+from equisection.aerodynamics.derivatives import Derivatives
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
+from equisection.motion.derivative_flutter import (
+    critical_speed_by_derivatives,
+    stability_by_derivatives,
+)
 from equisection.motion.mechanism import (
     Instabilities,
     Mechanism,
@@ -52,9 +57,9 @@ WIDTH = 1e-6
 
 def stability(
     section: Section,
-    polar: Polar,
+    polar: Polar | Derivatives,
     *,
-    incidence_deg: ArrayLike,
+    incidence_deg: ArrayLike | None = None,
     speed: ArrayLike,
     density: float = STANDARD_AIR,
     lags: SeparationLags = IDENTIFIED_LAGS,
@@ -66,9 +71,10 @@ def stability(
     section
         The section (SI).
     polar
-        Steady coefficients of the section.
+        Steady coefficients of the section, or its flutter derivatives
+        (:func:`equisection.motion.derivative_flutter.stability_by_derivatives`).
     incidence_deg
-        Rigid incidence theta_0 (deg), one or a list.
+        Rigid incidence theta_0 (deg), one or a list; none with derivatives, which have their own.
     speed
         Speed V (m/s), one or a list.
     density
@@ -95,6 +101,9 @@ def stability(
     IncidenceOutOfRangeError
         The polar does not cover a rigid incidence.
     """
+    if isinstance(polar, Derivatives):
+        _of_the_table(incidence_deg)
+        return stability_by_derivatives(section, polar, speed=speed, density=density)
     angles = _finite("incidence_deg", incidence_deg)
     speeds = _positive("speed", speed, "m/s")
     air = _Air(section, polar, density, lags)
@@ -124,9 +133,9 @@ def stability(
 
 def critical_speed(
     section: Section,
-    polar: Polar,
+    polar: Polar | Derivatives,
     *,
-    incidence_deg: ArrayLike,
+    incidence_deg: ArrayLike | None = None,
     speed: tuple[float, float],
     density: float = STANDARD_AIR,
     lags: SeparationLags = IDENTIFIED_LAGS,
@@ -141,7 +150,7 @@ def critical_speed(
     section, polar, density, lags
         As of :func:`stability`.
     incidence_deg
-        Rigid incidence theta_0 (deg), one or a list.
+        Rigid incidence theta_0 (deg), one or a list; none with derivatives.
     speed
         Lowest and highest speed (m/s) of the range.
 
@@ -163,6 +172,9 @@ def critical_speed(
         The polar does not cover a rigid incidence.
     """
     low, high = _range(speed)
+    if isinstance(polar, Derivatives):
+        _of_the_table(incidence_deg)
+        return critical_speed_by_derivatives(section, polar, speed=(low, high), density=density)
     angles = _finite("incidence_deg", incidence_deg)
     air = _Air(section, polar, density, lags)
     found = [air.onset(float(angle), low, high) for angle in np.atleast_1d(angles)]
@@ -375,7 +387,16 @@ def _range(speed: tuple[float, float]) -> tuple[float, float]:
     return float(values[0]), float(values[1])
 
 
-def _finite(name: str, given: ArrayLike) -> Floats:
+def _of_the_table(incidence_deg: ArrayLike | None) -> None:
+    """Refuse an incidence beside derivatives, which are those of one."""
+    if incidence_deg is not None:
+        raise ArgumentError(
+            f"incidence_deg is {incidence_deg!r}; leave it out with flutter derivatives, which are "
+            "of the mean incidence that they were found at"
+        )
+
+
+def _finite(name: str, given: ArrayLike | None) -> Floats:
     """Return one number or a list of them."""
     try:
         values = np.asarray(given, dtype=np.float64)

@@ -21,6 +21,7 @@ from equisection.config import Config, check_files, find_files, load_config, nam
 from equisection.errors import ConfigError
 from equisection.provenance import COMMAND_VARIABLE, CONFIG_VARIABLE, refused_by_git
 from equisection.solvers.registry import check_provided
+from equisection.study.given_derivatives import check_derivatives
 from equisection.study.given_outline import check_outline
 from equisection.study.given_polars import check_polars
 
@@ -115,6 +116,7 @@ def checked_config(raw: Mapping[str, Any], project: Path, results: Path = RESULT
     check_files(config, project=project, results=results)
     check_outline(config)
     check_polars(config)
+    check_derivatives(config)
     check_provided(config)
     return config
 

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from equisection.cases import FREE, STEADY, Kind
+from equisection.cases import FORCED, FREE, STEADY, Kind
 from equisection.config.groups.flow import LARGEST_MACH
 from equisection.files import require_plain_names, write_text
 from equisection.solvers.protocol import Capability
@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # jobs need not build the models of the configuration
     from equisection.config import Config
 
 #: Patterns of the wildcards of the rules.
+FORCED_PATTERN = r"(?:pitch|heave)(?:_v[0-9.]+)?"
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
 DIMENSION_PATTERN = r"[23]d"
 #: A batch is what one job of a solver that takes many cases runs: the sweep, or a round of the
@@ -202,6 +203,18 @@ def planned_cases(config: Config) -> Iterator[PlannedCases]:
     for name in config.sweep.models:
         dimension = model(name, config.reduction).dimension
         yield PlannedCases(FREE, name, dimension, config.steady.resolution, of_sweep, refined)
+    if forced := forced_names(config):
+        yield PlannedCases(FORCED, "2d", "2d", config.steady.resolution, forced)
+
+
+def forced_names(config: Config) -> tuple[str, ...]:
+    """Return the names of the forced cases, such as ``pitch`` or ``heave_v12``; none if not run."""
+    if not config.forced.run:
+        return ()
+    parts = [""]
+    if config.forced.motion == "harmonic":
+        parts = [f"_v{velocity:.6g}" for velocity in config.forced.reduced_velocity]
+    return tuple(f"{component}{part}" for component in ("pitch", "heave") for part in parts)
 
 
 def write_refinement(path: Path, points: Sequence[Point]) -> None:

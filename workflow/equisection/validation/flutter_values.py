@@ -8,6 +8,7 @@ from functools import cache, partial
 
 import numpy as np
 
+from equisection.aerodynamics.derivatives import Derivatives
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
@@ -19,6 +20,7 @@ from equisection.motion.beam_flutter import (
     beam_growth,
     section_flutter,
 )
+from equisection.motion.derivative_flutter import FlowingBody, derivative_onset
 from equisection.motion.linear_flutter import divergence_scale
 from equisection.motion.mechanism import Mechanism
 from equisection.motion.stability import critical_speed
@@ -459,6 +461,12 @@ def _deck_speed(damping: float) -> float:
     return section_flutter(deck(damping), 1.22).speed
 
 
+def _deck_from_table(damping: float) -> float:
+    """Return the flutter speed (m/s) from 15 rows of Theodorsen's derivatives."""
+    table = Derivatives.theodorsen(np.arange(2.0, 31.0, 2.0))
+    return derivative_onset(FlowingBody.of_section(deck(damping), 1.22), table).speed
+
+
 def _deck() -> list[KnownValue]:
     case = "Bridge deck, IABSE TG 3.1"
     exact = ((0.0, 76.682), (0.003, 77.242), (0.005, 77.600), (0.01, 78.449), (0.02, 80.002))
@@ -492,6 +500,19 @@ def _deck() -> list[KnownValue]:
             _DIGITS,
         )
         for ratio, value in ((0.0, 76.68), (0.003, 77.24))
+    ]
+    found += [
+        KnownValue(
+            case,
+            f"flutter, table of derivatives, damping {100 * ratio:g} %",
+            "m/s",
+            value,
+            _OWN,
+            partial(_deck_from_table, ratio),
+            1e-3,
+            "interpolation between reduced velocities 2 apart",
+        )
+        for ratio, value in exact
     ]
     return [
         *found,

@@ -13,8 +13,10 @@ from equisection.beam.beam import (
     Damping,
 )
 from equisection.beam.supports import Lump, Support
+from equisection.config.groups.derivative_keys import DerivativeKeys
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
+from equisection.config.groups.forced_keys import ForcedKeys
 from equisection.config.groups.openfoam_keys import OpenFoam
 from equisection.config.groups.solver_keys import SolverKeys
 from equisection.config.groups.steady import Steady
@@ -33,9 +35,11 @@ __all__ = [
     "Channel",
     "CrossSection",
     "Damping",
+    "DerivativeKeys",
     "Elements",
     "Embedded",
     "Flow",
+    "ForcedKeys",
     "KeyGroup",
     "Lump",
     "ModelName",

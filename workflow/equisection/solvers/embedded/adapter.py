@@ -22,10 +22,11 @@ from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.span_strips import SpanStrips, cosine_strips
 from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.beam.beam import MID_CHORD
-from equisection.cases import Geometry, SteadyCase, UnsteadyCase
+from equisection.cases import ForcedCase, Geometry, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
+from equisection.results.forced_result import ForcedResult
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.embedded.known_errors import known_error
@@ -151,6 +152,22 @@ class Adapter:
             results.update(zip(group, self._release(members, tell), strict=True))
             done += share
         return [results[index] for index in range(len(cases))]
+
+    def run_forced(
+        self, cases: Sequence[ForcedCase], work: Path, progress: Progress
+    ) -> list[ForcedResult]:
+        """Follow the loads of each section in its prescribed motion."""
+        from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
+        from equisection.solvers.embedded.forced_sections import forced_section  # noqa: PLC0415
+
+        del work
+        loads = UnsteadyLoads.from_polar(self._polar, self._lags, self._incidence_point - MID_CHORD)
+        total, done, results = sum(case.duration for case in cases), 0.0, []
+        for case in cases:
+            results.append(forced_section(case, loads))
+            done += case.duration
+            progress(done, total)
+        return results
 
     def _release(self, cases: list[UnsteadyCase], progress: Progress) -> list[UnsteadyResult]:
         # Imported here: writing a case file takes this module too, and none of what follows.

@@ -19,5 +19,12 @@ def unsteady_work(config: Config, dimension: str, resolution: str, cases: int) -
     return Work(_sections(config, dimension) * cases, steps=steps)
 
 
+def forced_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
+    """Return the work of a job of forced cases."""
+    del resolution
+    steps = config.forced.settling + config.forced.periods * max(config.forced.reduced_velocity)
+    return Work(_sections(config, dimension) * cases, steps=steps / config.unsteady.time_step)
+
+
 def _sections(config: Config, dimension: str) -> int:
     return config.embedded.strips if dimension == "3d" else 1

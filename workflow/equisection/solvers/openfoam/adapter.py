@@ -14,10 +14,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.cases import ForcedCase, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups.openfoam_keys import BLOCKS, MORPH
 from equisection.errors import SolverError
+from equisection.results.forced_result import ForcedResult
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.section_mesh import SectionMesh
 from equisection.results.steady_result import SteadyResult
@@ -97,7 +98,7 @@ class Adapter:
             return preset.outline_cells
         return preset.cells if preset.is_similar else None
 
-    def _mesh(self, case: SteadyCase | UnsteadyCase) -> SectionCells:
+    def _mesh(self, case: SteadyCase | UnsteadyCase | ForcedCase) -> SectionCells:
         """Return the mesh of a section."""
         from equisection.solvers.openfoam.mesh.outline_mesh import require_mesher  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
@@ -180,6 +181,27 @@ class Adapter:
 
             run = self._free_section if case.dimension == "2d" else self._free_plate
             results.append(run(installation, case, work / f"case{number}", tell))
+            done += case.duration
+        return results
+
+    def run_forced(
+        self, cases: Sequence[ForcedCase], work: Path, progress: Progress
+    ) -> list[ForcedResult]:
+        """Move sections one after the other, each in a folder of its own."""
+        from equisection.solvers.openfoam.section.forced_section import ForcedRun  # noqa: PLC0415
+
+        installation = find(launcher=self._launcher)
+        logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
+        coupling = self._settings.coupling
+        total, done, results = sum(case.duration for case in cases), 0.0, []
+        for number, case in enumerate(cases):
+
+            def tell(now: float, end: float, before: float = done) -> None:
+                progress(before + now, total)
+
+            mesh = self._mesh(case)
+            place = work / f"case{number}"
+            results.append(ForcedRun(installation, case, mesh, coupling, place).run(tell))
             done += case.duration
         return results
 

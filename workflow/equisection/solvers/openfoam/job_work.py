@@ -33,6 +33,14 @@ def unsteady_work(config: Config, dimension: str, resolution: str, cases: int) -
     return Work(cells_of(section.meshes[resolution], dimension) * cases, MOST, steps)
 
 
+def forced_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
+    """Return the work of a case in prescribed motion, with the steady flow that it starts from."""
+    section, forced = config.openfoam, config.forced
+    duration = forced.settling + forced.periods * max(forced.reduced_velocity)
+    steps = duration / config.unsteady.time_step * iterations_of(section.outer_correctors)
+    return Work(cells_of(section.meshes[resolution], dimension) * cases, MOST, steps)
+
+
 def iterations_of(outer_correctors: int) -> int:
     """Return the number of iterations that a time step is expected to take of those allowed."""
     return min(outer_correctors, ENOUGH)

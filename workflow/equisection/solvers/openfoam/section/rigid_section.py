@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from equisection.beam.outline import outline_of, rectangle
-from equisection.cases import Geometry, SteadyCase, UnsteadyCase
+from equisection.cases import ForcedCase, Geometry, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.results.surface import SectionSurface
 from equisection.solvers.openfoam import flow_setup as flow
@@ -69,7 +69,9 @@ class RigidLoads:
     surface: SectionSurface
 
 
-def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = SIMILAR) -> Mesh:
+def mesh_of(
+    case: SteadyCase | UnsteadyCase | ForcedCase, refinement: float, spacing: Spacing = SIMILAR
+) -> Mesh:
     """Return the mesh of a case, of a free section turned to its twist at the release.
 
     Raises
@@ -81,7 +83,7 @@ def mesh_of(case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing
 
 
 def outline_mesh_of(
-    case: SteadyCase | UnsteadyCase, refinement: float, far_field: float = 0.0
+    case: SteadyCase | UnsteadyCase | ForcedCase, refinement: float, far_field: float = 0.0
 ) -> OutlineMesh:
     """Return the mesh of a case around its outline, or around the rectangle of its thickness.
 
@@ -121,7 +123,7 @@ def _channel(geometry: Geometry) -> ChannelBox:
     )
 
 
-def _incidence(case: SteadyCase | UnsteadyCase) -> float:
+def _incidence(case: SteadyCase | UnsteadyCase | ForcedCase) -> float:
     """Return the incidence of the mesh (rad), of a free section with its twist at the release."""
     released = case.section_start_twist if isinstance(case, UnsteadyCase) else 0.0
     return math.radians(case.incidence_deg) + released
@@ -129,7 +131,7 @@ def _incidence(case: SteadyCase | UnsteadyCase) -> float:
 
 def run_steady(
     installation: Installation,
-    case: SteadyCase | UnsteadyCase,
+    case: SteadyCase | UnsteadyCase | ForcedCase,
     mesh: SectionCells,
     work: Path,
     tell: Tell,

@@ -1,0 +1,23 @@
+"""Write the case file of the forced motion of the section, or of one of its cases."""
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from equisection.cases import write_cases
+from equisection.config import load_config
+from equisection.run.script import logged
+from equisection.solvers.registry import solver_from_config
+from equisection.study.forced_cases import forced_case
+
+
+def main(raw_config: dict[str, Any], names: Sequence[str], output: Path) -> None:
+    """Write the cases, named by component and reduced velocity."""
+    config = load_config(raw_config)
+    solver = solver_from_config(config, config.steady.resolution)
+    write_cases(output, {name: forced_case(config, name, solver) for name in names})
+
+
+if __name__ == "__main__":
+    with logged(snakemake.log[0], snakemake.input, snakemake.output):
+        main(snakemake.params.config, list(snakemake.params.cases), Path(snakemake.output[0]))

@@ -1,0 +1,81 @@
+"""Critical speeds of sections and of the beam from a table of flutter derivatives."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+
+import pandas as pd
+
+from equisection.aerodynamics.derivatives import Derivatives
+from equisection.analysis.critical_speeds import COLUMNS, DERIVATIVES
+from equisection.motion.derivative_flutter import FlowingBody, derivative_onset
+from equisection.study.axes import AsGiven
+
+#: Incidence (deg) of equilibrium of a model at a speed (m/s).
+Equilibrium = Callable[[str, float], float]
+#: Difference of two incidences (deg) beyond which derivatives may be others.
+OFF_EQUILIBRIUM = 0.2
+
+
+def from_derivatives(
+    bodies: Mapping[str, FlowingBody],
+    table: Derivatives,
+    *,
+    given: AsGiven,
+    incidence_deg: float,
+    equilibrium: Equilibrium | None = None,
+) -> tuple[pd.DataFrame, list[str]]:
+    """Return the critical speeds by flutter derivatives, and what there is to say of them.
+
+    Parameters
+    ----------
+    bodies
+        Sections or beam by the names of their models.
+    table
+        The derivatives.
+    given
+        The beam as given.
+    incidence_deg
+        Rigid incidence (deg), that of a table that does not say its own.
+    equilibrium
+        Incidence (deg) of static equilibrium of a model at a speed (m/s), NaN where it is not
+        known. Where the onset of a model is elsewhere than the derivatives, it is said.
+
+    Returns
+    -------
+    table : pd.DataFrame
+        Columns of ``comparison/critical_speed.csv`` without the margin. The interval is that of the
+        interpolation and of the spread of the derivatives; divergence is not looked for.
+    remarks : list of str
+        Doubts of the convention, and why a body has no onset or no interval.
+    """
+    rows, remarks = [], list(table.doubts)
+    mean = incidence_deg if math.isnan(table.incidence_deg) else table.incidence_deg
+    for model, body in bodies.items():
+        found = derivative_onset(body, table)
+        if found.reason:
+            remarks.append(f"{model} ({DERIVATIVES}): {found.reason}")
+        if equilibrium is not None and not math.isnan(found.speed):
+            there = equilibrium(model, found.speed)
+            if abs(there - mean) > OFF_EQUILIBRIUM:
+                remarks.append(
+                    f"{model} ({DERIVATIVES}): at {found.speed:.4g} m/s it is in equilibrium at "
+                    f"{there:.3g} deg, and the derivatives are those at {mean:.3g} deg: take them "
+                    "there (forced.incidence_deg)"
+                )
+        rows.append(
+            {
+                "model": model,
+                "incidence_deg": mean,
+                "speed": found.speed,
+                "speed_low": found.speed_low,
+                "speed_high": found.speed_high,
+                "mechanism": found.mechanism,
+                "frequency_hz": found.frequency,
+                "k_star": given.k_star_at(found.speed),
+                "basis": DERIVATIVES,
+            }
+        )
+    names = [name for name in COLUMNS if name != "margin"]
+    return pd.DataFrame(rows, columns=names), remarks

@@ -1,0 +1,80 @@
+"""Section ``forced``: motion that is prescribed, for the derivatives of the section."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from equisection.io.derivative_table import FEWEST_ROWS
+from equisection.keys.checks import Problem, check
+from equisection.keys.group import KeyGroup
+from equisection.keys.values import NULLABLE, NUMBER, WHOLE, Angle, Positive, Truth
+
+
+class ForcedKeys(KeyGroup):
+    """Motion of the section in pitch, and in heave, that its flutter derivatives are found from."""
+
+    run: Truth = Field(
+        False,
+        description="Whether the section is moved: its derivatives come to `derivatives/2d.csv`, "
+        "and their onset to `comparison/critical_speed.csv`.",
+    )
+    motion: Literal["multi-sine", "harmonic"] = Field(
+        "multi-sine",
+        description="`multi-sine`: all reduced velocities in one run of pitch and one of heave; "
+        "`harmonic`: a run for each.",
+    )
+    reduced_velocity: Annotated[tuple[Positive, ...], Field(min_length=FEWEST_ROWS)] = Field(
+        (3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0),
+        description="Reduced velocities V/(f c), ascending; the onset is looked for between them.",
+    )
+    incidence_deg: Annotated[Angle | None, NULLABLE] = Field(
+        None,
+        description="Mean incidence (deg). The onset is that of the section about its static "
+        "equilibrium, so that this is the rigid incidence plus the twist there; "
+        "`flow.incidence_deg` with null.",
+    )
+    amplitude_deg: Annotated[float, Field(gt=0, le=20, allow_inf_nan=False), NUMBER] = Field(
+        0.25,
+        description="Amplitude of the incidence (deg), by pitch or by the speed of heave: of a "
+        "harmonic, or root mean square times the root of 2 of a multi-sine.",
+    )
+    periods: Annotated[int, Field(ge=2, le=100), WHOLE] = Field(
+        4,
+        description="Periods of the slowest harmonic that are recorded, or more where it takes "
+        "more to tell two frequencies apart (-).",
+    )
+    settling: Positive = Field(
+        30.0,
+        description="Time before the record (c/V), in the first sixth of which the motion sets in.",
+    )
+
+    @property
+    def frequencies(self) -> tuple[float, ...]:
+        """Reduced frequencies omega c/V, descending."""
+        return tuple(math.tau / one for one in self.reduced_velocity)
+
+
+@check("forced.reduced_velocity")
+def _ascending_velocities(velocities: tuple[float, ...]) -> Iterator[Problem]:
+    for place, (low, high) in enumerate(itertools.pairwise(velocities), start=1):
+        if not high > 1.02 * low:
+            yield Problem(
+                f"forced.reduced_velocity.{place}",
+                high,
+                f"allowed is a number that is 2 % or more above the one before it, {low:g}",
+            )
+
+
+@check("forced.run", "derivatives.table")
+def _one_source(run: bool, table: str) -> Iterator[Problem]:
+    if run and table:
+        yield Problem(
+            "derivatives.table",
+            table,
+            'allowed with forced.run: true is "": the run makes a table of its own',
+        )

@@ -1,0 +1,76 @@
+"""Result of a forced case: motion and loads over time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import xarray as xr
+from numpy.typing import NDArray
+
+from equisection.motion.forced_signal import ForcedSignal
+from equisection.results.spent import Spent
+
+if TYPE_CHECKING:
+    from equisection.cases import ForcedCase
+
+Floats = NDArray[np.float64]
+
+
+def signal_of(case: ForcedCase) -> ForcedSignal:
+    """Return the motion of a case."""
+    rows = [(one.frequency, one.amplitude, one.phase) for one in case.harmonics]
+    frequencies, amplitudes, phases = np.array(rows).T
+    return ForcedSignal(frequencies, amplitudes, phases, case.ramp)
+
+
+@dataclass(frozen=True)
+class ForcedResult:
+    """Prescribed motion of a section, and its loads.
+
+    Attributes
+    ----------
+    time
+        s = tV/c, shape (n,).
+    twist, deflection
+        Nose up (rad); of mid-chord, up (chords); shape (n,).
+    lift, moment
+        c_l, and c_m about the moving mid-chord, shape (n,).
+    failure
+        Reason for a history that ends early; else empty.
+    spent
+        Time that the case took, where the solver knows it better than its job.
+    """
+
+    time: Floats
+    twist: Floats
+    deflection: Floats
+    lift: Floats
+    moment: Floats
+    failure: str = ""
+    spent: Spent | None = None
+
+    def of_case(self, case: ForcedCase) -> xr.Dataset:
+        """Return the data set that is written to the file of a case."""
+        chord = case.geometry.chord
+        data = {
+            "twist": (self.twist, "rad", "prescribed twist, nose up"),
+            "deflection": (self.deflection * chord, "m", "prescribed deflection of mid-chord, up"),
+            "cl": (self.lift, "1", "lift coefficient"),
+            "cm": (self.moment, "1", "moment coefficient about the moving mid-chord, nose up"),
+        }
+        attributes: dict[str, Any] = {
+            "chord": chord,
+            "component": case.component,
+            "failure": self.failure,
+            "end_time": float(self.time[-1]) if self.time.size else 0.0,
+        }
+        return xr.Dataset(
+            {
+                name: ("time", values, {"units": units, "long_name": text})
+                for name, (values, units, text) in data.items()
+            },
+            {"time": ("time", self.time, {"units": "c/V", "long_name": "convective time t V/c"})},
+            attrs=attributes,
+        )
