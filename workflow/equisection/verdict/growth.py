@@ -33,12 +33,12 @@ MOST_PERIODS = 8.0
 #: Shortest part from which two motions can be told apart (periods of the pitch).
 FEWEST_PERIODS = 2.5
 #: Samples of a period of the faster motion that are enough.
-_SAMPLES_A_PERIOD = 24
+_SAMPLES_A_PERIOD = 12
 #: Part of the twist's variation that the waves may leave; more, and the window has beats in it.
 LARGEST_RESIDUE = 0.2
 _FEWEST_SAMPLES = 40
 _STEPS = 60
-_SMALL_STEP = 1e-8
+_SMALL_STEP = 1e-6
 # Bounds of the search: growth rates (V/c), frequencies as parts of the natural ones.
 _GROWTH_RANGE = (-0.3, 0.25)
 _FREQUENCY_RANGE = (0.5, 1.8)
@@ -188,49 +188,61 @@ class _Fit:
         return cls(at - spans.mean(axis=1, keepdims=True), values, spans, natural)
 
     def searched(self) -> list[Growth]:
-        """Return the best of several searches from near the natural frequencies."""
+        """Return the best of two searches from near the natural frequencies."""
         best, cost = np.empty(0), np.full(len(self.natural), np.inf)
-        for growth, others in ((0.0, -0.02), (0.02, -0.08)):
-            for nearness in (0.93, 1.05):
-                start = np.repeat(self.natural, 2, axis=1)
-                start[:, ::2] = others
-                start[:, 0] = growth
-                start[:, 1] *= nearness
-                rates, left = self._refined(start)
-                best = np.where((left < cost)[:, None], rates, best) if best.size else rates
-                cost = np.minimum(left, cost)
+        for growth, others, nearness in ((0.0, -0.02, 0.93), (0.02, -0.08, 1.05)):
+            start = np.repeat(self.natural, 2, axis=1)
+            start[:, ::2] = others
+            start[:, 0] = growth
+            start[:, 1] *= nearness
+            rates, left = self._refined(start)
+            best = np.where((left < cost)[:, None], rates, best) if best.size else rates
+            cost = np.minimum(left, cost)
         return self._described(best)
 
-    def _refined(self, rates: Array) -> tuple[Array, Array]:
-        """Follow Levenberg and Marquardt in all lanes at once."""
-        low, high = (
-            np.stack([np.full_like(self.natural, sigma), omega * self.natural], axis=2).reshape(
-                rates.shape
-            )
-            for sigma, omega in zip(_GROWTH_RANGE, _FREQUENCY_RANGE, strict=True)
-        )
-        eye = np.eye(rates.shape[1])
-        damping = np.full(len(rates), 1e-2)
-        residual, jacobian = self._projected(rates)
+    def _of(self, lanes: NDArray[np.intp]) -> _Fit:
+        """Return the fit of some lanes alone."""
+        return _Fit(self.at[lanes], self.values[lanes], self.spans[lanes], self.natural[lanes])
+
+    def _refined(self, start: Array) -> tuple[Array, Array]:
+        """Follow Levenberg and Marquardt in all lanes at once, each until it moves no more."""
+        found, costs = start.copy(), np.full(len(start), np.inf)
+        lanes, fit, rates = np.arange(len(start)), self, start
+        damping = np.full(len(start), 1e-2)
+        residual, jacobian = fit._projected(rates)
         cost = np.sum(residual**2, axis=(1, 2))
+        eye = np.eye(start.shape[1])
         for _ in range(_STEPS):
             flat = jacobian.reshape(len(rates), -1, rates.shape[1])
             matrix = np.swapaxes(flat, 1, 2) @ flat
             slope = np.swapaxes(flat, 1, 2) @ residual.reshape(len(rates), -1, 1)
             damped = matrix + damping[:, None, None] * (matrix * eye) + 1e-12 * eye
-            tried = np.clip(rates - np.linalg.solve(damped, slope)[..., 0], low, high)
-            residual_tried, jacobian_tried = self._projected(tried)
+            tried = fit._inside(rates - np.linalg.solve(damped, slope)[..., 0])
+            residual_tried, jacobian_tried = fit._projected(tried)
             cost_tried = np.sum(residual_tried**2, axis=(1, 2))
             better = cost_tried < cost
-            moved = np.abs(np.where(better[:, None], tried - rates, 0.0)).max()
+            moved = np.abs(tried - rates).max(axis=1)
             rates = np.where(better[:, None], tried, rates)
             residual = np.where(better[:, None, None], residual_tried, residual)
             jacobian = np.where(better[:, None, None, None], jacobian_tried, jacobian)
             cost = np.where(better, cost_tried, cost)
             damping = np.clip(np.where(better, damping * 0.3, damping * 4.0), 1e-7, 1e7)
-            if moved < _SMALL_STEP and (better | (damping > 1e3)).all():
+            found[lanes], costs[lanes] = rates, cost
+            going = np.flatnonzero(moved > _SMALL_STEP)
+            if not going.size:
                 break
-        return rates, cost
+            if going.size < 0.7 * lanes.size:
+                lanes, rates, damping, cost = (x[going] for x in (lanes, rates, damping, cost))
+                residual, jacobian, fit = residual[going], jacobian[going], fit._of(going)
+        return found, costs
+
+    def _inside(self, rates: Array) -> Array:
+        """Return rates inside the bounds of the search."""
+        low, high = (
+            np.stack([np.full_like(self.natural, sigma), omega * self.natural], axis=2)
+            for sigma, omega in zip(_GROWTH_RANGE, _FREQUENCY_RANGE, strict=True)
+        )
+        return np.clip(rates, low.reshape(rates.shape), high.reshape(rates.shape))
 
     def _basis(self, rates: Array) -> Array:
         """Return constant, and cosine and sine of each wave, shape (N, n, 1 + 2 W)."""
@@ -254,19 +266,19 @@ class _Fit:
     def _projected(self, rates: Array) -> tuple[Array, Array]:
         """Return residual (N, n, C) and Jacobian (N, n, C, 2 W), linear coefficients eliminated."""
         basis = self._basis(rates)
-        turned, upper = np.linalg.qr(basis)
-        inner = np.swapaxes(turned, 1, 2) @ self.values
-        weights = np.linalg.solve(upper + 1e-12 * np.eye(upper.shape[1]), inner)
-        s = self.at[..., None]
+        transposed = np.swapaxes(basis, 1, 2)
+        gram = transposed @ basis
+        gram = gram + 1e-13 * np.trace(gram, axis1=1, axis2=2)[:, None, None] * np.eye(len(gram[0]))
+        weights = np.linalg.solve(gram, transposed @ self.values)
         columns = []
         for first in range(1, basis.shape[2], 2):
             cos, sin = basis[..., first, None], basis[..., first + 1, None]
             a, b = weights[:, None, first], weights[:, None, first + 1]
-            columns += [s * (cos * a + sin * b), s * (cos * b - sin * a)]
-        raw = np.stack(columns, axis=3)
+            columns += [cos * a + sin * b, cos * b - sin * a]
+        raw = self.at[..., None, None] * np.stack(columns, axis=3)
         flat = raw.reshape(*raw.shape[:2], -1)
-        left = flat - turned @ (np.swapaxes(turned, 1, 2) @ flat)
-        return self.values - turned @ inner, -left.reshape(raw.shape)
+        left = flat - basis @ np.linalg.solve(gram, transposed @ flat)
+        return self.values - basis @ weights, -left.reshape(raw.shape)
 
     def _described(self, rates: Array) -> list[Growth]:
         residual, jacobian = self._projected(rates)
