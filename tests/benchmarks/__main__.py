@@ -21,6 +21,7 @@ from tests.benchmarks import (  # noqa: E402
     default_run,
     early_verdict,
     large_sweep,
+    learnt,
     many_cases,
     modes,
     openfoam,
@@ -35,6 +36,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "campaign": campaign.rows,
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
+    "learnt": learnt.rows,
     "openfoam": openfoam.rows,
     "plate": plate.rows,
 }

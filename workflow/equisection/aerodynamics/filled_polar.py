@@ -70,5 +70,5 @@ def missing_angles(polar: Polar, seen: tuple[float, float]) -> list[float]:
         if stop - start <= WIDEST_INTERVAL_DEG or stop < low or start > high:
             continue
         whole = np.arange(np.floor(start) + 1.0, np.ceil(stop))
-        found += [float(angle) for angle in whole if start < angle < stop]
+        found += [float(angle) for angle in whole if start + 1e-6 < angle < stop - 1e-6]
     return found

@@ -44,6 +44,10 @@ SHORTEST_RECORD = 35.0
 LONGEST_INTERVAL = 0.25
 TERMS = ("theta'", "a theta'", "h", "a h", "h^2", "a^2 h", "a h^2", "h^3")
 RIDGE = 1e-4
+#: Largest part of a load's variation that the section's own equation may leave (-).
+LARGEST_CONTRADICTION = 0.3
+#: End (c/V) of the part that is checked by it; what has settled later is noise.
+CHECKED_UNTIL = 50.0
 _LIFT_WEIGHT = 0.3
 _RATES = (0.05, 4.0)
 _FIRST_RATES = 14
@@ -130,9 +134,8 @@ def lagged(signal: Floats, step: float, rate: float) -> Floats:
     """
     decay = math.exp(-rate * step)
     mean = (1.0 - decay) / (rate * step)
-    start = (signal[:1] * (decay - (1.0 - mean))) if len(signal) else signal
     found, _ = scipy.signal.lfilter(
-        [1.0 - mean, mean - decay], [1.0, -decay], signal, axis=0, zi=start
+        [1.0 - mean, mean - decay], [1.0, -decay], signal, axis=0, zi=mean * signal[:1]
     )
     return np.asarray(found)
 
@@ -170,6 +173,7 @@ class Lesson:
             The history cannot be learnt from.
         """
         require_lesson(history)
+        require_consistent(history, polar)
         s, axis = history.time, history.section.axis_behind_mid_chord
         twist = scipy.interpolate.make_interp_spline(s, history.twist, 5)
         heave = scipy.interpolate.make_interp_spline(s, history.deflection + axis * history.twist, 5)
@@ -280,3 +284,46 @@ def require_lesson(history: ReferenceHistory) -> None:
             f"{history.name}: samples are {step:.3g} c/V apart; at most {LONGEST_INTERVAL:g} are "
             "allowed in a record to learn from (unsteady.output_interval)"
         )
+
+
+def require_consistent(history: ReferenceHistory, polar: Polar) -> None:
+    """Refuse a history whose motion does not follow from its loads and the section.
+
+    The loads that the section's equations (:mod:`equisection.beam.section`) need for the recorded
+    motion are compared with the recorded ones. Degrees taken for radians, a moment about another
+    point, or properties of another section show here.
+
+    Raises
+    ------
+    ResultFileError
+        The equations leave more than :data:`LARGEST_CONTRADICTION` of a load's variation.
+    """
+    s, section = history.time, history.section
+    splines = [
+        scipy.interpolate.make_interp_spline(s, values, 5)
+        for values in (history.deflection, history.twist)
+    ]
+    motion = [np.array([spline(s, order) for spline in splines]) for order in range(3)]
+    needed = (
+        section.mass_matrix @ motion[2]
+        + section.damping_matrix @ motion[1]
+        + section.stiffness_matrix @ motion[0]
+    )
+    axis = section.axis_behind_mid_chord
+    alpha = history.incidence_rad + motion[0][1] - motion[1][0] - axis * motion[1][1]
+    force = history.lift_coefficient + (polar.normal_rise(alpha) if axis else 0.0)
+    recorded = np.array([history.lift_coefficient, history.moment_coefficient + axis * force])
+    inside = (s >= LEARN_FROM) & (s <= min(s[-1] - 1.0, CHECKED_UNTIL)) & np.isfinite(recorded[1])
+    left = (needed - recorded)[:, inside].std(axis=1)
+    parts = left / np.maximum(recorded[:, inside].std(axis=1), 1e-300)
+    for name, part, hint in (
+        ("moment", parts[1], "a moment about mid-chord, nose up, and a twist in rad"),
+        ("lift", parts[0], "a lift upwards, and a deflection in chords"),
+    ):
+        if not part <= LARGEST_CONTRADICTION:
+            raise ResultFileError(
+                f"{history.name}: the recorded motion does not follow from the recorded {name}: "
+                f"the section's equation leaves {100 * part:.3g} % of its variation "
+                f"({100 * LARGEST_CONTRADICTION:g} % is allowed); wanted is {hint}, of the section "
+                "that moved"
+            )
