@@ -16,6 +16,7 @@ from equisection.beam.supports import Lump, Support
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
 from equisection.config.groups.openfoam_keys import OpenFoam
+from equisection.config.groups.rom_keys import Rom
 from equisection.config.groups.solver_keys import SolverKeys
 from equisection.config.groups.steady import Steady
 from equisection.config.groups.structure import Elements, Structure
@@ -41,6 +42,7 @@ __all__ = [
     "ModelName",
     "OpenFoam",
     "Range",
+    "Rom",
     "Separation",
     "SolverKeys",
     "StartKeys",
