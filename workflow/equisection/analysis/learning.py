@@ -20,6 +20,7 @@ import pandas as pd
 import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.analysis.onset import is_unstable
 from equisection.analysis.reduced_model import (
     COLUMNS,
@@ -33,8 +34,9 @@ from equisection.analysis.reduced_model import (
 from equisection.beam.section import Section
 from equisection.config import Config
 from equisection.errors import ResultFileError
+from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
-from equisection.results.recorded_history import read_reference_history
+from equisection.results.recorded_history import history_of
 from equisection.solvers.registry import solver_from_config
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
@@ -154,7 +156,7 @@ class Lessons:
 
     def learnt(self, run: Run) -> ReducedModel:
         """Return the model that is learnt from a run."""
-        found = learnt_model(read_reference_history(run.file), self.polar)
+        found = learnt_model(self._history(run), self.polar)
         if found.missing_angles:
             _LOG.warning(
                 "the polar at resolution '%s' has no points at %s deg, where the release %s moves: "
@@ -164,6 +166,15 @@ class Lessons:
                 run.point.name,
             )
         return found
+
+    def _history(self, run: Run) -> ReferenceHistory:
+        """Return the history of a run, with the section that moved."""
+        model = plan.model(run.file.parent.name, self.config.reduction)
+        solver = solver_from_config(self.config, self.config.steady.resolution)
+        case = case_at(self.config, model, run.point, self.data, solver)
+        if case.section is None:
+            raise ResultFileError(f"{run.file}: {case.refusal}; no model can be learnt from it")
+        return history_of(run.file, read_dataset(run.file), case, case.section)
 
     @cached_property
     def last_release(self) -> Run:
