@@ -9,6 +9,7 @@ import pandas as pd
 
 from equisection.analysis import critical_speeds
 from equisection.analysis.deviations import deviations
+from equisection.analysis.learning import onsets_of
 from equisection.analysis.linear_theory import (
     linear_onset,
     linear_theory,
@@ -37,17 +38,30 @@ def main(
     speed: float,
     reduction: str,
     output: Path,
+    learnt: Sequence[Path] = (),
 ) -> None:
-    """Bracket the onset of each model, in k* and speed, and add that of linear theory."""
+    """Bracket the onset of each model, in k* and speed, and add that of linear theory.
+
+    ``learnt`` are the models learnt from releases, whose onsets are added.
+    """
     sections = read_dataset(equivalent)
     axis = float(sections["elastic_axis"][0])
     slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg, axis)
     linear = linear_onset(sections, slope)
     table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
-    _write(with_speeds(table, AsGiven(nominal_k_star(sections), speed)), output)
+    table = with_speeds(table, AsGiven(nominal_k_star(sections), speed))
+    if learnt:
+        table = table.merge(onsets_of([read_dataset(path) for path in learnt]), how="outer")
+    _write(table, output)
 
 
-def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: Path) -> None:
+def speeds(
+    summary: Path,
+    equivalent: Path,
+    raw_config: dict[str, Any],
+    output: Path,
+    learnt: Sequence[Path] = (),
+) -> None:
     """Write the critical speed of each model, and tell it."""
     config, data = load_config(raw_config), read_dataset(equivalent)
     flow, table = config.flow, pd.read_csv(summary)
@@ -61,6 +75,12 @@ def speeds(summary: Path, equivalent: Path, raw_config: dict[str, Any], output: 
             incidence_deg=flow.incidence_deg,
         )
     ]
+    if learnt:
+        found.append(
+            critical_speeds.from_learnt(
+                [read_dataset(path) for path in learnt], given=given, chord=config.beam.chord
+            )
+        )
     models = [plan.model(name, config.reduction) for name in config.sweep.models]
     sections = {
         model.name: section_from_dataset(data, model.reduction)
@@ -112,6 +132,7 @@ def _write(table: pd.DataFrame, output: Path) -> None:
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
         summary, equivalent = Path(snakemake.input.summary), Path(snakemake.input.equivalent)
+        learnt = [Path(path) for path in snakemake.input.learnt]
         main(
             summary,
             equivalent,
@@ -121,6 +142,7 @@ if __name__ == "__main__":
             speed=snakemake.params.speed,
             reduction=snakemake.params.reduction,
             output=Path(snakemake.output.onset),
+            learnt=learnt,
         )
         growth_by_linear_theory(
             equivalent,
@@ -134,6 +156,7 @@ if __name__ == "__main__":
             equivalent,
             snakemake.params.config,
             Path(snakemake.output.critical_speed),
+            learnt,
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

@@ -75,6 +75,7 @@ rule onset:
         summary=f"{RESULTS}/comparison/summary.csv",
         equivalent=f"{RESULTS}/structure/equivalent.nc",
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+        learnt=learnt_models(),
     output:
         onset=report(
             f"{RESULTS}/comparison/onset.csv",

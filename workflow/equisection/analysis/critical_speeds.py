@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
@@ -31,8 +32,9 @@ COLUMNS = (
     "margin",
     "basis",
 )
-#: Basis of a speed: runs of CFD, runs in time of another solver, or eigenvalues.
-CFD, TIME, EIGENVALUE = "cfd", "time", "eigenvalue"
+#: Basis of a speed: runs of CFD, runs in time of another solver, a model that was learnt from runs,
+#: or eigenvalues.
+CFD, TIME, MODEL, EIGENVALUE = "cfd", "time", "model", "eigenvalue"
 
 
 def from_runs(
@@ -102,6 +104,46 @@ def _mechanism(stable: float, unstable: float, strouhal: float, any_failed: bool
     if math.isnan(unstable):
         return "unknown" if math.isnan(stable) or any_failed else "none"
     return "divergence" if math.isnan(strouhal) else "flutter"
+
+
+def from_learnt(learnt: Iterable[xr.Dataset], *, given: AsGiven, chord: float) -> pd.DataFrame:
+    """Return the critical speed of each model by what was learnt from its releases.
+
+    Parameters
+    ----------
+    learnt
+        ``rom/<model>/model.nc`` of each model. ``speed_low`` and ``speed_high`` are the ends of the
+        interval of the onset.
+    given
+        The beam as given.
+    chord
+        c (m).
+    """
+    rows = []
+    for data in learnt:
+        k_star, least, most = (
+            float(data.attrs[f"onset_k_star{end}"]) for end in ("", "_low", "_high")
+        )
+        speed = given.speed_at(k_star)
+        known = data["frequency_strouhal"].notnull().values
+        strouhal = math.nan
+        if math.isfinite(k_star) and known.any():
+            at = [data[name].values[known] for name in ("k_star", "frequency_strouhal")]
+            strouhal = float(np.interp(k_star, *at))
+        rows.append(
+            {
+                "model": data.attrs["model"],
+                "incidence_deg": float(data.attrs["incidence_deg"]),
+                "speed": speed,
+                "speed_low": given.speed_at(most),
+                "speed_high": given.speed_at(least),
+                "mechanism": "flutter" if math.isfinite(k_star) else "unknown",
+                "frequency_hz": strouhal * speed / chord,
+                "k_star": k_star,
+                "basis": MODEL,
+            }
+        )
+    return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
 
 
 def from_eigenvalues(

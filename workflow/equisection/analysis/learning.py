@@ -401,3 +401,20 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
             "at_odds": course.at_odds,
         },
     )
+
+
+def onsets_of(learnt: Sequence[xr.Dataset]) -> pd.DataFrame:
+    """Return the onsets of learnt models (``rom/<model>/model.nc``), for ``comparison/onset.csv``."""
+    return pd.DataFrame(
+        [
+            {
+                "model": data.attrs["model"],
+                "k_star_learnt": float(data.attrs["onset_k_star"]),
+                "k_star_learnt_low": float(data.attrs["onset_k_star_low"]),
+                "k_star_learnt_high": float(data.attrs["onset_k_star_high"]),
+                "learnt": data.attrs["words"],
+                "confirmation": data.attrs["confirmation"],
+            }
+            for data in learnt
+        ]
+    )

@@ -158,17 +158,16 @@ def predicted(
     rows = [_Released.of(loads, sections, windows) for loads in (model.loads, *model.refits)]
     rates = np.array([row.rates for row in rows])
     frequencies = np.array([row.frequencies for row in rows])
-    with np.errstate(invalid="ignore"):  # infinite rates have no distance
-        band = np.nan_to_num(np.abs(rates - rates[0]), nan=0.0).max(axis=0)
-        spread = np.nan_to_num(np.abs(frequencies - frequencies[0]), nan=0.0).max(axis=0)
-    band = np.maximum(band, SMALLEST_BAND)
+    band = np.maximum(_spread(rates), SMALLEST_BAND)
+    spread = _spread(frequencies)
+    away = np.isinf(rates).any(axis=0)  # a refit that runs away
     least, most = rows[0].histories.farthest.T
     return pd.DataFrame(
         {
             "k_star": np.asarray(k_star, dtype=float),
             "growth_rate": rates[0],
             "growth_low": rates[0] - band,
-            "growth_high": rates[0] + band,
+            "growth_high": np.where(away, np.inf, rates[0] + band),
             "frequency_strouhal": frequencies[0],
             "frequency_low": frequencies[0] - spread,
             "frequency_high": frequencies[0] + spread,
@@ -176,6 +175,13 @@ def predicted(
             "extrapolated": (least < model.loads.seen[0]) | (most > model.loads.seen[1]),
         }
     )
+
+
+def _spread(values: Floats) -> Floats:
+    """Return the largest finite distance of refits (1, 2, ...) from the model (0), shape (N,)."""
+    with np.errstate(invalid="ignore"):  # infinite rates have no distance
+        distance = np.abs(values - values[0])
+    return np.where(np.isfinite(distance), distance, 0.0).max(axis=0)
 
 
 @dataclass(frozen=True, eq=False)
