@@ -114,7 +114,7 @@ def _recorded(history: ReferenceHistory) -> float:
     return growth_of(history.time, records, natural, _window(history)).rate
 
 
-def over(sweep: Sweep, model: ReducedModel):  # noqa: ANN201, a table
+def over(sweep: Sweep, model: ReducedModel):
     """Return the prediction of a model at the k* of a sweep from 5 on."""
     chosen = [history for k_star, history in sweep.items() if k_star >= 5.0]
     return predicted(

@@ -5,10 +5,10 @@ import math
 
 import numpy as np
 import pytest
+from tests.workflow.project import ROOT
 
 from equisection.results.netcdf import read_dataset
 from equisection.verdict.growth import growth_of, growth_window, growths_of
-from tests.workflow.project import ROOT
 
 TIME = np.arange(0.0, 60.0, 0.1)
 
@@ -45,9 +45,7 @@ def test_standard_error_covers_the_error_with_noise():
     random = np.random.default_rng(0)
     records = np.array([coupled(0.01)] * 40)  # (N, C, n)
     noisy = records + 0.05 * random.standard_normal(records.shape)
-    found = growths_of(
-        TIME, np.swapaxes(noisy, 0, 1), [[0.16, 0.045]] * 40, [(10.0, 59.0)] * 40
-    )
+    found = growths_of(TIME, np.swapaxes(noisy, 0, 1), [[0.16, 0.045]] * 40, [(10.0, 59.0)] * 40)
     ratios = np.array([(one.rate - 0.01) / one.standard_error for one in found])
     assert 0.3 < np.mean(ratios**2) < 3.0
 

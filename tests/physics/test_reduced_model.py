@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from tests.workflow.project import ROOT
 
 from equisection.aerodynamics.filled_polar import filled, missing_angles
 from equisection.aerodynamics.learnt_loads import LearntLoads, lagged, learn
@@ -21,7 +22,6 @@ from equisection.beam.section import Section
 from equisection.errors import ResultFileError
 from equisection.motion.learnt_motion import LearntSections
 from equisection.results.recorded_history import read_reference_history
-from tests.workflow.project import ROOT
 
 REFERENCE = ROOT / "results" / "reference"
 POLAR = Polar.read(ROOT / "config" / "polars" / "plate_2d_11136.csv").continued
@@ -130,7 +130,9 @@ def test_small_releases_go_as_the_eigenvalues():
     slope = (moved.rates(state) - moved.rates(rest))[:, 0] / 1e-6
     np.testing.assert_allclose(slope, moved._matrix(0, theta)[:, 1], rtol=1e-2, atol=1e-3)
     pitch = eigenvalues[np.argmax(eigenvalues.imag)]
-    assert pitch.imag == pytest.approx(math.sqrt(SECTION.scaled(1.4).torsional_stiffness / 6.7), 0.2)
+    assert pitch.imag == pytest.approx(
+        math.sqrt(SECTION.scaled(1.4).torsional_stiffness / 6.7), 0.2
+    )
 
 
 def test_without_terms_a_section_in_still_loads_keeps_its_energy():

@@ -22,7 +22,6 @@ Volterra series of low order (Silva, J. Aircr. 30, 1993).
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,7 +107,10 @@ class LearntLoads:
         """
         alpha = self.incidence_rad + a
         found = []
-        for cubic, b in ((self.polar.lift_cubic, self.lift), (self.polar.moment_cubic, self.moment)):
+        for cubic, b in (
+            (self.polar.lift_cubic, self.lift),
+            (self.polar.moment_cubic, self.moment),
+        ):
             by_lag = b[2] + a * b[3] + a * a * b[5]
             found.append(np.array([float(cubic(alpha, 1)) + by_lag, b[0] + a * b[1], -by_lag]))
         return found[0], found[1]
@@ -176,7 +178,9 @@ class Lesson:
         require_consistent(history, polar)
         s, axis = history.time, history.section.axis_behind_mid_chord
         twist = scipy.interpolate.make_interp_spline(s, history.twist, 5)
-        heave = scipy.interpolate.make_interp_spline(s, history.deflection + axis * history.twist, 5)
+        heave = scipy.interpolate.make_interp_spline(
+            s, history.deflection + axis * history.twist, 5
+        )
         a, rate = twist(s) - heave(s, 1), twist(s, 1)
         alpha = history.incidence_rad + a
         lift = history.lift_coefficient - polar.lift_coefficient(alpha)

@@ -65,9 +65,7 @@ def runs_of(index: Path) -> list[Run]:
     return [
         Run(
             Point.named(name),
-            is_unstable(
-                str(found["regime"]), float(found["twist_amplitude_deg"]), THRESHOLD_DEG
-            ),
+            is_unstable(str(found["regime"]), float(found["twist_amplitude_deg"]), THRESHOLD_DEG),
             result_file(index, name),
         )
         for name, found in read_index(index).items()
@@ -315,7 +313,9 @@ class Course:
             return f"contradicted by the run {self.at_odds}"
         if not self.checked:
             return "not confirmed by runs"
-        again = ", after it was learnt anew from a run that contradicted" if self.contradicted else ""
+        again = (
+            ", after it was learnt anew from a run that contradicted" if self.contradicted else ""
+        )
         return f"not contradicted by {self.checked} runs{again}"
 
 
@@ -364,7 +364,10 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
             "moment_terms": (
                 ("fit", "term"),
                 np.array([fit.moment for fit in fits]),
-                {"units": "1", "long_name": "B_m of theta', a theta', h, a h, h^2, a^2 h, a h^2, h^3"},
+                {
+                    "units": "1",
+                    "long_name": "B_m of theta', a theta', h, a h, h^2, a^2 h, a h^2, h^3",
+                },
             ),
             "lift_terms": (
                 ("fit", "term"),

@@ -181,7 +181,8 @@ def _spread(values: Floats) -> Floats:
     """Return the largest finite distance of refits (1, 2, ...) from the model (0), shape (N,)."""
     with np.errstate(invalid="ignore"):  # infinite rates have no distance
         distance = np.abs(values - values[0])
-    return np.where(np.isfinite(distance), distance, 0.0).max(axis=0)
+    known: Floats = np.where(np.isfinite(distance), distance, 0.0)
+    return np.asarray(known.max(axis=0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -231,9 +232,7 @@ class _Released:
         """Half the range of the twist (deg) over the last third of each window."""
         found = []
         for lane, (start, end) in enumerate(self.windows):
-            late = (self.histories.time >= end - (end - start) / 3.0) & (
-                self.histories.time <= end
-            )
+            late = (self.histories.time >= end - (end - start) / 3.0) & (self.histories.time <= end)
             twist = self.histories.twist[late, lane]
             found.append(0.5 * math.degrees(float(np.ptp(twist))) if twist.size else math.nan)
         return np.array(found)

@@ -71,7 +71,9 @@ class LearntSections:
         self.loads = loads
         self.sections = tuple(sections)
         self._axis = _members(sections, "axis_behind_mid_chord")
-        self._damping = [_members(sections, f"{kind}_damping") for kind in ("flexural", "torsional")]
+        self._damping = [
+            _members(sections, f"{kind}_damping") for kind in ("flexural", "torsional")
+        ]
         self._stiffness = [
             _members(sections, f"{kind}_stiffness") for kind in ("flexural", "torsional")
         ]

@@ -80,7 +80,9 @@ def learner(config: Config, name: str) -> str:
 
     The loads under a motion are those of the same flow, whatever the section's mass and springs.
     """
-    sections = [one for one in config.sweep.models if model(one, config.reduction).dimension == "2d"]
+    sections = [
+        one for one in config.sweep.models if model(one, config.reduction).dimension == "2d"
+    ]
     plain = [one for one in sections if not model(one, config.reduction).corrected]
     return (plain or sections or [name])[0]
 
