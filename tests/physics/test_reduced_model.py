@@ -211,7 +211,7 @@ def test_records_that_say_nothing_are_refused_by_name(sweep):
     gap = cut(history, (history.time < 20.0) | (history.time > 22.0))
     with pytest.raises(ResultFileError, match=r"samples are 2.2 c/V apart at s = 19.9"):
         learn(gap, POLAR)
-    with pytest.raises(ResultFileError, match="samples are 0.5 c/V apart; at most 0.25"):
+    with pytest.raises(ResultFileError, match=r"samples are 0\.5 c/V apart; at most 0\.25"):
         learn(cut(history, slice(None, None, 5)), POLAR)
 
 

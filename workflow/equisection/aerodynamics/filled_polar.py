@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -29,8 +31,8 @@ def filled(polar: Polar, denser: Polar) -> Polar:
     angles = polar.incidence[given]
     if not denser.covers(angles):
         raise ArgumentError(
-            f"polar {denser.label!r} covers {np.degrees(denser.incidence_range)} deg; wanted is one "
-            f"that covers all angles of {polar.label!r}"
+            f"polar {denser.label!r} covers {np.degrees(denser.incidence_range)} deg; wanted is "
+            f"one that covers all angles of {polar.label!r}"
         )
 
     def shaped(values: Floats, shape: Floats, at: Floats) -> Floats:
@@ -66,7 +68,7 @@ def missing_angles(polar: Polar, seen: tuple[float, float]) -> list[float]:
     points = np.degrees(polar.incidence)
     low, high = np.degrees(seen)
     found: list[float] = []
-    for start, stop in zip(points[:-1], points[1:], strict=True):
+    for start, stop in itertools.pairwise(points):
         if stop - start <= WIDEST_INTERVAL_DEG or stop < low or start > high:
             continue
         whole = np.arange(np.floor(start) + 1.0, np.ceil(stop))

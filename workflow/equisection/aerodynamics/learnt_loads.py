@@ -14,9 +14,9 @@ do: a release sweeps the incidence over the bends of the polar.
 B_m and B_l are found by linear least squares from the histories of loads and motion, for which
 derivatives come from a quintic spline. They are bound by a ridge of 1e-4 on columns scaled to a
 largest value of 1, and the rate g of the lag makes the rest smallest, that of the moment counting
-for more than that of the lift. This is the identification of indicial functions with a state (Leishman,
-*Principles of Helicopter Aerodynamics*, 2006, chapter 8) with the coefficients left free, as in
-Volterra series of low order (Silva, J. Aircr. 30, 1993).
+for more than that of the lift. This is the identification of indicial functions with a state
+(Leishman, *Principles of Helicopter Aerodynamics*, 2006, chapter 8) with the coefficients left
+free, as in Volterra series of low order (Silva, J. Aircr. 30, 1993).
 """
 
 from __future__ import annotations

@@ -19,6 +19,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from equisection.aerodynamics.learnt_loads import TERMS
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.analysis.onset import is_unstable
@@ -96,6 +97,19 @@ class Lessons:
     releases: Sequence[Path]
     confirming: Sequence[Path] = ()
 
+    @classmethod
+    def read(cls, config: Config, name: str, files: Mapping[str, str | Sequence[str]]) -> Lessons:
+        """Read the files of a model by name: one of each data set, indices of the two kinds."""
+        data = {
+            one: read_dataset(Path(str(files[one])))
+            for one in ("equivalent", "polar_2d", "correction")
+            if one in files
+        }
+        releases, confirming = (
+            [Path(path) for path in files.get(kind, ())] for kind in ("releases", "confirming")
+        )
+        return cls(config, name, data, releases, confirming)
+
     @property
     def axis(self) -> Axis:
         """Axis along which the onset is looked for."""
@@ -157,8 +171,8 @@ class Lessons:
         found = learnt_model(self._history(run), self.polar)
         if found.missing_angles:
             _LOG.warning(
-                "the polar at resolution '%s' has no points at %s deg, where the release %s moves: "
-                "add them to steady.incidence_deg, since the model rests on the polar",
+                "the polar at resolution '%s' has no points at %s deg, where the release %s moves, "
+                "and the model rests on it: add them to steady.incidence_deg",
                 self.config.steady.resolution,
                 ", ".join(f"{angle:g}" for angle in found.missing_angles),
                 run.point.name,
@@ -366,7 +380,7 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
                 np.array([fit.moment for fit in fits]),
                 {
                     "units": "1",
-                    "long_name": "B_m of theta', a theta', h, a h, h^2, a^2 h, a h^2, h^3",
+                    "long_name": f"B_m of {', '.join(TERMS)}",
                 },
             ),
             "lift_terms": (

@@ -29,11 +29,11 @@ Floats = NDArray[np.float64]
 
 #: Ends (c/V) of the records that the refits are learnt from, that of the model itself in the middle.
 ENDS = (40.0, 45.0, 50.0)
-#: Smallest band of a growth rate (V/c): that to which predictions agree with CFD where refits agree.
+#: Smallest band of a growth rate (V/c): that to which predictions agree with CFD at best.
 SMALLEST_BAND = 0.002
 #: Duration (c/V) of a predicted release.
 DURATION = 100.0
-#: Range of k* of a release over that of the onset that it predicts, in which it is trusted (-).
+#: Range of k* of a release, over that of the onset that it predicts, in which it is trusted.
 TRUSTED = (0.64, 1.05)
 #: Place of the next release, over the k* of the predicted onset (-).
 NEXT_RELEASE = 0.8

@@ -76,15 +76,17 @@ def draw(
         (f"solver '{solver}'", str(resolution))
         for solver, resolution in summary[["solver", "resolution"]].drop_duplicates().values
     )
-    sources += [f"band: {data.attrs['model']}, {data.attrs['words']}" for data in learnt]
-    add_provenance(figure, *sources, "linear: thin plate in free air, Theodorsen, p-k method")
+    learnt_words = [f"band: {data.attrs['model']}, {data.attrs['words']}" for data in learnt]
+    add_provenance(
+        figure, *sources, *learnt_words, "linear: thin plate in free air, Theodorsen, p-k method"
+    )
     return figure
 
 
 def _by_learnt_models(
     axes: Axes, learnt: Sequence[xr.Dataset], name: str, summary: pd.DataFrame
 ) -> None:
-    """Draw what learnt models predict over the sweep, where the motion is one that they have seen."""
+    """Draw what learnt models predict, where the motion is one that they have seen."""
     low, high = ("growth_low", "growth_high") if name == "growth_rate" else _BAND_OF_FREQUENCY
     along = onset_axis_among(summary.columns).name
     for data in learnt:

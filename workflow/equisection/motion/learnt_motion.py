@@ -3,8 +3,9 @@
 With the elastic axis x chords behind mid-chord, M_a the apparent mass pi/2 and I_a the apparent
 inertia pi/64, c_l and c_m the learnt loads without them (:mod:`..aerodynamics.learnt_loads`),
 
-    [m + M_a          -S + M_a x        ] [w'']   [c_l + M_a theta' - c_w w' - k_w w          ]
-    [-S + M_a x   I + I_a + M_a x^2] [theta''] = [c_m + x (c_l + M_a theta' + r) - c_theta theta' - k theta],
+    (m + M_a) w''            + (-S + M_a x) theta''             = F - c_w w' - k_w w,
+    (-S + M_a x) w'' + (I + I_a + M_a x^2) theta'' = c_m + x (F + r) - c_theta theta' - k theta,
+    F = c_l + M_a theta',
 
 r = c_l (cos alpha - 1) + c_d sin alpha from the polar, and the incidence at mid-chord is
 theta_0 + theta - (w + x theta)'.
@@ -135,7 +136,7 @@ class LearntSections:
                 if not np.isfinite(state).any():
                     record[n + 2 :] = np.nan
                     break
-        time = time_step * np.arange(count + 1)
+        time = time_step * np.arange(count + 1, dtype=np.float64)
         valid = np.isfinite(record).all(axis=1)
         return LearntHistories(
             time=time,

@@ -232,7 +232,8 @@ class _Fit:
             if not going.size:
                 break
             if going.size < 0.7 * lanes.size:
-                lanes, rates, damping, cost = (x[going] for x in (lanes, rates, damping, cost))
+                lanes, rates = lanes[going], rates[going]
+                damping, cost = damping[going], cost[going]
                 residual, jacobian, fit = residual[going], jacobian[going], fit._of(going)
         return found, costs
 
@@ -261,7 +262,7 @@ class _Fit:
             np.std((basis * weights[:, None])[..., first : first + 2].sum(axis=2), axis=1)
             for first in range(1, basis.shape[2], 2)
         ]
-        return np.argmax(sizes, axis=0)
+        return np.asarray(np.argmax(sizes, axis=0), dtype=np.intp)
 
     def _projected(self, rates: Array) -> tuple[Array, Array]:
         """Return residual (N, n, C) and Jacobian (N, n, C, 2 W), linear coefficients eliminated."""
@@ -300,7 +301,7 @@ class _Fit:
         return found
 
     def _errors(self, lane: int, rates: Array, residual: Array, jacobian: Array) -> list[float]:
-        """Standard errors of the rates of a lane: jackknife over periods, to first order."""
+        """Return the standard errors of the rates of a lane, by a jackknife over periods."""
         left, slope = residual[lane], jacobian[lane]
         length = float(self.at[lane, -1] - self.at[lane, 0])
         blocks = max(round(length * float(rates[lane, 1]) / (2.0 * math.pi)), 2)

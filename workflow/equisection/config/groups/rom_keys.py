@@ -19,8 +19,8 @@ class Rom(KeyGroup):
 
     learn_from: Literal["auto"] | Annotated[tuple[Positive, ...], Field(min_length=1)] = Field(
         AUTO,
-        description="Values of k* (or speeds, as the sweep's) of the releases to learn from, one or "
-        "two; the last one counts. `auto`: the middle of the sweep, and a second one where the "
+        description="Values of k* (or speeds, as the sweep's) of the releases to learn from, one "
+        "or two; the last one counts. `auto`: the middle of the sweep, and a second one where the "
         "model says that this is too far from the onset.",
     )
     confirm: Literal[0, 2, 4] = Field(
