@@ -421,7 +421,7 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
 
 
 def onsets_of(learnt: Sequence[xr.Dataset]) -> pd.DataFrame:
-    """Return the onsets of learnt models (``rom/<model>/model.nc``), for ``comparison/onset.csv``."""
+    """Return the onsets of learnt models, ``rom/<model>/model.nc``, as columns of the onsets."""
     return pd.DataFrame(
         [
             {

@@ -27,7 +27,7 @@ from equisection.verdict.growth import Growth, growth_window, growths_of
 
 Floats = NDArray[np.float64]
 
-#: Ends (c/V) of the records that the refits are learnt from, that of the model itself in the middle.
+#: Ends (c/V) of the records of the refits, that of the model itself in the middle.
 ENDS = (40.0, 45.0, 50.0)
 #: Smallest band of a growth rate (V/c): that to which predictions agree with CFD at best.
 SMALLEST_BAND = 0.002
@@ -150,7 +150,7 @@ def predicted(
     Returns
     -------
     pd.DataFrame
-        ``k_star`` and :data:`COLUMNS`: rates in V/c, frequencies as f c/V. The amplitude is half the
+        ``k_star`` and :data:`COLUMNS`: rates in V/c, frequencies f c/V. The amplitude is half the
         range of the section's twist over the last part of the release. A release that leaves the
         polar before growth can be read has NaN numbers and an infinite growth rate.
         ``extrapolated`` tells that the release goes to an incidence that the model has not seen.

@@ -84,7 +84,7 @@ def learner(config: Config, name: str) -> str:
         one for one in config.sweep.models if model(one, config.reduction).dimension == "2d"
     ]
     plain = [one for one in sections if not model(one, config.reduction).corrected]
-    return (plain or sections or [name])[0]
+    return next(iter([*plain, *sections]), name)
 
 
 def first_release(config: Config) -> float:

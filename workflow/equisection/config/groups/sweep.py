@@ -73,8 +73,8 @@ class Sweep(KeyGroup):
         "sweep",
         description="`refine` runs further values inside the bracket of the onset of each model "
         "until it is narrower than `onset_tolerance`; where all values are stable, or all "
-        "unstable, it looks beyond their end first. `model` runs the releases of `rom` in the "
-        "place of the values, learns a model from them and predicts the others (models of the section).",
+        "unstable, it looks beyond their end first. `model` runs the releases of "
+        "`rom` in their place, and learns a model that predicts the others (sections alone).",
     )
     onset_tolerance: Positive = Field(
         0.02, description="Width of the onset's bracket, relative to its unstable side (-)."
