@@ -1,4 +1,4 @@
-"""Course of a run whose onset is learnt: what is run next, and when a model is at odds with runs."""
+"""Course of a run whose onset is learnt: what is run next, and when runs contradict."""
 
 import json
 import math

@@ -201,7 +201,7 @@ class Lessons:
         if not runs or runs[-1].unstable is None:
             name = runs[-1].point.name if runs else "none"
             raise ResultFileError(
-                f"{self.releases[-1]}: the release to learn from failed, or there is none ({name}); "
+                f"{self.releases[-1]}: the release to learn from failed, or is missing ({name}); "
                 "see its log, or give another value in rom.learn_from"
             )
         return runs[-1]
