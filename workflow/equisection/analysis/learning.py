@@ -53,7 +53,7 @@ _LOG = logging.getLogger(__name__)
 
 
 @dataclass(frozen=True)
-class Run:
+class JudgedRun:
     """A run with its verdict."""
 
     point: Point
@@ -61,10 +61,10 @@ class Run:
     file: Path
 
 
-def runs_of(index: Path) -> list[Run]:
+def runs_of(index: Path) -> list[JudgedRun]:
     """Return the runs that an index of results names."""
     return [
-        Run(
+        JudgedRun(
             Point.named(name),
             is_unstable(str(found["regime"]), float(found["twist_amplitude_deg"]), THRESHOLD_DEG),
             result_file(index, name),
@@ -166,7 +166,7 @@ class Lessons:
         table["extrapolated"] = [value is True for value in table["extrapolated"]]
         return table
 
-    def learnt(self, run: Run) -> ReducedModel:
+    def learnt(self, run: JudgedRun) -> ReducedModel:
         """Return the model that is learnt from a run."""
         found = learnt_model(self._history(run), self.polar)
         if found.missing_angles:
@@ -179,7 +179,7 @@ class Lessons:
             )
         return found
 
-    def _history(self, run: Run) -> ReferenceHistory:
+    def _history(self, run: JudgedRun) -> ReferenceHistory:
         """Return the history of a run, with the section that moved."""
         model = plan.model(run.file.parent.name, self.config.reduction)
         solver = solver_from_config(self.config, self.config.steady.resolution)
@@ -189,7 +189,7 @@ class Lessons:
         return history_of(run.file, read_dataset(run.file), case, case.section)
 
     @cached_property
-    def last_release(self) -> Run:
+    def last_release(self) -> JudgedRun:
         """The release that counts.
 
         Raises
@@ -221,7 +221,7 @@ class Lessons:
         nearest = np.interp(k_star, table["k_star"], table[self.axis.name])
         return [Point.at({self.axis: float(f"{nearest:.4g}")})]
 
-    def contradiction(self, table: pd.DataFrame, index: Path) -> Run | None:
+    def contradiction(self, table: pd.DataFrame, index: Path) -> JudgedRun | None:
         """Return a run on whose stability a prediction is wrong, that nearest to the onset.
 
         A run inside the interval of the onset contradicts nothing.
