@@ -148,7 +148,7 @@ def test_damaged_result_in_the_store_is_computed_again(
     stored.write_bytes(stored.read_bytes()[:500])
     run(low=steady(1.0))
     assert solver.calls == [[1.0], [1.0]]
-    assert "result.nc: missing, truncated or not NetCDF-4" in caplog.text
+    assert "result.nc: truncated or not NetCDF-4" in caplog.text
 
 
 def test_equal_cases_are_computed_once_and_published_under_each_name(

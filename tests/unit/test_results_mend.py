@@ -10,7 +10,8 @@ import xarray as xr
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_attributes, write_dataset
 from equisection.store.index import read_index, result_files, write_index
-from equisection.store.mend import mend
+from equisection.store.made_from import write_record
+from equisection.store.mend import mend, put_aside, unsound_files
 
 
 def result(case_hash: str) -> xr.Dataset:
@@ -118,3 +119,62 @@ def test_index_of_another_schema_is_refused(tmp_path: Path) -> None:
     (tmp_path / "sweep.json").write_text(json.dumps(document))
     with pytest.raises(ResultFileError, match="schema version 7; version 1 is read here"):
         read_index(tmp_path / "sweep.json")
+
+
+def test_altered_result_is_set_aside_and_its_index_asked_for_again(run: Path) -> None:
+    path = run / "unsteady" / "2d" / "k5.nc"
+    content = bytearray(path.read_bytes())
+    content[len(content) // 2] ^= 4
+    path.write_bytes(content)
+    said = mend(run)
+    assert names(run) == ["k4.nc", "k5.nc.broken", "k6.nc"]
+    assert "k5.nc: not as it was written: its content does not have its digest; kept as" in said[0]
+
+
+def edited_table(run: Path) -> Path:
+    """A table with the record of its job, in which a number was changed afterwards."""
+    table = run / "comparison" / "summary.csv"
+    table.parent.mkdir()
+    table.write_text("model,k_star\n2d,5\n")
+    write_record(run / "logs" / "summary.log", [], [table])
+    assert mend(run) == []
+    table.write_text("model,k_star\n2d,6\n")
+    return table
+
+
+def test_table_that_was_edited_is_made_again(run: Path) -> None:
+    table = edited_table(run)
+    (said,) = mend(run)
+    assert "summary.csv: edited since its job made it; kept as summary.csv.broken" in said
+    assert not table.exists()
+
+
+def test_table_that_was_only_touched_stays(run: Path) -> None:
+    table = edited_table(run)
+    table.write_text("model,k_star\n2d,5\n")
+    assert mend(run) == []
+
+
+def test_looking_changes_nothing_and_says_what_a_run_would_do(run: Path) -> None:
+    edited_table(run)
+    (run / "unsteady" / "2d" / "k5.nc").write_bytes(b"half")
+    before = sorted(run.rglob("*"))
+    words = [file.words(done=False) for file in unsound_files(run)]
+    assert sorted(run.rglob("*")) == before
+    assert "a run would keep it as k5.nc.broken and make it again" in words[0]
+    assert "edited since its job made it; a run would keep it" in words[1]
+    assert words[2].endswith("they are made again; a run would make it again")
+
+
+def test_folder_that_is_read_only_is_said_not_raised(
+    run: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (run / "unsteady" / "2d" / "k5.nc").write_bytes(b"half")
+
+    def refuse(*arguments: object) -> None:
+        raise OSError(30, "Read-only file system")
+
+    monkeypatch.setattr(Path, "replace", refuse)
+    monkeypatch.setattr(Path, "unlink", refuse)
+    said = put_aside(unsound_files(run))
+    assert all(line.endswith("(it cannot here: Read-only file system)") for line in said)

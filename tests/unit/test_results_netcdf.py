@@ -13,7 +13,14 @@ from equisection.errors import ResultFileError
 from equisection.files import write_text, written_whole
 from equisection.results import netcdf
 from equisection.results.netcdf import read_attributes, read_dataset, write_dataset
-from equisection.results.whole import is_whole
+from equisection.results.whole import (
+    ALTERED,
+    CUT_SHORT,
+    WITHOUT_DIGEST,
+    append_digest,
+    fault_of,
+    is_whole,
+)
 
 UNITS = {"units": "1", "long_name": "a number"}
 
@@ -118,6 +125,7 @@ def test_value_that_is_not_finite_is_refused_when_read(tmp_path: Path) -> None:
     data = dataset()
     data["value"][3] = np.nan
     data.assign_attrs(schema_version=1).to_netcdf(path)
+    append_digest(path)
     with pytest.raises(ResultFileError, match=r"result\.nc: variable 'value' holds values"):
         read_dataset(path)
 
@@ -156,17 +164,68 @@ def test_truncated_result_is_refused(read: object, share: float, written: Path) 
 
 def test_file_that_is_whole_but_damaged_inside_is_refused(written: Path) -> None:
     content = bytearray(written.read_bytes())
-    content[200:] = bytes(len(content) - 200)
+    content[200:-100] = bytes(len(content) - 300)
     written.write_bytes(content)
     assert is_whole(written)
-    with pytest.raises(ResultFileError, match=r"result\.nc: "):
+    with pytest.raises(ResultFileError, match=r"result\.nc: not as it was written"):
         read_dataset(written)
+
+
+@pytest.mark.parametrize("read", [read_dataset, read_attributes])
+def test_no_flipped_bit_is_used(read: object, written: Path) -> None:
+    """Also where the HDF5 library would return other values, raise or not return."""
+    content = written.read_bytes()
+    for bit in np.random.default_rng(0).integers(0, 8 * len(content), 300):
+        flipped = bytearray(content)
+        flipped[bit // 8] ^= 1 << (bit % 8)
+        written.write_bytes(flipped)
+        with pytest.raises(ResultFileError, match=r"result\.nc: .*delete it and run again"):
+            read(written)  # type: ignore[operator]
+
+
+def test_values_changed_by_another_program_are_refused(written: Path) -> None:
+    with netCDF4.Dataset(written, "r+") as file:
+        file["value"][:] = 1.5 * file["value"][:]
+    assert fault_of(written) in (ALTERED, WITHOUT_DIGEST)
+
+
+def test_values_changed_in_place_are_refused(written: Path) -> None:
+    content = written.read_bytes()
+    place = content.index(np.linspace(0.0, 1.0, 10)[4:6].tobytes())
+    half_as_large_again = (1.5 * np.linspace(0.0, 1.0, 10)[4:6]).tobytes()
+    written.write_bytes(content[:place] + half_as_large_again + content[place + 16 :])
+    assert fault_of(written) == ALTERED
+
+
+def test_file_of_another_program_has_no_digest_until_it_is_given_one(written: Path) -> None:
+    xr.load_dataset(written).to_netcdf(written)
+    assert fault_of(written) == WITHOUT_DIGEST
+    with pytest.raises(ResultFileError, match=r"without a digest: .*equisection seal"):
+        read_dataset(written)
+    append_digest(written)
+    xr.testing.assert_equal(read_dataset(written), dataset())
+
+
+def test_other_readers_of_netcdf_open_a_file_with_a_digest(written: Path) -> None:
+    for engine in ("netcdf4", "h5netcdf"):
+        if engine in xr.backends.list_engines():
+            xr.testing.assert_equal(xr.load_dataset(written, engine=engine), dataset())
+
+
+@pytest.mark.parametrize("size", [1, 1000, 2_000_000])
+def test_files_are_sound_and_cut_ones_are_not(size: int, tmp_path: Path) -> None:
+    path = tmp_path / "result.nc"
+    write_dataset(path, dataset(size))
+    assert fault_of(path) == ""
+    with path.open("r+b") as stream:
+        stream.truncate(path.stat().st_size - 1)
+    assert fault_of(path) == CUT_SHORT
 
 
 @pytest.mark.parametrize("size", [1, 1000, 2_000_000])
 def test_files_of_xarray_are_whole_and_cut_ones_are_not(size: int, tmp_path: Path) -> None:
     path = tmp_path / "result.nc"
-    write_dataset(path, dataset(size))
+    dataset(size).to_netcdf(path)
     assert is_whole(path)
     with path.open("r+b") as stream:
         stream.truncate(path.stat().st_size - 1)
@@ -207,7 +266,10 @@ def test_superblock_that_promises_more_than_is_there_is_not_whole(written: Path)
     content = bytearray(written.read_bytes())
     offset = {0: 40, 1: 44, 2: 28, 3: 28}[content[8]]
     (end,) = struct.unpack_from("<Q", content, offset)
-    assert end == len(content)
+    assert fault_of(written) == ""
     struct.pack_into("<Q", content, offset, end + 1)
+    written.write_bytes(content)
+    assert fault_of(written) == CUT_SHORT
+    struct.pack_into("<Q", content, offset, len(content) + 1)
     written.write_bytes(content)
     assert not is_whole(written)

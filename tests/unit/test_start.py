@@ -272,3 +272,28 @@ def test_clone_of_another_owner_is_said_with_what_helps(
 
 def test_package_without_a_clone_is_nothing_to_talk_of(tmp_path: Path) -> None:
     assert refused_by_git(tmp_path / "site-packages/equisection") == ""
+
+
+# -- what changes files -----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["-n", "--dry-run", "--dryrun", "-np", "--unlock", "--lint", "--dag", "--list", "--summary"],
+)
+def test_commands_that_run_no_job_change_nothing(
+    command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert not start.changes_files([command, "--cores", "1"])
+
+
+@pytest.mark.parametrize("command", [["--cores", "2"], ["-c1", "results/a/b.csv"], ["--no-such"]])
+def test_runs_change_files_unless_another_has_the_lock(
+    command: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert start.changes_files(command)
+    (tmp_path / ".snakemake/locks").mkdir(parents=True)
+    (tmp_path / ".snakemake/locks/0.output.lock").touch()
+    assert not start.changes_files(command)

@@ -4,6 +4,7 @@ import hashlib
 import json
 import shutil
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -21,9 +22,9 @@ from equisection.provenance import (
     config_text,
     made_by_this,
 )
-from equisection.results.netcdf import read_attributes, write_dataset
+from equisection.results.netcdf import read_attributes, read_dataset, write_dataset
 from equisection.run.command_line import main
-from equisection.run.verify import Fault, verify_run
+from equisection.run.verify import Fault, verify_made, verify_run
 from equisection.store.index import write_index
 from equisection.store.made_from import write_record
 
@@ -83,9 +84,16 @@ def test_an_edited_table_is_foreign_and_what_is_drawn_from_it_stale(run: Path) -
 
 
 def test_a_result_of_the_same_case_with_other_numbers_is_foreign(run: Path) -> None:
-    with (run / RESULT).open("ab") as stream:
-        stream.write(b"\0")
+    data = read_dataset(run / RESULT)
+    write_dataset(run / RESULT, data.assign_attrs(growth_rate=1.5))
     assert faults(run)[RESULT] is Fault.FOREIGN
+
+
+def test_a_result_whose_bytes_were_altered_is_broken(run: Path) -> None:
+    content = bytearray((run / RESULT).read_bytes())
+    content[len(content) // 2] ^= 1
+    (run / RESULT).write_bytes(content)
+    assert faults(run)[RESULT] is Fault.BROKEN
 
 
 def test_a_lost_result_is_missing(run: Path) -> None:
@@ -191,3 +199,16 @@ class TestProvenance:
         record = json.loads((run / "provenance" / "unsteady_2d_sweep.json").read_text())
         assert set(record["inputs"]) == {CASES}
         assert set(record["outputs"]) == {INDEX, RESULT}
+
+
+def test_what_a_run_has_made_is_checked_at_its_end(run: Path) -> None:
+    (sum_of,) = verify_made(run, 0.0)[-1:]
+    assert sum_of.endswith("files checked, all well")
+    assert verify_made(run, time.time() + 60.0) == []
+    (run / SUMMARY).write_text("spoilt by a full disk")
+    content = bytearray((run / RESULT).read_bytes())
+    content[len(content) // 2] ^= 1
+    (run / RESULT).write_bytes(content)
+    lines = verify_made(run, 0.0)
+    assert any(line.startswith("broken") and RESULT in line for line in lines)
+    assert any(line.startswith("foreign") and SUMMARY in line for line in lines)

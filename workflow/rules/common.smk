@@ -2,6 +2,7 @@
 
 import hashlib
 import os
+import time
 
 import equisection
 from equisection.cases import KINDS
@@ -10,7 +11,7 @@ from equisection.config import resolve_config
 from equisection.config.groups import FLAT_PLATE
 from equisection.provenance import command_line, config_hash
 from equisection.run.source_digest import source_digest
-from equisection.store.mend import mend
+from equisection.store.mend import put_aside, unsound_files
 from equisection.study.axes import RIGID_PATTERN, SWEEP_PATTERN, onset_axis, varied
 from equisection.study.result_files import index_of_beam, indices_of_sweep
 from equisection.solvers.registry import SOLVERS, Capability
@@ -53,9 +54,22 @@ for name, value in CONFIG.solver_section.environment().items():
 if workflow.is_main_process:
     # They inherit, too, what the files that they make say of where they come from.
     start.tell_jobs(command_line(sys.argv), config_hash(RESOLVED))
-    # What was cut short by a crash, lost or exchanged must not pass for a finished result.
-    start.say(mend(PLACE_ON_DISK / CONFIG.run))
+    # What was cut short by a crash, altered, lost or exchanged must not pass for a finished result.
+    unsound = unsound_files(PLACE_ON_DISK / CONFIG.run)
+    if unsound and start.changes_files(sys.argv[1:]):
+        start.say(put_aside(unsound))
+    else:
+        start.say(file.words(done=False) for file in unsound)
     start.say(start.notices(CONFIG, PLACE_ON_DISK))
+
+
+STARTED = time.time()
+
+
+onsuccess:
+    from equisection.run.verify import verify_made
+
+    start.say(verify_made(PLACE_ON_DISK / CONFIG.run, STARTED))
 
 
 wildcard_constraints:

@@ -17,7 +17,7 @@ import xarray as xr
 from equisection.errors import ResultFileError
 from equisection.files import written_whole
 from equisection.provenance import made_by_this
-from equisection.results.whole import is_whole
+from equisection.results.whole import append_digest, fault_of
 
 SCHEMA_VERSION = 1
 
@@ -49,12 +49,14 @@ def write_dataset(
         **(made_by_this() if made_by is None else made_by),
     }
     try:
-        with written_whole(path) as aside, netCDF4.Dataset(aside, "w", format="NETCDF4") as file:
-            for dimension, size in dataset.sizes.items():
-                file.createDimension(str(dimension), size)
-            for name, variable in dataset.variables.items():
-                _write_variable(file, str(name), variable)
-            file.setncatts(attributes)
+        with written_whole(path) as aside:
+            with netCDF4.Dataset(aside, "w", format="NETCDF4") as file:
+                for dimension, size in dataset.sizes.items():
+                    file.createDimension(str(dimension), size)
+                for name, variable in dataset.variables.items():
+                    _write_variable(file, str(name), variable)
+                file.setncatts(attributes)
+            append_digest(aside)
     except (OSError, RuntimeError) as error:  # the library does not say why
         raise ResultFileError(
             f"{path}: cannot be written ({error}); the disk may be full: free some space and run "
@@ -79,13 +81,25 @@ def read_dataset(path: Path, case_hash: str | None = None) -> xr.Dataset:
     Raises
     ------
     ResultFileError
-        The file is missing, truncated, of another schema version, of another case, or holds
-        values that are not finite.
+        The file is missing, truncated, not as it was written, of another schema version, of
+        another case, or holds values that are not finite.
     """
-    if not path.is_file():
-        raise ResultFileError(f"{path}: missing")
-    if not is_whole(path):
-        raise ResultFileError(f"{path}: truncated or not NetCDF-4; delete it and run again")
+    _require_sound(path)
+    return _load(path, case_hash)
+
+
+def read_without_digest(path: Path) -> xr.Dataset:
+    """Read a data set that has no digest, with all other checks of :func:`read_dataset`.
+
+    Raises
+    ------
+    ResultFileError
+        As :func:`read_dataset`.
+    """
+    return _load(path, None)
+
+
+def _load(path: Path, case_hash: str | None) -> xr.Dataset:
     try:
         with xr.open_dataset(path, engine="netcdf4") as opened:
             dataset = opened.load()
@@ -106,8 +120,7 @@ def read_attributes(path: Path, case_hash: str | None = None) -> dict[str, Any]:
     ResultFileError
         As :func:`read_dataset`.
     """
-    if not is_whole(path):
-        raise ResultFileError(f"{path}: missing, truncated or not NetCDF-4; run again")
+    _require_sound(path)
     try:
         with netCDF4.Dataset(path) as opened:
             attributes = {name: opened.getncattr(name) for name in opened.ncattrs()}
@@ -117,6 +130,15 @@ def read_attributes(path: Path, case_hash: str | None = None) -> dict[str, Any]:
         ) from None
     _require_provenance(path, attributes, case_hash)
     return attributes
+
+
+def _require_sound(path: Path) -> None:
+    """Refuse a file whose bytes are not as they were written, before the library opens it."""
+    if not path.is_file():
+        raise ResultFileError(f"{path}: missing; run again")
+    fault = fault_of(path)
+    if fault:
+        raise ResultFileError(f"{path}: {fault}; delete it and run again")
 
 
 def _require_provenance(path: Path, attributes: dict[str, Any], case_hash: str | None) -> None:

@@ -51,6 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
             print(_polar(options.results), end="")
         elif options.command == "keep":
             _keep(options.run_folder, options.folder)
+        elif options.command == "seal":
+            return 0 if _seal(options.place) else 1
         elif options.command == "cost-model":
             _cost_model(options.folder, options.write)
         elif options.command == "verify":
@@ -167,6 +169,14 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FOLDER",
         help="where to keep them (default: results/reference/<name of the run>)",
     )
+    seal = commands.add_parser(
+        "seal",
+        help="digests for results that have none",
+        description="Write a digest to NetCDF results that have none, since they are from before "
+        "digests were written or another program wrote them. Length, variables and case are "
+        "checked; for the values you vouch. What is broken is named, and the exit status is 1.",
+    )
+    seal.add_argument("place", nargs="+", type=Path, metavar="FILE_OR_FOLDER")
     cost_model = commands.add_parser(
         "cost-model",
         help="what a cell costs, by the results that are there",
@@ -210,6 +220,19 @@ def _keep(run: Path, folder: Path | None) -> None:
     folder = folder or Path("results/reference") / run.resolve().name
     copies = keep_results(run, folder)
     print(f"{len(copies)} results of cases are kept in {folder}")
+
+
+def _seal(places: Sequence[Path]) -> bool:
+    # Imported here, so that --help and --version come at once.
+    from equisection.store.seal import seal  # noqa: PLC0415
+
+    found = list(seal(places))
+    for path, fault in found:
+        if fault:
+            print(f"{path}: {fault}", file=sys.stderr)
+    sealed = sum(not fault for _, fault in found)
+    print(f"{sealed} files have a digest now" if sealed else "no file has been given a digest")
+    return sealed == len(found)
 
 
 def _polar(results: Sequence[Path]) -> str:

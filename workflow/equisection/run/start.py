@@ -7,10 +7,12 @@ start of the workflow, so it must be cheap.
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import time
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import redirect_stderr
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +28,15 @@ RESULTS = Path("results")
 STORE = ".store"
 #: The configuration that is read first.
 CONFIG_FILE = Path("config") / "config.yaml"
+#: Where Snakemake keeps the locks of a folder.
+_LOCKS = Path(".snakemake") / "locks"
+#: Options with which ``snakemake`` runs no job.
+_ONLY_LOOK = (
+    *("dryrun", "unlock", "lint", "dag", "rulegraph", "filegraph", "d3dag", "archive", "report"),
+    *("summary", "detailed_summary", "list_rules", "list_target_rules", "list_changes"),
+    *("list_input_changes", "list_params_changes", "list_untracked", "print_compilation"),
+    *("cleanup_metadata", "generate_unit_tests", "containerize", "export_cwl", "touch"),
+)
 #: How far ahead of the clock a file may be (s); clocks of file servers are that much off.
 _AHEAD = 10.0
 #: Folders of a run that nothing is made from.
@@ -115,6 +126,23 @@ def tell_jobs(command: str, config: str) -> None:
     _CONFIGS.add(config)
     os.environ[COMMAND_VARIABLE] = command
     os.environ[CONFIG_VARIABLE] = config if len(_CONFIGS) == 1 else ""
+
+
+def changes_files(arguments: Sequence[str]) -> bool:
+    """Tell whether a ``snakemake`` command runs jobs; a dry run, a list or a graph changes nothing.
+
+    Nothing is to be changed either while another run has the lock of this folder.
+    """
+    from snakemake.cli import get_argument_parser  # noqa: PLC0415, a third of a second
+
+    if any(_LOCKS.glob("*")):
+        return False
+    try:
+        with redirect_stderr(io.StringIO()):
+            options = vars(get_argument_parser().parse_known_args(list(arguments))[0])
+    except SystemExit:  # not a command that snakemake reads: another program runs the workflow
+        return True
+    return not any(options.get(name) for name in _ONLY_LOOK)
 
 
 def say(lines: Iterable[str]) -> None:

@@ -7,9 +7,8 @@ and each file that a job has made, or made something from, by its content
 
 from __future__ import annotations
 
-import hashlib
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from pathlib import Path
@@ -19,9 +18,11 @@ from equisection.cases import KINDS
 from equisection.errors import ResultFileError
 from equisection.provenance import file_hash
 from equisection.results.netcdf import read_attributes
+from equisection.results.whole import fault_of
 from equisection.run.listing import Listed, cases_of_run
 from equisection.run.status import find_runs
 from equisection.store.index import indices_of_run, read_index
+from equisection.store.kept import holds_its_case
 from equisection.store.made_from import FOLDER, ProvenanceRecord, read_record
 
 
@@ -138,6 +139,33 @@ def verify_run(run: Path) -> Verified:
     return found
 
 
+def verify_made(run: Path, since: float) -> list[str]:
+    """Check what jobs have made in a run since a time, as seconds since the epoch.
+
+    Returns
+    -------
+    list of str
+        A line for each file that is not as its job made it, then the sum; none if no job has made
+        anything.
+    """
+    found, made = Verified(run.name), dict[str, str]()
+    for path in (run / FOLDER).glob("*.json"):
+        if path.stat().st_mtime >= since:
+            for record in _records_in([path], run, found):
+                made |= record.outputs
+    for name, digest in sorted(made.items()):
+        found.checked += 1
+        now = _now(run, name)
+        fault = fault_of(run / name) if now and name.endswith(".nc") else ""
+        if not now:
+            found.find(name, Fault.MISSING, "a job has made it; run again")
+        elif fault:
+            found.find(name, Fault.BROKEN, f"{fault}; run again")
+        elif now != digest:
+            found.find(name, Fault.FOREIGN, "it is not as its job has made it; run again")
+    return words(found) if found.checked or found.faults else []
+
+
 def verify_kept(folder: Path) -> Verified:
     """Check the results that are kept in a folder, each by the case that it holds."""
     found = Verified(str(folder))
@@ -152,13 +180,17 @@ def verify_kept(folder: Path) -> Verified:
         found.makers[_maker(attributes)] += 1
         if "case" not in attributes:
             found.unrecorded.append(name)
-        elif not _holds_its_case(attributes):
+        elif not holds_its_case(attributes):
             found.find(name, Fault.FOREIGN, "the case that it holds is not that of its hash")
     return found
 
 
 def _records(run: Path, found: Verified) -> Iterator[ProvenanceRecord]:
-    for path in sorted((run / FOLDER).glob("*.json")):
+    return _records_in(sorted((run / FOLDER).glob("*.json")), run, found)
+
+
+def _records_in(paths: Iterable[Path], run: Path, found: Verified) -> Iterator[ProvenanceRecord]:
+    for path in paths:
         try:
             yield read_record(path)
         except ResultFileError as error:
@@ -245,21 +277,13 @@ def _check_result(path: Path, name: str, wanted: str, as_made: bool, found: Veri
     except ResultFileError as error:
         found.find(name, Fault.BROKEN, _without_path(error, path))
         return
-    if not _holds_its_case(attributes):
+    if not holds_its_case(attributes):
         found.find(name, Fault.FOREIGN, "the case that it holds is not that of its hash")
     elif attributes.get("case_hash") != wanted and as_made:
         found.find(name, Fault.STALE, _CASE_CHANGED)
     elif attributes.get("case_hash") != wanted:
         other = str(attributes.get("case_hash"))[:12]
         found.find(name, Fault.FOREIGN, f"it is the result of case {other}, not of its case file")
-
-
-def _holds_its_case(attributes: Mapping[str, Any]) -> bool:
-    """Tell whether the case that a result holds has its hash; True if it holds none."""
-    case = attributes.get("case")
-    return case is None or (
-        hashlib.sha256(str(case).encode()).hexdigest() == attributes.get("case_hash")
-    )
 
 
 def _check_inputs(record: ProvenanceRecord, found: Verified, seen: Mapping[str, str]) -> None:

@@ -6,8 +6,11 @@ where the file has the case itself, by the case.
 
 from __future__ import annotations
 
+import hashlib
 import json
+import logging
 import shutil
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -19,6 +22,8 @@ from equisection.errors import ResultFileError
 from equisection.files import written_whole
 from equisection.results.failures import failure_of
 from equisection.results.netcdf import read_attributes
+
+logger = logging.getLogger(__name__)
 
 #: Meshes of section and plate in the folder of a run, which are results of no case.
 SECTION_MESH = Path(STEADY.folder, "section_mesh.nc")
@@ -119,9 +124,18 @@ def kept_mesh(folder: Path, name: Path, case: Case, **attributes: Any) -> Path |
     return None
 
 
+def holds_its_case(attributes: Mapping[str, Any]) -> bool:
+    """Tell whether the case that a result holds has its hash; True if it holds none."""
+    case = attributes.get("case")
+    return case is None or (
+        hashlib.sha256(str(case).encode()).hexdigest() == attributes.get("case_hash")
+    )
+
+
 def _attributes(path: Path) -> dict[str, Any]:
-    """Return a file's attributes; none of what is broken."""
+    """Return a file's attributes; none of what is broken, which a warning names."""
     try:
         return read_attributes(path)
-    except ResultFileError:
+    except ResultFileError as error:
+        logger.warning("%s; it is left out", str(error).removesuffix("; delete it and run again"))
         return {}

@@ -1,49 +1,123 @@
-"""Find results that were cut short, exchanged or lost, and have them made again.
+"""Find results that were cut short, altered, exchanged or lost, and have them made again.
 
-Runs at every start of the workflow, so it must be cheap: sizes, times and the first bytes of the
-files tell; a file is opened only if it is younger than the index that names it.
+Runs at every start of the workflow, so it must be cheap: the digest of a file's bytes tells, which
+takes a millisecond a megabyte; a file is opened only if it is younger than the index that names it.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.errors import ResultFileError
 from equisection.files import TEMPORARY
-from equisection.results.whole import is_whole
+from equisection.provenance import file_hash
+from equisection.results.whole import fault_of
 from equisection.store.index import indices_of_run, read_index, result_file
+from equisection.store.made_from import FOLDER, read_record
+
+#: Folder of the case files, which have the places of the indices of their results.
+CASES = "cases"
+#: Cheap files that jobs make besides results and figures; they are made again if they were edited.
+_CHEAP = {".csv", ".json", ".yaml"}
+
+
+@dataclass(frozen=True)
+class Unsound:
+    """A file of a run that is not to be used.
+
+    Attributes
+    ----------
+    path
+        The file.
+    why
+        What is wrong with it.
+    kept
+        Whether it is kept beside as ``<name>.broken``; else it is deleted.
+    """
+
+    path: Path
+    why: str
+    kept: bool
+
+    @property
+    def aside(self) -> Path:
+        """Name under which it is kept."""
+        return self.path.with_name(self.path.name + ".broken")
+
+    def words(self, *, done: bool = True) -> str:
+        """Return a line for the terminal; without ``done`` it says what a run would do."""
+        if not self.kept:
+            return f"{self.path}: {self.why}" + ("" if done else "; a run would make it again")
+        if done:
+            return f"{self.path}: {self.why}; kept as {self.aside.name}, made again"
+        return (
+            f"{self.path}: {self.why}; a run would keep it as {self.aside.name} and make it again"
+        )
+
+    def put_aside(self) -> None:
+        """Rename or delete it, so that the workflow makes it anew."""
+        if self.kept:
+            self.path.replace(self.aside)
+        else:
+            self.path.unlink()
 
 
 def mend(run: Path) -> list[str]:
-    """Put aside broken files of a run's folder, so that the workflow makes them anew.
-
-    A NetCDF file that is not as long as it says, or that was exchanged after the index that
-    names it and is not the result of that case, is renamed to ``<name>.broken``. An index that
-    names a file that is not there is deleted: the job that writes it runs again and takes sound
-    results from the store. Files that a job is writing at this moment (``.tmp-...``) are left
-    alone, so that a dry run does not disturb a run.
+    """Put aside the unsound files of a run's folder, so that the workflow makes them anew.
 
     Returns
     -------
     list of str
-        One line for each file put aside or deleted, for the terminal.
+        One line for each of them, for the terminal.
     """
-    done = []
-    for path in run.glob("**/*.nc"):
-        if not path.name.startswith(TEMPORARY) and not is_whole(path):
-            done.append(_set_aside(path, "truncated or not NetCDF-4"))
+    return put_aside(unsound_files(run))
+
+
+def put_aside(found: Sequence[Unsound]) -> list[str]:
+    """Put unsound files aside; return a line for each, also where the folder is read-only."""
+    lines = []
+    for file in found:
+        try:
+            file.put_aside()
+        except OSError as error:
+            lines.append(f"{file.words(done=False)} (it cannot here: {error.strerror})")
+        else:
+            lines.append(file.words())
+    return lines
+
+
+def unsound_files(run: Path) -> list[Unsound]:
+    """Find the files of a run's folder that are not to be used.
+
+    They are NetCDF files that are not as they were written; results that were exchanged after the
+    index that names them and are not of that case; indices that name a file that is not there, for
+    the job that writes one takes sound results from the store; and tables, indices and case files
+    that were edited since their job made them. Files that a job is writing at this moment
+    (``.tmp-...``) are left alone.
+    """
+    found = [
+        Unsound(path, fault, kept=True)
+        for path in run.glob("**/*.nc")
+        if not path.name.startswith(TEMPORARY) and (fault := fault_of(path))
+    ]
+    found += _edited(run)
+    unsound = {file.path for file in found}
     for index in indices_of_run(run):
-        done += _mend_results(index)
-    return done
+        if run / CASES / index.relative_to(run) in unsound:
+            found.append(Unsound(index, "its cases are made again, and so is it", kept=False))
+        elif index not in unsound:
+            found += _unsound_results(index, unsound)
+    return found
 
 
-def _mend_results(index: Path) -> list[str]:
+def _unsound_results(index: Path, unsound: set[Path]) -> Iterator[Unsound]:
     try:
         results = read_index(index)
     except ResultFileError as error:
-        index.unlink()
-        return [str(error)]
-    done = []
+        yield Unsound(index, str(error).removeprefix(f"{index}: "), kept=False)
+        return
     written = index.stat().st_mtime_ns
     lost = False
     for name, attributes in results.items():
@@ -53,13 +127,14 @@ def _mend_results(index: Path) -> list[str]:
         except FileNotFoundError:
             lost = True
             continue
-        if exchanged and not _belongs(path, str(attributes.get("case_hash"))):
-            done.append(_set_aside(path, "not the result of its case"))
+        if path in unsound:
+            lost = True
+        elif exchanged and not _belongs(path, str(attributes.get("case_hash"))):
+            yield Unsound(path, "not the result of its case", kept=True)
             lost = True
     if lost:
-        index.unlink()
-        done.append(f"{index}: names results that are not there; they are made again")
-    return done
+        why = "names results that are not there; they are made again"
+        yield Unsound(index, why, kept=False)
 
 
 def _belongs(path: Path, case_hash: str) -> bool:
@@ -72,7 +147,14 @@ def _belongs(path: Path, case_hash: str) -> bool:
     return True
 
 
-def _set_aside(path: Path, why: str) -> str:
-    aside = path.with_name(path.name + ".broken")
-    path.replace(aside)
-    return f"{path}: {why}; kept as {aside.name}, made again"
+def _edited(run: Path) -> Iterator[Unsound]:
+    """Yield the cheap files that differ from the record of the job that made them."""
+    for path in sorted((run / FOLDER).glob("*.json")):
+        try:
+            made = read_record(path).outputs
+        except ResultFileError:
+            continue  # 'equisection verify' names it
+        for name, digest in made.items():
+            file = run / name
+            if file.suffix in _CHEAP and file.is_file() and file_hash(file) != digest:
+                yield Unsound(file, "edited since its job made it", kept=True)
