@@ -8,12 +8,14 @@ from pathlib import Path
 import numpy as np
 
 from equisection.aerodynamics.filled_polar import filled
+from equisection.aerodynamics.learnt_loads import learn
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.analysis.reduced_model import (
     ENDS,
     ReducedModel,
     learnt_model,
+    limit_cycles,
     natural_frequencies,
     next_release,
     onset_of,
@@ -72,6 +74,7 @@ def rows() -> Iterator[Row]:
         ">= 9 of 10",
         part >= 0.9,
     )
+    yield from _limit_cycle(sections, coarse)
     start = time.process_time()
     k_star = np.geomspace(4.0, 25.0, 1000)
     predicted(
@@ -80,6 +83,26 @@ def rows() -> Iterator[Row]:
         [sections[6.44].section.scaled(k / 6.44) for k in k_star],
     )
     yield limit("fit and 1,000 k*, processor time", time.process_time() - start, 10.0, "s")
+
+
+def _limit_cycle(sections: Sweep, polar: Polar) -> Iterator[Row]:
+    """Compare the limit cycle at k* 6.44 with those of models of growing releases."""
+    (kept,) = sweep_of("paper-plate-openfoam-cycle", "2d").values()
+    factor = kept.section.twist_recovery
+    late = kept.time > kept.time[-1] - 2.0 / natural_frequencies(kept.section)[0]
+    recorded = 0.5 * math.degrees(float(np.ptp(kept.twist[late]))) / factor
+    for k_star, until in ((5.5, math.inf), (5.0, math.inf), (5.5, 45.0), (6.44, 45.0)):
+        loads = learn(sections[k_star], polar, until)
+        found = limit_cycles(loads, [kept.section]).iloc[0]
+        amplitude = found["twist_amplitude_deg"] / factor
+        off = 100.0 * (amplitude / recorded - 1.0)
+        beyond = ", extrapolated" if found["extrapolated"] else ""
+        yield Row(
+            f"limit cycle at k* 6.44, learnt from {loads.learnt_until:g} c/V at {k_star:g}",
+            f"{amplitude:.2f} deg, {off:+.1f} %{beyond}",
+            f"{recorded:.2f} deg +- 10 %" if math.isinf(until) else "",
+            abs(off) <= 10.0 if math.isinf(until) else None,
+        )
 
 
 def polar_of(run: str, mesh: str) -> Polar:

@@ -33,6 +33,10 @@ ENDS = (40.0, 45.0, 50.0)
 SMALLEST_BAND = 0.002
 #: Duration (c/V) of a predicted release.
 DURATION = 100.0
+#: Duration (c/V) after which a release has come to its limit cycle.
+LONG = 400.0
+#: Part of the range of incidence seen by which a limit cycle may go beyond it.
+BEYOND = 0.1
 #: Range of k* of a release, over that of the onset that it predicts, in which it is trusted.
 TRUSTED = (0.64, 1.05)
 #: Place of the next release, over the k* of the predicted onset (-).
@@ -236,6 +240,48 @@ class _Released:
             twist = self.histories.twist[late, lane]
             found.append(0.5 * math.degrees(float(np.ptp(twist))) if twist.size else math.nan)
         return np.array(found)
+
+
+def limit_cycles(
+    loads: LearntLoads, sections: Sequence[Section], duration: float = LONG
+) -> pd.DataFrame:
+    """Return the amplitude that a release comes to in the end, of each section.
+
+    A model knows the amplitudes that it has been learnt from. So it is learnt from the whole of a
+    release that grows (:func:`equisection.aerodynamics.learnt_loads.learn`), and what goes beyond
+    is marked.
+
+    Parameters
+    ----------
+    loads
+        The learnt loads.
+    sections
+        Sections in the flow, shape (N,).
+    duration
+        Time after which the amplitude is read (c/V).
+
+    Returns
+    -------
+    pd.DataFrame
+        ``twist_amplitude_deg``, half the range of the twist over its last two periods; NaN
+        where the motion leaves the polar. ``extrapolated``: the incidence goes more than
+        :data:`BEYOND` outside what the model has seen.
+    """
+    histories = LearntSections(sections, loads).released(duration)
+    least, most = histories.farthest.T
+    amplitudes = []
+    for lane, section in enumerate(sections):
+        late = histories.time > duration - 2.0 / natural_frequencies(section)[0]
+        swing = float(np.ptp(histories.twist[late, lane]))
+        amplitudes.append(0.5 * math.degrees(swing))
+    low, high = loads.seen
+    margin = BEYOND * (high - low)
+    return pd.DataFrame(
+        {
+            "twist_amplitude_deg": amplitudes,
+            "extrapolated": ~((least >= low - margin) & (most <= high + margin)),
+        }
+    )
 
 
 def natural_frequencies(section: Section) -> tuple[float, float]:
