@@ -81,15 +81,20 @@ def test_runs_that_confirm_are_at_both_ends_of_the_interval():
 
 
 def test_run_on_the_wrong_side_contradicts_and_one_in_the_interval_does_not(tmp_path):
-    lessons = Lessons(config_of(), "2d", {}, [])
-    right = index_of(tmp_path, "2d", {"k7.4": "growing", "k8.6": "settled", "k8": "growing"})
-    assert lessons.contradiction(table(), right) is None
-    wrong = index_of(tmp_path, "2d", {"k7": "settled", "k9": "growing", "k12": "growing"})
-    found = lessons.contradiction(table(), wrong)
+    lessons, onset = Lessons(config_of(), "2d", {}, []), PredictedOnset(8.0, 7.5, 8.5)
+    right = index_of(tmp_path, "2d", {"k7.5": "growing", "k8.5": "settled", "k8": "growing"})
+    assert lessons.contradiction(onset, right) is None
+    # at the very end of the interval, on its wrong side
+    for case, regime in (("k7.5", "settled"), ("k8.5", "growing")):
+        found = lessons.contradiction(onset, index_of(tmp_path, "2d", {case: regime}))
+        assert found is not None
+        assert found.point == Point.named(case)
+    nearest = index_of(tmp_path, "2d", {"k6": "settled", "k9": "growing", "k12": "growing"})
+    found = lessons.contradiction(onset, nearest)
     assert found is not None
-    assert found.point in {Point.named("k7"), Point.named("k9")}
+    assert found.point == Point.named("k9")
     failed = index_of(tmp_path, "2d", {"k12": "failed"})
-    assert lessons.contradiction(table(), failed) is None
+    assert lessons.contradiction(onset, failed) is None
 
 
 def test_words_never_pass_a_model_for_runs():

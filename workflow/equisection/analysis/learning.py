@@ -42,12 +42,14 @@ from equisection.solvers.registry import solver_from_config
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
 from equisection.study.assemble import case_at
-from equisection.study.axes import Axis, Point, onset_axis, varied
+from equisection.study.axes import K_STAR, Axis, Point, onset_axis, varied
 
 #: Values over the sweep and its reach at which a model predicts, beside those of the sweep.
 PREDICTED = 41
 #: Limit cycles above this amplitude (deg) are unstable, as in a bracket of runs.
 THRESHOLD_DEG = 0.5
+#: Relative difference in which a run is at an end of an interval: names have four digits.
+SAME_END = 1e-3
 
 _LOG = logging.getLogger(__name__)
 
@@ -221,36 +223,47 @@ class Lessons:
         nearest = np.interp(k_star, table["k_star"], table[self.axis.name])
         return [Point.at({self.axis: float(f"{nearest:.4g}")})]
 
-    def contradiction(self, table: pd.DataFrame, index: Path) -> JudgedRun | None:
-        """Return a run on whose stability a prediction is wrong, that nearest to the onset.
+    def contradiction(self, onset: PredictedOnset, index: Path) -> JudgedRun | None:
+        """Return a run on the wrong side of an interval of the onset, that nearest to it.
 
-        A run inside the interval of the onset contradicts nothing.
+        An unstable one at or above its upper end in k*, or a stable one at or below its lower end.
+        A run inside contradicts nothing, nor does any where an end is not known.
         """
         wrong = []
         for run in runs_of(index):
-            low, high = (
-                float(np.interp(run.point[self.axis], *_rising(table[self.axis.name], table[side])))
-                for side in ("growth_low", "growth_high")
-            )
-            if (run.unstable is True and high < 0.0) or (run.unstable is False and low > 0.0):
-                wrong.append((min(abs(low), abs(high)), run.point.name, run))
+            k_star = self._k_star_of(run.point)
+            if (run.unstable is True and k_star >= onset.high * (1.0 - SAME_END)) or (
+                run.unstable is False and k_star <= onset.low * (1.0 + SAME_END)
+            ):
+                away = abs(math.log(k_star / onset.k_star))
+                wrong.append((away, run.point.name, run))
         return min(wrong)[2] if wrong else None
+
+    def _k_star_of(self, point: Point) -> float:
+        """Return the k* of the beam at a point."""
+        model = plan.model(self.name, self.config.reduction)
+        if K_STAR in point.axes:
+            return point[K_STAR]
+        solver = solver_from_config(self.config, self.config.steady.resolution)
+        return case_at(self.config, model, point, self.data, solver).k_star
 
     def course(self) -> Course:
         """Return the model after all that has been run, with what it predicts and what it says."""
         model = self.learnt(self.last_release)
         table = self.prediction(model)
-        wrong = [self.contradiction(table, index) for index in self.confirming[:1]]
+        onset = predicted_onset(table)
+        wrong = [self.contradiction(onset, index) for index in self.confirming[:1]]
         contradicted = wrong[0] if wrong else None
         if contradicted is not None:
             model = self.learnt(contradicted)
             table = self.prediction(model)
+            onset = predicted_onset(table)
         checked = [run for index in self.confirming for run in runs_of(index)]
-        at_odds = [self.contradiction(table, index) for index in self.confirming]
+        at_odds = [self.contradiction(onset, index) for index in self.confirming]
         return Course(
             model,
             table,
-            predicted_onset(table),
+            onset,
             checked=len(checked),
             contradicted=contradicted is not None,
             at_odds=next((run.point.name for run in at_odds if run is not None), ""),
@@ -331,14 +344,6 @@ class Course:
             ", after it was learnt anew from a run that contradicted" if self.contradicted else ""
         )
         return f"not contradicted by {self.checked} runs{again}"
-
-
-def _rising(at: pd.Series, values: pd.Series) -> tuple[np.ndarray, np.ndarray]:
-    """Return places and finite values for an interpolation."""
-    x, y = at.to_numpy(dtype=float), np.clip(values.to_numpy(dtype=float), -1.0, 1.0)
-    known = np.isfinite(y)
-    order = np.argsort(x[known])
-    return x[known][order], y[known][order]
 
 
 def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:

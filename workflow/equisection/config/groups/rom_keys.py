@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
@@ -14,10 +14,21 @@ from equisection.keys.values import Positive
 AUTO: Literal["auto"] = "auto"
 
 
+def _shape_of_releases(value: object) -> str:
+    return "auto" if isinstance(value, str) else "list"
+
+
+Releases = Annotated[
+    Annotated[Literal["auto"], Tag("auto")]
+    | Annotated[tuple[Positive, ...], Field(min_length=1), Tag("list")],
+    Discriminator(_shape_of_releases),
+]
+
+
 class Rom(KeyGroup):
     """The reduced-order model that takes the place of a sweep; used with `sweep.onset: model`."""
 
-    learn_from: Literal["auto"] | Annotated[tuple[Positive, ...], Field(min_length=1)] = Field(
+    learn_from: Releases = Field(
         AUTO,
         description="Values of k* (or speeds, as the sweep's) of the releases to learn from, one "
         "or two; the last one counts. `auto`: the middle of the sweep, and a second one where the "
