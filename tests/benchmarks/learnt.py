@@ -1,5 +1,6 @@
 """A model learnt from one kept release by OpenFOAM in the place of a sweep: onset, growth, cost."""
 
+import json
 import math
 import time
 from collections.abc import Iterator
@@ -24,7 +25,7 @@ from equisection.analysis.reduced_model import (
 )
 from equisection.results.netcdf import read_dataset
 from equisection.results.recorded_history import read_reference_history
-from equisection.verdict.growth import growth_of
+from equisection.verdict.growth import Growth, growth_of
 from tests.benchmarks.measure import Row, limit
 from tests.workflow.project import ROOT
 
@@ -75,6 +76,7 @@ def rows() -> Iterator[Row]:
         part >= 0.9,
     )
     yield from _limit_cycle(sections, coarse)
+    yield from _beam()
     start = time.process_time()
     k_star = np.geomspace(4.0, 25.0, 1000)
     predicted(
@@ -103,6 +105,40 @@ def _limit_cycle(sections: Sweep, polar: Polar) -> Iterator[Row]:
             f"{recorded:.2f} deg +- 10 %" if math.isinf(until) else "",
             abs(off) <= 10.0 if math.isinf(until) else None,
         )
+
+
+def _beam() -> Iterator[Row]:
+    """Show the growth of the kept beams, with and without their second bending mode."""
+    for waves in (2, 3):
+        found = {}
+        for run in ("", "-long"):
+            folder = REFERENCE / f"paper-plate-openfoam-3d{run}" / "unsteady" / "3d"
+            for path in folder.glob("k*.nc"):
+                found[_k_star(path)] = _growth_of_beam(path, waves)
+        ordered = dict(sorted(found.items()))
+        rates = [growth.rate for growth in ordered.values()]
+        yield Row(
+            f"beam, {waves} waves: growth (V/c) at k*",
+            ", ".join(
+                f"{k_star:g}: {1e3 * one.rate:.1f} +- {1e3 * one.standard_error:.1f}"
+                for k_star, one in ordered.items()
+            )
+            + " e-3",
+            "falls" if waves == 3 else "",
+            bool((np.diff(rates) < 0.0).all()) if waves == 3 else None,
+        )
+        yield Row(f"beam, {waves} waves: onset", f"k* {onset_of(list(ordered), rates):.2f}")
+
+
+def _growth_of_beam(path: Path, waves: int) -> Growth:
+    data = read_dataset(path)
+    beam = json.loads(data.attrs["case"])["beam"]
+    natural = [beam["torsion_frequency"][0], *beam["bending_frequency"][: waves - 1]]
+    records = [
+        data["torsion_amplitude"].values[0],
+        *data["bending_amplitude"].values[: waves - 1],
+    ]
+    return growth_of(data["time"].values, records, np.array(natural) / (2.0 * math.pi))
 
 
 def polar_of(run: str, mesh: str) -> Polar:
