@@ -12,6 +12,7 @@ from equisection.aerodynamics.filled_polar import filled
 from equisection.aerodynamics.learnt_loads import learn
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
+from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.analysis.reduced_model import (
     ENDS,
     ReducedModel,
@@ -23,6 +24,8 @@ from equisection.analysis.reduced_model import (
     predicted,
     predicted_onset,
 )
+from equisection.beam.section import Section
+from equisection.motion.sections import release_sections
 from equisection.results.netcdf import read_dataset
 from equisection.results.recorded_history import read_reference_history
 from equisection.verdict.growth import Growth, growth_of
@@ -77,6 +80,7 @@ def rows() -> Iterator[Row]:
     )
     yield from _limit_cycle(sections, coarse)
     yield from _beam()
+    yield from _embedded(sections[6.44].section, coarse)
     start = time.process_time()
     k_star = np.geomspace(4.0, 25.0, 1000)
     predicted(
@@ -104,6 +108,38 @@ def _limit_cycle(sections: Sweep, polar: Polar) -> Iterator[Row]:
             f"{amplitude:.2f} deg, {off:+.1f} %{beyond}",
             f"{recorded:.2f} deg +- 10 %" if math.isinf(until) else "",
             abs(off) <= 10.0 if math.isinf(until) else None,
+        )
+
+
+def _embedded(section: Section, polar: Polar) -> Iterator[Row]:
+    """Learn from releases by the embedded solver, whose loads have several lags."""
+    k_star = [6.0, 7.0, 8.0, 9.0, 10.0]
+    sections = [section.scaled(one / 6.44) for one in k_star]
+    angle, whole = math.radians(2.5), polar.continued
+    loads = UnsteadyLoads.from_polar(whole)
+    run = release_sections(sections, loads, angle, UNTIL)
+    sweep = {
+        one: ReferenceHistory(
+            run.time,
+            run.twist[:, lane],
+            run.deflection[:, lane],
+            run.lift_coefficient[:, lane],
+            run.moment_coefficient[:, lane],
+            angle,
+            k_star=one,
+            section=sections[lane],
+            name=f"k{one:g}",
+            source="embedded solver",
+        )
+        for lane, one in enumerate(k_star)
+    }
+    onset = onset_of_sweep(sweep)
+    for one in (6.0, 7.0, 8.0):
+        found = predicted_onset(over(sweep, learnt_model(sweep[one], polar)))
+        off = 100.0 * (found.k_star / onset - 1.0)
+        yield Row(
+            f"embedded solver, onset {onset:.2f}, learnt at k* {one:g}",
+            f"{found.k_star:.2f} [{found.low:.2f}, {found.high:.2f}], {off:+.1f} %",
         )
 
 
