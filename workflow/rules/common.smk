@@ -201,8 +201,12 @@ def learnt_from(model, batches):
     """Return the files that a model of the loads is learnt from, and its sections are made from."""
     learner = plan.learner(CONFIG, model)
     return {
-        "releases": [f"{RESULTS}/unsteady/{learner}/{batch}.json" for batch in batches[:2]],
-        "confirming": [f"{RESULTS}/unsteady/{model}/{batch}.json" for batch in batches[2:]],
+        "releases": [
+            f"{RESULTS}/unsteady/{learner}/{batch}.json" for batch in batches[:2]
+        ],
+        "confirming": [
+            f"{RESULTS}/unsteady/{model}/{batch}.json" for batch in batches[2:]
+        ],
         "polar_2d": f"{RESULTS}/steady/polar_2d.nc",
         **structure_of(model),
     }
