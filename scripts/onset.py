@@ -18,6 +18,7 @@ from equisection.analysis.known_growth_error import (
     with_known_errors,
 )
 from equisection.analysis.known_growth_error import in_words as errors_in_words
+from equisection.analysis.learning import onsets_of
 from equisection.analysis.linear_theory import (
     linear_onset,
     linear_theory,
@@ -54,15 +55,22 @@ def main(
     reduction: str,
     output: Path,
     known: KnownErrors | None = None,
+    learnt: Sequence[Path] = (),
 ) -> None:
-    """Bracket the onset of each model, in k* and speed, and add linear theory and known errors."""
+    """Bracket the onset of each model, in k* and speed, and add linear theory and known errors.
+
+    ``learnt`` are the models learnt from releases, whose onsets are added.
+    """
     sections = read_dataset(equivalent)
     axis = float(sections["elastic_axis"][0])
     slope = moment_slope(read_dataset(polar_2d), resolution, incidence_deg, axis)
     linear = linear_onset(sections, slope)
     table = with_linear_theory(onset_table(pd.read_csv(summary)), linear, reduction)
     table = with_speeds(table, AsGiven(nominal_k_star(sections), speed))
-    _write(with_known_errors(table, known or {}), output)
+    table = with_known_errors(table, known or {})
+    if learnt:
+        table = table.merge(onsets_of([read_dataset(path) for path in learnt]), how="outer")
+    _write(table, output)
 
 
 def known_errors(summary: Path, raw_config: dict[str, Any]) -> dict[tuple[str, str], KnownError]:
@@ -81,6 +89,7 @@ def speeds(
     output: Path,
     *,
     known: KnownErrors | None = None,
+    learnt: Sequence[Path] = (),
     stability: Path | None = None,
     modes: Path | None = None,
     table_of_derivatives: Path | None = None,
@@ -101,6 +110,12 @@ def speeds(
             incidence_deg=flow.incidence_deg,
         )
     ]
+    if learnt:
+        found.append(
+            critical_speeds.from_learnt(
+                [read_dataset(path) for path in learnt], given=given, chord=config.beam.chord
+            )
+        )
     models = [plan.model(name, config.reduction) for name in config.sweep.models]
     sections = {
         model.name: section_from_dataset(data, model.reduction)
@@ -209,6 +224,7 @@ if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
         summary, equivalent = Path(snakemake.input.summary), Path(snakemake.input.equivalent)
         known = known_errors(summary, snakemake.params.config)
+        learnt = [Path(path) for path in snakemake.input.learnt]
         main(
             summary,
             equivalent,
@@ -219,6 +235,7 @@ if __name__ == "__main__":
             reduction=snakemake.params.reduction,
             output=Path(snakemake.output.onset),
             known=known,
+            learnt=learnt,
         )
         growth_by_linear_theory(
             equivalent,
@@ -232,6 +249,7 @@ if __name__ == "__main__":
             equivalent,
             snakemake.params.config,
             Path(snakemake.output.critical_speed),
+            learnt=learnt,
             known=known,
             stability=next(map(Path, snakemake.input.stability), None),
             modes=next(map(Path, snakemake.input.modes), None),

@@ -38,12 +38,15 @@ if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
         made_from = {"modes", "equivalent", "correction"} & set(snakemake.input.keys())
         for output in map(Path, snakemake.output):
+            of_sweep = snakemake.params.cases
+            if isinstance(of_sweep, dict):
+                of_sweep = of_sweep[output.parent.name]
             main(
                 snakemake.params.config,
                 output.parent.name,
                 {name: Path(snakemake.input[name]) for name in made_from},
                 plan.read_refinement(Path(snakemake.input.chosen))
                 if "chosen" in set(snakemake.input.keys())
-                else list(snakemake.params.cases),
+                else list(of_sweep),
                 output,
             )

@@ -214,6 +214,50 @@ def inputs_of_batch(wildcards):
     return files
 
 
+def cases_of_sweep(wildcards):
+    """Return the cases of the sweep of a model."""
+    return plan.sweep_cases(CONFIG, wildcards.model) if plan.learns(CONFIG) else SWEEP
+
+
+def cases_of_sweeps():
+    """Return the cases of the sweep of all models, by the model where they differ."""
+    if not plan.learns(CONFIG):
+        return SWEEP
+    return {model: plan.sweep_cases(CONFIG, model) for model in CONFIG.sweep.models}
+
+
+def learnt_from(model, batches):
+    """Return the files that a model of the loads is learnt from, and its sections are made from."""
+    learner = plan.learner(CONFIG, model)
+    return {
+        "releases": [
+            f"{RESULTS}/unsteady/{learner}/{batch}.json" for batch in batches[:2]
+        ],
+        "confirming": [
+            f"{RESULTS}/unsteady/{model}/{batch}.json" for batch in batches[2:]
+        ],
+        "polar_2d": f"{RESULTS}/steady/polar_2d.nc",
+        **structure_of(model),
+    }
+
+
+def learnt_before_round(wildcards):
+    """Return the files that a round of learning decides on."""
+    return learnt_from(wildcards.model, plan.batches_before(wildcards.batch))
+
+
+def learnt_in_all(wildcards):
+    """Return the files that the model is learnt from in the end."""
+    return learnt_from(wildcards.model, plan.batches(CONFIG))
+
+
+def learnt_models():
+    """Return the models that were learnt, if any."""
+    if not plan.learns(CONFIG):
+        return []
+    return [f"{RESULTS}/rom/{model}/model.nc" for model in CONFIG.sweep.models]
+
+
 def placed(paths):
     """Return files of results, of which those that are taken from elsewhere get no prefix."""
     taken = set(CONFIG.sweep.taken.values())
@@ -230,7 +274,7 @@ def indices_before_round(wildcards):
 
 def cases_of_batch(wildcards):
     """Return case file and result file of each case of a batch that runs them one by one."""
-    names = SWEEP
+    names = cases_of_sweep(wildcards)
     if wildcards.batch != plan.SWEEP_BATCH:
         chosen = checkpoints.refine_onset.get(**wildcards).output[0]
         names = plan.read_refinement(Path(chosen))

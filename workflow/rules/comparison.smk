@@ -79,6 +79,7 @@ rule onset:
         stability=stability_table_of_map(),
         derivatives=table_of_derivatives(),
         modes=modes_of_table(),
+        learnt=learnt_models(),
     output:
         onset=report(
             f"{RESULTS}/comparison/onset.csv",

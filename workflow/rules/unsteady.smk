@@ -20,7 +20,7 @@ checkpoint unsteady_cases:
     params:
         code=code("unsteady_cases", "solvers"),
         config=RESOLVED,
-        cases=SWEEP,
+        cases=cases_of_sweep,
     message:
         "cases of {wildcards.model}, {wildcards.batch}"
     script:
@@ -47,7 +47,7 @@ if len(WRITTEN_TOGETHER) > 1:
         params:
             code=code("unsteady_cases", "solvers"),
             config=RESOLVED,
-            cases=SWEEP,
+            cases=cases_of_sweeps(),
         message:
             "cases of the sweep"
         script:
@@ -128,25 +128,67 @@ else:
             "index of {wildcards.model}, {wildcards.batch}"
 
 
-checkpoint refine_onset:
-    """Choose the next k* inside the bracket of a model's onset."""
-    input:
-        indices=indices_before_round,
-    output:
-        f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
-    log:
-        f"{LOGS}/refine_onset_{{model}}_{{batch}}.log",
-    localrule: True
-    conda:
-        ENVIRONMENT
-    params:
-        code=code("refine_onset"),
-        tolerance=CONFIG.sweep.onset_tolerance,
-        points=CONFIG.sweep.onset_points,
-        given=(min(CONFIG.sweep.values()), max(CONFIG.sweep.values())),
-        reach=CONFIG.sweep.onset_reach,
-        highest=plan.highest_of_sweep(CONFIG),
-    message:
-        "onset of {wildcards.model}, {wildcards.batch}"
-    script:
-        "../../scripts/refine_onset.py"
+if plan.learns(CONFIG):
+
+    checkpoint refine_onset:
+        """Choose the releases that a model learns from, and those that confirm its onset."""
+        input:
+            unpack(learnt_before_round),
+        output:
+            f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
+        log:
+            f"{LOGS}/learn_onset_{{model}}_{{batch}}.log",
+        localrule: True
+        conda:
+            ENVIRONMENT
+        params:
+            code=code("learn_onset", "solvers"),
+            config=RESOLVED,
+        message:
+            "onset of {wildcards.model} by a learnt model, {wildcards.batch}"
+        script:
+            "../../scripts/learn_onset.py"
+
+    rule learnt_model:
+        """Learn the model of the loads, and predict growth and onset over the sweep."""
+        input:
+            unpack(learnt_in_all),
+        output:
+            f"{RESULTS}/rom/{{model}}/model.nc",
+        log:
+            f"{LOGS}/learnt_model_{{model}}.log",
+        localrule: True
+        conda:
+            ENVIRONMENT
+        params:
+            code=code("learnt_model", "solvers"),
+            config=RESOLVED,
+        message:
+            "{wildcards.model}: model learnt from its releases"
+        script:
+            "../../scripts/learnt_model.py"
+
+else:
+
+    checkpoint refine_onset:
+        """Choose the next k* inside the bracket of a model's onset."""
+        input:
+            indices=indices_before_round,
+        output:
+            f"{RESULTS}/comparison/refine/{{model}}_{{batch}}.json",
+        log:
+            f"{LOGS}/refine_onset_{{model}}_{{batch}}.log",
+        localrule: True
+        conda:
+            ENVIRONMENT
+        params:
+            code=code("refine_onset"),
+            tolerance=CONFIG.sweep.onset_tolerance,
+            points=CONFIG.sweep.onset_points,
+            given=(min(CONFIG.sweep.values()), max(CONFIG.sweep.values())),
+            reach=CONFIG.sweep.onset_reach,
+            highest=plan.highest_of_sweep(CONFIG),
+        message:
+            "onset of {wildcards.model}, {wildcards.batch}"
+        script:
+            "../../scripts/refine_onset.py"

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
@@ -33,8 +34,10 @@ COLUMNS = (
     "basis",
     "energy_share",
 )
-#: Basis of a speed: runs of CFD, runs in time of another solver, eigenvalues, flutter derivatives.
-CFD, TIME, EIGENVALUE, DERIVATIVES = "cfd", "time", "eigenvalue", "derivatives"
+#: Basis of a speed: runs of CFD, runs in time of another solver, a model that was learnt from runs,
+#: eigenvalues, or flutter derivatives.
+CFD, TIME, MODEL, EIGENVALUE = "cfd", "time", "model", "eigenvalue"
+DERIVATIVES = "derivatives"
 
 
 def from_runs(
@@ -112,6 +115,46 @@ def _mechanism(bracket: OnsetBracket, unstable: pd.DataFrame) -> str:
     if unstable["frequency_strouhal"].isna().all():
         return Mechanism.DIVERGENCE
     return Mechanism.FLUTTER
+
+
+def from_learnt(learnt: Iterable[xr.Dataset], *, given: AsGiven, chord: float) -> pd.DataFrame:
+    """Return the critical speed of each model by what was learnt from its releases.
+
+    Parameters
+    ----------
+    learnt
+        ``rom/<model>/model.nc`` of each model. ``speed_low`` and ``speed_high`` are the ends of the
+        interval of the onset.
+    given
+        The beam as given.
+    chord
+        c (m).
+    """
+    rows = []
+    for data in learnt:
+        k_star, least, most = (
+            float(data.attrs[f"onset_k_star{end}"]) for end in ("", "_low", "_high")
+        )
+        speed = given.speed_at(k_star)
+        known = data["frequency_strouhal"].notnull().values
+        strouhal = math.nan
+        if math.isfinite(k_star) and known.any():
+            at = [data[name].values[known] for name in ("k_star", "frequency_strouhal")]
+            strouhal = float(np.interp(k_star, *at))
+        rows.append(
+            {
+                "model": data.attrs["model"],
+                "incidence_deg": float(data.attrs["incidence_deg"]),
+                "speed": speed,
+                "speed_low": given.speed_at(most),
+                "speed_high": given.speed_at(least),
+                "mechanism": "flutter" if math.isfinite(k_star) else "unknown",
+                "frequency_hz": strouhal * speed / chord,
+                "k_star": k_star,
+                "basis": MODEL,
+            }
+        )
+    return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
 
 
 def from_eigenvalues(

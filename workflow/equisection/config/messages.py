@@ -18,7 +18,7 @@ from equisection.keys.values import NAME_PATTERN
 from equisection.keys.written_number import LARGEST, SMALLEST, is_of_sensible_size, number_in
 
 #: Parts of pydantic's locations that are no part of a key's path, and the types they choose.
-_TAGS = {"list": "array", "range": "object"}
+_TAGS = {"list": "array", "range": "object", "auto": "string"}
 _KEY_ITSELF = "[key]"
 _STARTS_AS_NUMBER = re.compile(r"\s*[-+]?\.?\d")
 #: Digits of any script and base, with what some languages allow between them.
@@ -121,7 +121,7 @@ def _nearest(word: str, words: Sequence[str]) -> str | None:
 
 def _hint(value: object, fragment: Fragment) -> str:
     """Return a next step for the mistakes that are made most."""
-    kinds = {choice.get("type") for choice in alternatives(fragment)}
+    kinds = {choice.get("type") for choice in alternatives(fragment) if "const" not in choice}
     if value is None:
         return "; leave the key out for its default"
     if kinds & {"number", "integer"}:

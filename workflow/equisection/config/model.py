@@ -19,6 +19,7 @@ from equisection.config.groups import (
     KeyGroup,
     Lump,
     OpenFoam,
+    Rom,
     SolverKeys,
     StartKeys,
     Steady,
@@ -72,6 +73,7 @@ class Config(KeyGroup):
     structure: Structure = Field(Structure(), description="Mode computation.")
     steady: Steady = Field(Steady(), description="Steady polars.")
     sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
+    rom: Rom = Field(Rom(), description="The model learnt from a release.")
     unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")
     forced: ForcedKeys = Field(ForcedKeys(), description="Forced motion of the section.")
     derivatives: DerivativeKeys = Field(
@@ -130,8 +132,23 @@ def _results_from_somewhere(compute: bool, reuse: str) -> Iterator[Problem]:
 
 @check("compute", "sweep.onset")
 def _refined_by_runs(compute: bool, onset: str) -> Iterator[Problem]:
-    if not compute and onset == "refine":
+    if not compute and onset != "sweep":
         yield Problem("sweep.onset", onset, "allowed is 'sweep' where compute is false")
+
+
+@check("sweep.onset", "sweep.models", "beam.elastic_axis", "beam.mass_axis")
+def _learnt_without_factors(
+    onset: str, models: tuple[str, ...], elastic_axis: float, mass_axis: float
+) -> Iterator[Problem]:
+    corrected = [name for name in models if "corrected" in name]
+    if onset == "model" and corrected and {elastic_axis, mass_axis} != {MID_CHORD}:
+        yield Problem(
+            "sweep.models",
+            list(models),
+            f"allowed with sweep.onset 'model' are models without {', '.join(corrected)} where "
+            "beam.elastic_axis or beam.mass_axis is off mid-chord: the correction is then a factor "
+            "of the loads, which the learnt model does not have",
+        )
 
 
 @check("run")

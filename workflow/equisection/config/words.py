@@ -43,7 +43,7 @@ def allowed(fragment: Fragment) -> str:
 
 def _allowed(fragment: Fragment) -> str:
     if "enum" in fragment:
-        return "one of " + ", ".join(fragment["enum"])
+        return "one of " + ", ".join(map(str, fragment["enum"]))
     if "const" in fragment:
         return str(fragment["const"])
     kinds = {

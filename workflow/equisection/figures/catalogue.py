@@ -139,6 +139,13 @@ def indices_of_histories(run: RunFiles) -> list[str]:
     ]
 
 
+def learnt_models(run: RunFiles) -> list[str]:
+    """Return the models that were learnt from releases, if the onset is found by them."""
+    if not plan.learns(run.config):
+        return []
+    return [f"{run.folder}/rom/{model}/model.nc" for model in run.config.sweep.models]
+
+
 def grid_study(run: RunFiles) -> list[str]:
     """Return the grid study of the section's polar, if there is one."""
     return [f"{run.folder}/tables/grid_study.csv"] if plan.has_grid_study(run.config) else []
@@ -319,6 +326,7 @@ CATALOGUE = (
             **_SUMMARY,
             "linear_theory": "comparison/linear_theory.csv",
             "references": references,
+            "learnt": learnt_models,
         },
         exists=_at_one_incidence,
     ),

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -16,6 +17,7 @@ from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import letter, say
 from equisection.figures.references import read_references
 from equisection.figures.style import DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.results.netcdf import read_dataset
 from equisection.study.axes import Axis, onset_axis_among
 
 #: Symbols and units of the panels, by the columns of both tables.
@@ -23,15 +25,24 @@ _QUANTITIES = {
     "growth_rate": ("growth rate", "growth rate (V/c)"),
     "frequency_strouhal": ("frequency", "$f c/V$"),
 }
+_BAND_OF_FREQUENCY = ("frequency_low", "frequency_high")
 
 
-def from_files(summary: Path, linear_theory: Path, references: Sequence[Path]) -> Figure:
-    """Draw the growth rates of the runs and of linear theory."""
+def from_files(
+    summary: Path, linear_theory: Path, references: Sequence[Path], learnt: Sequence[Path]
+) -> Figure:
+    """Draw the growth rates of the runs, of models learnt from them, and of linear theory."""
     stated = read_references(references, "onset_k_star")
-    return draw(pd.read_csv(summary), pd.read_csv(linear_theory), stated)
+    models = [read_dataset(path) for path in learnt]
+    return draw(pd.read_csv(summary), pd.read_csv(linear_theory), stated, models)
 
 
-def draw(summary: pd.DataFrame, linear: pd.DataFrame, onsets: pd.DataFrame) -> Figure:
+def draw(
+    summary: pd.DataFrame,
+    linear: pd.DataFrame,
+    onsets: pd.DataFrame,
+    learnt: Sequence[xr.Dataset] = (),
+) -> Figure:
     """Draw growth rates (left) and frequencies (right).
 
     Parameters
@@ -42,6 +53,8 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, onsets: pd.DataFrame) -> F
         ``comparison/linear_theory.csv``.
     onsets
         k* of onsets to mark, as :func:`read_references` returns them.
+    learnt
+        Models learnt from releases, ``rom/<model>/model.nc``, drawn without marks and with bands.
     """
     figure = Figure(figsize=(PAGE_WIDTH, 3.4))
     panels = figure.subplots(1, 2)
@@ -50,6 +63,7 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, onsets: pd.DataFrame) -> F
         axes.set(xlabel=along.label, ylabel=label)
         letter(axes, place, title)
         _over_study(axes, summary, linear, name, along)
+        _by_learnt_models(axes, learnt, name, summary)
         for k_star, name_of in zip(onsets["value"], onsets["label"], strict=True):
             axes.axvline(k_star, color=GREY, linewidth=0.8, linestyle=":", label=name_of)
         if axes.has_data():
@@ -65,8 +79,31 @@ def draw(summary: pd.DataFrame, linear: pd.DataFrame, onsets: pd.DataFrame) -> F
         (f"solver '{solver}'", str(resolution))
         for solver, resolution in summary[["solver", "resolution"]].drop_duplicates().values
     )
-    add_provenance(figure, *sources, "linear: thin plate in free air, Theodorsen, p-k method")
+    learnt_words = [f"band: {data.attrs['model']}, {data.attrs['words']}" for data in learnt]
+    add_provenance(
+        figure, *sources, *learnt_words, "linear: thin plate in free air, Theodorsen, p-k method"
+    )
     return figure
+
+
+def _by_learnt_models(
+    axes: Axes, learnt: Sequence[xr.Dataset], name: str, summary: pd.DataFrame
+) -> None:
+    """Draw what learnt models predict, where the motion is one that they have seen."""
+    low, high = ("growth_low", "growth_high") if name == "growth_rate" else _BAND_OF_FREQUENCY
+    along = onset_axis_among(summary.columns).name
+    for data in learnt:
+        look = LOOKS[str(data.attrs["model"])]
+        seen = data.isel({along: (data["extrapolated"].values == 0) & data[name].notnull().values})
+        axes.fill_between(seen[along], seen[low], seen[high], color=look.colour, alpha=0.15, lw=0)
+        axes.plot(
+            seen[along],
+            seen[name],
+            color=look.colour,
+            linewidth=0.8,
+            label=f"{look.label}, {data.attrs['words'].split(' from ')[0]} at "
+            f"{data.attrs['words'].split(' at ')[-1]}",
+        )
 
 
 def _over_study(

@@ -29,6 +29,13 @@ def read_reference_history(path: Path) -> ReferenceHistory:
     """
     data = read_dataset(path)
     case, section = _case(path, data)
+    return history_of(path, data, case, section)
+
+
+def history_of(
+    path: Path, data: xr.Dataset, case: UnsteadyCase, section: Section
+) -> ReferenceHistory:
+    """Return the history of the result of a case, and of the section that it moves."""
 
     def values(name: str) -> Floats:
         return data[name].to_numpy().astype(np.float64)

@@ -32,6 +32,9 @@ DIMENSION_PATTERN = r"[23]d"
 #: refinement of the onset.
 BATCH_PATTERN = r"sweep|round[1-9][0-9]*"
 SWEEP_BATCH = "sweep"
+#: Rounds of learning after the first release: a second one, the runs that confirm the onset, and
+#: those that confirm it again where the first ones contradicted.
+LEARNING_ROUNDS = ("round1", "round2", "round3")
 #: Sections that one job marches. Up to so many, what a step costs hardly depends on their number.
 MOST_TOGETHER = 500
 #: Ratio of one value to the next where an onset is looked for beyond the ends of a sweep (-): a
@@ -56,9 +59,46 @@ def model(name: str, default_reduction: str) -> Model:
     return Model(name, parts[0], "corrected" in parts, reduction)
 
 
-def sweep_cases(config: Config) -> list[str]:
-    """Return the names of the cases of the sweep, by ascending values."""
+def sweep_cases(config: Config, model_name: str | None = None) -> list[str]:
+    """Return the names of the cases of the sweep, by ascending values.
+
+    Of one whose onset is found by a learnt model they are the first release, which a ``model_name``
+    that learns from another's has not.
+    """
+    if learns(config):
+        other = model_name is not None and learner(config, model_name) != model_name
+        return [] if other else [release_point(config, first_release(config)).name]
     return [point.name for point in sweep_points(config)]
+
+
+def learns(config: Config) -> bool:
+    """Tell whether a model that is learnt from releases takes the place of the sweep."""
+    return config.sweep.onset == "model"
+
+
+def learner(config: Config, name: str) -> str:
+    """Return the model whose releases a model of the section is learnt from: one for all sections.
+
+    The loads under a motion are those of the same flow, whatever the section's mass and springs.
+    """
+    sections = [
+        one for one in config.sweep.models if model(one, config.reduction).dimension == "2d"
+    ]
+    plain = [one for one in sections if not model(one, config.reduction).corrected]
+    return next(iter([*plain, *sections]), name)
+
+
+def first_release(config: Config) -> float:
+    """Return the value (k* or speed) of the first release, the middle of the sweep by default."""
+    if config.rom.learn_from != "auto":
+        return config.rom.learn_from[0]
+    values = config.sweep.values()
+    return float(f"{math.sqrt(min(values) * max(values)):.4g}")
+
+
+def release_point(config: Config, value: float) -> Point:
+    """Return the point of a release at a value of the sweep's axis."""
+    return Point.at({onset_axis(varied(config)): value})
 
 
 def steady_cases(config: Config) -> list[str]:
@@ -109,6 +149,8 @@ def refinement_rounds(config: Config) -> int:
     sweep. Where the onset is beyond its ends, :func:`rounds_beyond` come before, and leave a
     bracket of their own width.
     """
+    if learns(config):
+        return len(LEARNING_ROUNDS)
     if config.sweep.onset != "refine":
         return 0
     values = varied(config)
@@ -199,9 +241,11 @@ def planned_cases(config: Config) -> Iterator[PlannedCases]:
             names = tuple(rigid_cases(config, resolution))
             yield PlannedCases(STEADY, dimension, dimension, resolution, names)
     refined = refinement_rounds(config) * config.sweep.onset_points
-    of_sweep = tuple(sweep_cases(config))
+    if learns(config):
+        refined = 1 + 2 * config.rom.confirm
     for name in config.sweep.models:
         dimension = model(name, config.reduction).dimension
+        of_sweep = tuple(sweep_cases(config, name))
         yield PlannedCases(FREE, name, dimension, config.steady.resolution, of_sweep, refined)
     if forced := forced_names(config):
         yield PlannedCases(FORCED, "2d", "2d", config.steady.resolution, forced)

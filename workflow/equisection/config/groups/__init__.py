@@ -18,6 +18,7 @@ from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separa
 from equisection.config.groups.flow import Channel, Flow
 from equisection.config.groups.forced_keys import ForcedKeys
 from equisection.config.groups.openfoam_keys import OpenFoam
+from equisection.config.groups.rom_keys import Rom
 from equisection.config.groups.solver_keys import SolverKeys
 from equisection.config.groups.steady import Steady
 from equisection.config.groups.structure import Elements, Structure
@@ -45,6 +46,7 @@ __all__ = [
     "ModelName",
     "OpenFoam",
     "Range",
+    "Rom",
     "Separation",
     "SolverKeys",
     "StartKeys",

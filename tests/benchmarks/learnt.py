@@ -1,0 +1,270 @@
+"""A model learnt from one kept release by OpenFOAM in the place of a sweep: onset, growth, cost."""
+
+import json
+import math
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+
+from equisection.aerodynamics.filled_polar import filled
+from equisection.aerodynamics.learnt_loads import learn
+from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.reference_history import ReferenceHistory
+from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.analysis.reduced_model import (
+    ENDS,
+    ReducedModel,
+    learnt_model,
+    limit_cycles,
+    natural_frequencies,
+    next_release,
+    onset_of,
+    predicted,
+    predicted_onset,
+)
+from equisection.beam.section import Section
+from equisection.motion.sections import release_sections
+from equisection.results.netcdf import read_dataset
+from equisection.results.recorded_history import read_reference_history
+from equisection.verdict.growth import Growth, growth_of
+from tests.benchmarks.measure import Row, limit
+from tests.workflow.project import ROOT
+
+REFERENCE = ROOT / "results" / "reference"
+Sweep = dict[float, ReferenceHistory]
+#: k* between which growth rates are compared.
+COMPARED = (5.5, 14.0)
+#: Growth of CFD and model is read from the last five periods before this time (c/V).
+UNTIL = 100.0
+
+
+def rows() -> Iterator[Row]:
+    """Compare predictions of single releases with the kept sweeps."""
+    coarse = polar_of("paper-plate-openfoam", "coarse")
+    medium = filled(polar_of("paper-plate-openfoam-grid", "medium"), coarse)
+    sections, corrected = (
+        sweep_of("paper-plate-openfoam", name) for name in ("2d", "2d-corrected")
+    )
+    finer = sweep_of("paper-plate-openfoam-medium", "2d")
+    learnt = learnt_model(sections[6.44], coarse)
+    for name, sweep in (("2d", sections), ("2d-corrected", corrected)):
+        yield from _compared(f"{name} from k* 6.44", learnt, sweep, 3.0)
+    far = learnt_model(sections[10.0], coarse)
+    again = next_release(far, predicted_onset(over(sections, far)))
+    assert again is not None, "a release at k* 10 is too far from the onset"
+    second = learnt_model(sections[_nearest(sections, again)], coarse)
+    for name, sweep in (("2d", sections), ("2d-corrected", corrected)):
+        words = f"{name} from k* 10, which asks for {again:g}, and {second.k_star:g}"
+        yield from _compared(words, second, sweep, 3.0)
+    of_medium = learnt_model(finer[6.44], medium)
+    yield from _compared("medium mesh from k* 6.44", of_medium, finer, 3.5)
+    spent = sum(float(history.time[-1]) for history in sections.values())
+    yield limit("simulated time over that of the sweep of 2d", ENDS[-1] / spent, 0.05, "")
+    held = [
+        found
+        for sweep, polar, others in (
+            (sections, coarse, (sections, corrected)),
+            (corrected, coarse, (corrected,)),
+            (finer, medium, (finer,)),
+        )
+        for found in _trials(sweep, polar, others)
+    ]
+    part = sum(held) / len(held)
+    yield Row(
+        f"intervals that hold the sweep's onset, of {len(held)} trials",
+        f"{sum(held)}",
+        ">= 9 of 10",
+        part >= 0.9,
+    )
+    yield from _limit_cycle(sections, coarse)
+    yield from _beam()
+    yield from _embedded(sections[6.44].section, coarse)
+    start = time.process_time()
+    k_star = np.geomspace(4.0, 25.0, 1000)
+    predicted(
+        learnt_model(sections[6.44], coarse),
+        k_star,
+        [sections[6.44].section.scaled(k / 6.44) for k in k_star],
+    )
+    yield limit("fit and 1,000 k*, processor time", time.process_time() - start, 10.0, "s")
+
+
+def _limit_cycle(sections: Sweep, polar: Polar) -> Iterator[Row]:
+    """Compare the limit cycle at k* 6.44 with those of models of growing releases."""
+    (kept,) = sweep_of("paper-plate-openfoam-cycle", "2d").values()
+    factor = kept.section.twist_recovery
+    late = kept.time > kept.time[-1] - 2.0 / natural_frequencies(kept.section)[0]
+    recorded = 0.5 * math.degrees(float(np.ptp(kept.twist[late]))) / factor
+    for k_star, until in ((5.5, math.inf), (5.0, math.inf), (5.5, 45.0), (6.44, 45.0)):
+        loads = learn(sections[k_star], polar, until)
+        found = limit_cycles(loads, [kept.section]).iloc[0]
+        amplitude = found["twist_amplitude_deg"] / factor
+        off = 100.0 * (amplitude / recorded - 1.0)
+        beyond = ", extrapolated" if found["extrapolated"] else ""
+        yield Row(
+            f"limit cycle at k* 6.44, learnt from {loads.learnt_until:g} c/V at {k_star:g}",
+            f"{amplitude:.2f} deg, {off:+.1f} %{beyond}",
+            f"{recorded:.2f} deg +- 10 %" if math.isinf(until) else "",
+            abs(off) <= 10.0 if math.isinf(until) else None,
+        )
+
+
+def _embedded(section: Section, polar: Polar) -> Iterator[Row]:
+    """Learn from releases by the embedded solver, whose loads have several lags."""
+    k_star = [6.0, 7.0, 8.0, 9.0, 10.0]
+    sections = [section.scaled(one / 6.44) for one in k_star]
+    angle, whole = math.radians(2.5), polar.continued
+    loads = UnsteadyLoads.from_polar(whole)
+    run = release_sections(sections, loads, angle, UNTIL)
+    sweep = {
+        one: ReferenceHistory(
+            run.time,
+            run.twist[:, lane],
+            run.deflection[:, lane],
+            run.lift_coefficient[:, lane],
+            run.moment_coefficient[:, lane],
+            angle,
+            k_star=one,
+            section=sections[lane],
+            name=f"k{one:g}",
+            source="embedded solver",
+        )
+        for lane, one in enumerate(k_star)
+    }
+    onset = onset_of_sweep(sweep)
+    for one in (6.0, 7.0, 8.0):
+        found = predicted_onset(over(sweep, learnt_model(sweep[one], polar)))
+        off = 100.0 * (found.k_star / onset - 1.0)
+        yield Row(
+            f"embedded solver, onset {onset:.2f}, learnt at k* {one:g}",
+            f"{found.k_star:.2f} [{found.low:.2f}, {found.high:.2f}], {off:+.1f} %",
+        )
+
+
+def _beam() -> Iterator[Row]:
+    """Show the growth of the kept beams, with and without their second bending mode."""
+    for waves in (2, 3):
+        found = {}
+        for run in ("", "-long"):
+            folder = REFERENCE / f"paper-plate-openfoam-3d{run}" / "unsteady" / "3d"
+            for path in folder.glob("k*.nc"):
+                found[_k_star(path)] = _growth_of_beam(path, waves)
+        ordered = dict(sorted(found.items()))
+        rates = [growth.rate for growth in ordered.values()]
+        yield Row(
+            f"beam, {waves} waves: growth (V/c) at k*",
+            ", ".join(
+                f"{k_star:g}: {1e3 * one.rate:.1f} +- {1e3 * one.standard_error:.1f}"
+                for k_star, one in ordered.items()
+            )
+            + " e-3",
+            "falls" if waves == 3 else "",
+            bool((np.diff(rates) < 0.0).all()) if waves == 3 else None,
+        )
+        yield Row(f"beam, {waves} waves: onset", f"k* {onset_of(list(ordered), rates):.2f}")
+
+
+def _growth_of_beam(path: Path, waves: int) -> Growth:
+    data = read_dataset(path)
+    beam = json.loads(data.attrs["case"])["beam"]
+    natural = [beam["torsion_frequency"][0], *beam["bending_frequency"][: waves - 1]]
+    records = [
+        data["torsion_amplitude"].values[0],
+        *data["bending_amplitude"].values[: waves - 1],
+    ]
+    return growth_of(data["time"].values, records, np.array(natural) / (2.0 * math.pi))
+
+
+def polar_of(run: str, mesh: str) -> Polar:
+    """Return the polar of kept steady results."""
+    points = []
+    for path in (REFERENCE / run / "steady" / "2d").glob(f"{mesh}_a*.nc"):
+        data = read_dataset(path)
+        angle = math.radians(data.attrs["incidence_deg"])
+        points.append((angle, *(float(data[name]) for name in ("cd", "cl", "cm"))))
+    return Polar(*np.array(sorted(points)).T, mesh)
+
+
+def sweep_of(run: str, model: str) -> Sweep:
+    """Return the kept releases of a model by their k*."""
+    paths = sorted((REFERENCE / run / "unsteady" / model).glob("k*.nc"), key=_k_star)
+    return {_k_star(path): read_reference_history(path) for path in paths}
+
+
+def _k_star(path: Path) -> float:
+    return float(path.stem.removeprefix("k"))
+
+
+def _window(history: ReferenceHistory) -> tuple[float, float]:
+    end = min(UNTIL, float(history.time[-1]))
+    return max(10.0, end - 5.4 / natural_frequencies(history.section)[0]), end
+
+
+def _recorded(history: ReferenceHistory) -> float:
+    """Return the growth rate of a kept release (V/c)."""
+    records = [history.twist, history.deflection]
+    natural = np.array(natural_frequencies(history.section))
+    return growth_of(history.time, records, natural, _window(history)).rate
+
+
+def over(sweep: Sweep, model: ReducedModel):
+    """Return the prediction of a model at the k* of a sweep from 5 on."""
+    chosen = [history for k_star, history in sweep.items() if k_star >= 5.0]
+    return predicted(
+        model,
+        [history.k_star for history in chosen],
+        [history.section for history in chosen],
+        [_window(history) for history in chosen],
+    )
+
+
+def onset_of_sweep(sweep: Sweep) -> float:
+    """Return the onset (k*) between the growth rates of a kept sweep."""
+    chosen = [k_star for k_star in sweep if k_star >= 5.0]
+    return onset_of(chosen, [_recorded(sweep[k_star]) for k_star in chosen])
+
+
+def _compared(words: str, model: ReducedModel, sweep: Sweep, most: float) -> Iterator[Row]:
+    found, onset = over(sweep, model), onset_of_sweep(sweep)
+    by_model = predicted_onset(found)
+    off = 100.0 * (by_model.k_star / onset - 1.0)
+    yield Row(
+        f"{words}: onset",
+        f"{by_model.k_star:.2f} [{by_model.low:.2f}, {by_model.high:.2f}], {off:+.1f} %",
+        f"{onset:.2f} +- {most:g} %",
+        abs(off) <= most,
+    )
+    inside = found[(found["k_star"] >= COMPARED[0]) & (found["k_star"] <= COMPARED[1])]
+    errors = [
+        rate - _recorded(sweep[k_star])
+        for k_star, rate in zip(inside["k_star"], inside["growth_rate"], strict=True)
+    ]
+    rms = float(np.sqrt(np.mean(np.square(errors))))
+    yield limit(f"{words}: growth, rms", rms, 0.004, "V/c")
+
+
+def _trials(sweep: Sweep, polar: Polar, others: tuple[Sweep, ...]) -> Iterator[bool]:
+    """Tell of each release of a sweep whether the interval learnt from it holds each onset.
+
+    A release that asks for another is followed by the kept one nearest to that.
+    """
+    onsets = [onset_of_sweep(other) for other in others]
+    models: dict[float, ReducedModel] = {}
+    for first in sweep:
+        k_star = first
+        for _ in range(2):
+            if k_star not in models:
+                models[k_star] = learnt_model(sweep[k_star], polar)
+            again = next_release(models[k_star], predicted_onset(over(sweep, models[k_star])))
+            if again is None:
+                break
+            k_star = _nearest(sweep, again)
+        for other, onset in zip(others, onsets, strict=True):
+            found = predicted_onset(over(other, models[k_star]))
+            yield found.low <= onset <= found.high
+
+
+def _nearest(sweep: Sweep, k_star: float) -> float:
+    return min(sweep, key=lambda kept: abs(kept - k_star))

@@ -1,0 +1,442 @@
+"""Learning of an onset from releases of a run: which to run, what to predict, and whether it holds.
+
+The course of a run: the first release; a second one, given or where the model says that the first
+was too far from the onset; the runs on both sides of the predicted interval; and, where one of
+these contradicts, a model that is learnt from it with runs around its interval. Every step is
+decided from results alone, so that it can be repeated from them.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from equisection.aerodynamics.learnt_loads import TERMS
+from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.reference_history import ReferenceHistory
+from equisection.analysis.onset import is_unstable
+from equisection.analysis.reduced_model import (
+    COLUMNS,
+    PredictedOnset,
+    ReducedModel,
+    learnt_model,
+    next_release,
+    predicted,
+    predicted_onset,
+)
+from equisection.beam.section import Section
+from equisection.config import Config
+from equisection.errors import ResultFileError
+from equisection.results.netcdf import read_dataset
+from equisection.results.polar_dataset import polar_at
+from equisection.results.recorded_history import history_of
+from equisection.solvers.registry import solver_from_config
+from equisection.store.index import read_index, result_file
+from equisection.study import plan
+from equisection.study.assemble import case_at
+from equisection.study.axes import K_STAR, Axis, Point, onset_axis, varied
+
+#: Values over the sweep and its reach at which a model predicts, beside those of the sweep.
+PREDICTED = 41
+#: Limit cycles above this amplitude (deg) are unstable, as in a bracket of runs.
+THRESHOLD_DEG = 0.5
+#: Relative difference in which a run is at an end of an interval: names have four digits.
+SAME_END = 1e-3
+
+_LOG = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class JudgedRun:
+    """A run with its verdict."""
+
+    point: Point
+    unstable: bool | None
+    file: Path
+
+
+def runs_of(index: Path) -> list[JudgedRun]:
+    """Return the runs that an index of results names."""
+    return [
+        JudgedRun(
+            Point.named(name),
+            is_unstable(str(found["regime"]), float(found["twist_amplitude_deg"]), THRESHOLD_DEG),
+            result_file(index, name),
+        )
+        for name, found in read_index(index).items()
+    ]
+
+
+@dataclass(frozen=True)
+class Lessons:
+    """All that a model of the section is learnt from.
+
+    Attributes
+    ----------
+    config
+        The configuration.
+    name
+        The model of the sweep.
+    data
+        ``equivalent``, with ``correction`` of a corrected model, and ``polar_2d``.
+    releases
+        Indices of the releases, in the order of their rounds.
+    confirming
+        Indices of the runs that confirm the onset, in the order of their rounds.
+    """
+
+    config: Config
+    name: str
+    data: Mapping[str, xr.Dataset]
+    releases: Sequence[Path]
+    confirming: Sequence[Path] = ()
+
+    @classmethod
+    def read(cls, config: Config, name: str, files: Mapping[str, str | Sequence[str]]) -> Lessons:
+        """Read the files of a model by name: one of each data set, indices of the two kinds."""
+        data = {
+            one: read_dataset(Path(str(files[one])))
+            for one in ("equivalent", "polar_2d", "correction")
+            if one in files
+        }
+        releases, confirming = (
+            [Path(path) for path in files.get(kind, ())] for kind in ("releases", "confirming")
+        )
+        return cls(config, name, data, releases, confirming)
+
+    @property
+    def axis(self) -> Axis:
+        """Axis along which the onset is looked for."""
+        return onset_axis(varied(self.config))
+
+    @cached_property
+    def polar(self) -> Polar:
+        """Steady polar of the section."""
+        return polar_at(self.data["polar_2d"], self.config.steady.resolution)
+
+    @cached_property
+    def _grid(self) -> tuple[list[float], list[float], list[Section | None], list[bool]]:
+        """Values, k*, sections and divergence of the beams that are predicted, by rising k*."""
+        given = self.config.sweep.values()
+        reach = self.config.sweep.onset_reach
+        lowest, highest = min(given) / reach, max(given) * reach
+        highest = min(highest, plan.highest_of_sweep(self.config))
+        spaced = np.geomspace(lowest, highest, PREDICTED)
+        values = sorted({*given, *(float(f"{value:.4g}") for value in spaced)})
+        model = plan.model(self.name, self.config.reduction)
+        solver = solver_from_config(self.config, self.config.steady.resolution)
+        # a history of a model has no interval that could be too long for the stiffest beam
+        unsteady = self.config.unsteady.model_copy(update={"output_interval": 1e-3})
+        config = self.config.model_copy(update={"unsteady": unsteady})
+        cases = [
+            case_at(config, model, Point.at({self.axis: value}), self.data, solver)
+            for value in values
+        ]
+        ordered = sorted(zip(values, cases, strict=True), key=lambda pair: pair[1].k_star)
+        return (
+            [value for value, _ in ordered],
+            [case.k_star for _, case in ordered],
+            [case.section for _, case in ordered],
+            [case.diverges for _, case in ordered],
+        )
+
+    def prediction(self, model: ReducedModel) -> pd.DataFrame:
+        """Return growth and frequency over the sweep and its reach, by rising k*.
+
+        A column has the value on the study's axis, if that is not k*. A section without a static
+        equilibrium has an infinite growth rate where it diverges, else an unknown one.
+        """
+        values, k_star, sections, diverges = self._grid
+        there = [place for place, section in enumerate(sections) if section is not None]
+        found = predicted(
+            model,
+            [k_star[place] for place in there],
+            [section for section in sections if section is not None],
+        ).set_index(pd.Index(there))
+        table = pd.DataFrame({self.axis.name: values, "k_star": k_star})
+        table[list(COLUMNS)] = found[list(COLUMNS)]
+        growth = ["growth_rate", "growth_low", "growth_high"]
+        table.loc[np.array(diverges), growth] = math.inf
+        table["extrapolated"] = [value is True for value in table["extrapolated"]]
+        return table
+
+    def learnt(self, run: JudgedRun) -> ReducedModel:
+        """Return the model that is learnt from a run."""
+        found = learnt_model(self._history(run), self.polar)
+        if found.missing_angles:
+            _LOG.warning(
+                "the polar at resolution '%s' has no points at %s deg, where the release %s moves, "
+                "and the model rests on it: add them to steady.incidence_deg",
+                self.config.steady.resolution,
+                ", ".join(f"{angle:g}" for angle in found.missing_angles),
+                run.point.name,
+            )
+        return found
+
+    def _history(self, run: JudgedRun) -> ReferenceHistory:
+        """Return the history of a run, with the section that moved."""
+        model = plan.model(run.file.parent.name, self.config.reduction)
+        solver = solver_from_config(self.config, self.config.steady.resolution)
+        case = case_at(self.config, model, run.point, self.data, solver)
+        if case.section is None:
+            raise ResultFileError(f"{run.file}: {case.refusal}; no model can be learnt from it")
+        return history_of(run.file, read_dataset(run.file), case, case.section)
+
+    @cached_property
+    def last_release(self) -> JudgedRun:
+        """The release that counts.
+
+        Raises
+        ------
+        ResultFileError
+            It failed.
+        """
+        runs = [run for index in self.releases for run in runs_of(index)]
+        if not runs or runs[-1].unstable is None:
+            name = runs[-1].point.name if runs else "none"
+            raise ResultFileError(
+                f"{self.releases[-1]}: the release to learn from failed, or is missing ({name}); "
+                "see its log, or give another value in rom.learn_from"
+            )
+        return runs[-1]
+
+    def second_release(self) -> list[Point]:
+        """Return the point of the second release, none if one is enough."""
+        if plan.learner(self.config, self.name) != self.name:
+            return []
+        given = self.config.rom.learn_from
+        if given != "auto":
+            return [Point.at({self.axis: value}) for value in given[1:]]
+        model = self.learnt(self.last_release)
+        table = self.prediction(model)
+        k_star = next_release(model, predicted_onset(table))
+        if k_star is None:
+            return []
+        nearest = np.interp(k_star, table["k_star"], table[self.axis.name])
+        return [Point.at({self.axis: float(f"{nearest:.4g}")})]
+
+    def contradiction(self, onset: PredictedOnset, index: Path) -> JudgedRun | None:
+        """Return a run on the wrong side of an interval of the onset, that nearest to it.
+
+        An unstable one at or above its upper end in k*, or a stable one at or below its lower end.
+        A run inside contradicts nothing, nor does any where an end is not known.
+        """
+        wrong = []
+        for run in runs_of(index):
+            k_star = self._k_star_of(run.point)
+            if (run.unstable is True and k_star >= onset.high * (1.0 - SAME_END)) or (
+                run.unstable is False and k_star <= onset.low * (1.0 + SAME_END)
+            ):
+                away = abs(math.log(k_star / onset.k_star))
+                wrong.append((away, run.point.name, run))
+        return min(wrong)[2] if wrong else None
+
+    def _k_star_of(self, point: Point) -> float:
+        """Return the k* of the beam at a point."""
+        model = plan.model(self.name, self.config.reduction)
+        if K_STAR in point.axes:
+            return point[K_STAR]
+        solver = solver_from_config(self.config, self.config.steady.resolution)
+        return case_at(self.config, model, point, self.data, solver).k_star
+
+    def course(self) -> Course:
+        """Return the model after all that has been run, with what it predicts and what it says."""
+        model = self.learnt(self.last_release)
+        table = self.prediction(model)
+        onset = predicted_onset(table)
+        wrong = [self.contradiction(onset, index) for index in self.confirming[:1]]
+        contradicted = wrong[0] if wrong else None
+        if contradicted is not None:
+            model = self.learnt(contradicted)
+            table = self.prediction(model)
+            onset = predicted_onset(table)
+        checked = [run for index in self.confirming for run in runs_of(index)]
+        at_odds = [self.contradiction(onset, index) for index in self.confirming]
+        return Course(
+            model,
+            table,
+            onset,
+            checked=len(checked),
+            contradicted=contradicted is not None,
+            at_odds=next((run.point.name for run in at_odds if run is not None), ""),
+        )
+
+    def confirming_points(self, course: Course) -> list[Point]:
+        """Return the points around the interval of an onset that are to be run.
+
+        Half of them are on each side: at the ends of the interval, and half of its width beyond.
+        None is one that has been run.
+        """
+        onset, number = course.onset, self.config.rom.confirm // 2
+        if not onset.known:
+            return []
+        width = onset.high - onset.low
+        wanted = [
+            end + side * 0.5 * width * step
+            for step in range(number)
+            for side, end in ((-1.0, onset.low), (1.0, onset.high))
+        ]
+        k_star, values = course.table["k_star"], course.table[self.axis.name]
+        points = {
+            Point.at({self.axis: float(f"{np.interp(one, k_star, values):.4g}")}) for one in wanted
+        }
+        done = {run.point for index in self._run_so_far for run in runs_of(index)}
+        return sorted(points - done, key=lambda point: point.order)
+
+    @property
+    def _run_so_far(self) -> list[Path]:
+        of_this = plan.learner(self.config, self.name) == self.name
+        return [*(self.releases if of_this else ()), *self.confirming]
+
+    def next_points(self, batch: str) -> list[Point]:
+        """Return the points that a round of learning runs."""
+        if batch == plan.LEARNING_ROUNDS[0]:
+            return self.second_release()
+        course = self.course()
+        if batch == plan.LEARNING_ROUNDS[2] and not course.contradicted:
+            return []
+        return self.confirming_points(course)
+
+
+@dataclass(frozen=True)
+class Course:
+    """A learnt model and what it says after the runs so far.
+
+    Attributes
+    ----------
+    model
+        The model.
+    table
+        Its prediction.
+    onset
+        Its onset over k*.
+    checked
+        Number of runs that check it.
+    contradicted
+        Whether the first ones contradicted, so that it was learnt anew.
+    at_odds
+        Name of a run that it still contradicts; empty if there is none.
+    """
+
+    model: ReducedModel
+    table: pd.DataFrame
+    onset: PredictedOnset
+    checked: int
+    contradicted: bool
+    at_odds: str
+
+    @property
+    def confirmation(self) -> str:
+        """Return in words how far runs bear the model out."""
+        if self.at_odds:
+            return f"contradicted by the run {self.at_odds}"
+        if not self.checked:
+            return "not confirmed by runs"
+        again = (
+            ", after it was learnt anew from a run that contradicted" if self.contradicted else ""
+        )
+        return f"not contradicted by {self.checked} runs{again}"
+
+
+def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
+    """Return what is written to ``rom/<model>/model.nc``."""
+    loads, model = course.model.loads, course.model
+    table = course.table
+    described = {
+        "k_star": ("1", "k* = k_theta/(q c^2)"),
+        "growth_rate": ("V/c", "growth rate of the pitch after a release"),
+        "growth_low": ("V/c", "lower end of the band of the growth rate"),
+        "growth_high": ("V/c", "upper end of the band of the growth rate"),
+        "frequency_strouhal": ("1", "frequency f c/V"),
+        "frequency_low": ("1", "lowest frequency of the refits"),
+        "frequency_high": ("1", "highest frequency of the refits"),
+        "twist_amplitude_deg": ("deg", "half the range of the section's twist at the end"),
+        "extrapolated": ("1", "1: the motion goes to an incidence that the model has not seen"),
+    }
+    variables = {
+        column: (
+            axis.name,
+            table[column].replace([math.inf, -math.inf], math.nan).to_numpy(dtype=float),
+            {"units": units, "long_name": text, "missing_allowed": "1"},
+        )
+        for column, (units, text) in described.items()
+        if column != axis.name
+    }
+    fits = [loads, *model.refits]
+    per_fit = {
+        "rate": ("V/c", "rate g of the lag", [fit.rate for fit in fits]),
+        "residual_moment": ("1", "part of the moment left", [fit.residual_moment for fit in fits]),
+        "residual_lift": ("1", "part of the lift left", [fit.residual_lift for fit in fits]),
+        "learnt_until": ("c/V", "end of the record", [fit.learnt_until for fit in fits]),
+    }
+    return xr.Dataset(
+        {
+            **variables,
+            "moment_terms": (
+                ("fit", "term"),
+                np.array([fit.moment for fit in fits]),
+                {
+                    "units": "1",
+                    "long_name": f"B_m of {', '.join(TERMS)}",
+                },
+            ),
+            "lift_terms": (
+                ("fit", "term"),
+                np.array([fit.lift for fit in fits]),
+                {"units": "1", "long_name": "B_l of the same terms"},
+            ),
+            **{
+                one: ("fit", np.array(values), {"units": units, "long_name": text})
+                for one, (units, text, values) in per_fit.items()
+            },
+        },
+        coords={
+            axis.name: (
+                axis.name,
+                table[axis.name].to_numpy(dtype=float),
+                {"units": axis.unit, "long_name": f"value of the study's axis, {axis.symbol}"},
+            )
+        },
+        attrs={
+            "model": name,
+            "axis": axis.name,
+            "learnt_from": model.learnt_from,
+            "learnt_from_k_star": model.k_star,
+            "source": model.source,
+            "words": model.words,
+            "incidence_deg": math.degrees(loads.incidence_rad),
+            "seen_least_deg": math.degrees(loads.seen[0]),
+            "seen_most_deg": math.degrees(loads.seen[1]),
+            "missing_angles": " ".join(f"{angle:g}" for angle in model.missing_angles),
+            "onset_k_star": course.onset.k_star,
+            "onset_k_star_low": course.onset.low,
+            "onset_k_star_high": course.onset.high,
+            "confirmation": course.confirmation,
+            "at_odds": course.at_odds,
+        },
+    )
+
+
+def onsets_of(learnt: Sequence[xr.Dataset]) -> pd.DataFrame:
+    """Return the onsets of learnt models, ``rom/<model>/model.nc``, as columns of the onsets."""
+    return pd.DataFrame(
+        [
+            {
+                "model": data.attrs["model"],
+                "k_star_learnt": float(data.attrs["onset_k_star"]),
+                "k_star_learnt_low": float(data.attrs["onset_k_star_low"]),
+                "k_star_learnt_high": float(data.attrs["onset_k_star_high"]),
+                "learnt": data.attrs["words"],
+                "confirmation": data.attrs["confirmation"],
+            }
+            for data in learnt
+        ]
+    )
