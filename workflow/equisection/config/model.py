@@ -26,6 +26,7 @@ from equisection.config.groups import (
     Structure,
     Support,
     Sweep,
+    Uncertainty,
     Unsteady,
 )
 from equisection.config.groups.flow import LARGEST_MACH
@@ -73,6 +74,9 @@ class Config(KeyGroup):
     structure: Structure = Field(Structure(), description="Mode computation.")
     steady: Steady = Field(Steady(), description="Steady polars.")
     sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
+    uncertainty: Uncertainty = Field(
+        Uncertainty(), description="How well the inputs of a map of stability are known."
+    )
     rom: Rom = Field(Rom(), description="The model learnt from a release.")
     unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")
     forced: ForcedKeys = Field(ForcedKeys(), description="Forced motion of the section.")

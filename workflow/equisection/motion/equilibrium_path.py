@@ -141,14 +141,17 @@ class BeamPath:
             return 0.0
         return float(self.curve.branches[0].speed[-1])
 
-    def system(self, speeds: Floats) -> tuple[StripSystem, Floats, Floats]:
-        """Return system, states Y and deficits u of equilibrium at speeds (m/s); NaN beyond."""
+    def incidences_near(self, speeds: Floats) -> Floats:
+        """Return the strips' incidences (rad), read linearly between points of the curve, (N, S)."""
         first = self.curve.branches[0]
-        near = np.stack(
+        return np.stack(
             [np.interp(speeds, first.speed, strip) for strip in first.incidence.T], axis=1
         )
+
+    def system(self, speeds: Floats) -> tuple[StripSystem, Floats, Floats]:
+        """Return system, states Y and deficits u of equilibrium at speeds (m/s); NaN beyond."""
         system = self.body.system(speeds, np.full(speeds.shape, self.incidence_rad))
-        states, deficits = equilibrium(system, near)
+        states, deficits = equilibrium(system, self.incidences_near(speeds))
         states[speeds >= self.end_speed] = np.nan
         return system, states, deficits
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +27,7 @@ from numpy.typing import NDArray
 from equisection.errors import EquisectionError
 from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.critical import Critical, critical_of
-from equisection.motion.equilibrium_path import SectionPath, path_from_rest
+from equisection.motion.equilibrium_path import BeamPath, SectionPath, path_from_rest
 from equisection.motion.mechanism import Mechanism
 from equisection.motion.mode_tracking import Spectrum
 from equisection.motion.stability_map import MapLine, map_lines
@@ -101,10 +102,10 @@ class FollowedOnset:
             return (ends[0] - ends[1]) / (2.0 * STEP)
         bodies = [parameter.changed(self.line.body, sign * STEP) for sign in (1, -1)]
         by_parameter = self._change([(body, self.speed) for body in bodies]) / (2.0 * STEP)
-        return -by_parameter / self._growth_by_speed
+        return -by_parameter / self.growth_by_speed
 
-    @property
-    def _growth_by_speed(self) -> float:
+    @cached_property
+    def growth_by_speed(self) -> float:
         """Re d lambda/dV (V/c per m/s)."""
         body, step = self.line.body, STEP * self.speed
         return self._change([(body, self.speed + step), (body, self.speed - step)]) / (2.0 * step)
@@ -122,12 +123,11 @@ class FollowedOnset:
     def _system(self, body: BodyInFlow, speeds: Floats) -> tuple[StripSystem, Floats, Floats]:
         """System, states and deficits of equilibrium of a body that is nearly that of the line."""
         rigid = self.line.incidence_rad
-        if body.is_section:
+        path = self.line.path
+        if not isinstance(path, BeamPath):
             return SectionPath(body, rigid).system(speeds)
         system = body.system(speeds, np.full(speeds.shape, rigid))
-        old = self.line.path.system(speeds)[1][:, system.layout.lag(2)]
-        near = np.where(np.isfinite(old), old, rigid)
-        return system, *equilibrium(system, near)
+        return system, *equilibrium(system, path.incidences_near(speeds))
 
     def _spectrum_of(self, body: BodyInFlow, speed: float) -> Spectrum:
         at = np.array([speed])
@@ -148,7 +148,7 @@ class FollowedOnset:
         body = parameter.changed(self.line.body, change)
         if self.is_fold:
             return self._of_a_map(body)
-        slope = self._growth_by_speed
+        slope = self.growth_by_speed
         speed = self.speed + self.derivative(parameter) * change
         earlier: tuple[float, float] | None = None
         for _ in range(MOST_STEPS):

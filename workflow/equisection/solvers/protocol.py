@@ -18,6 +18,7 @@ if TYPE_CHECKING:  # the graph is built from what solvers provide, without numer
     from equisection.results.steady_result import SteadyResult
     from equisection.results.unsteady_result import UnsteadyResult
     from equisection.solvers.known_error import KnownError
+    from equisection.solvers.known_spread import KnownSpread
 
 
 class Capability(StrEnum):
@@ -152,6 +153,15 @@ class HasKnownError(Protocol):
 
     def known_error(self, dimension: str, basis: str) -> KnownError | None:
         """Return the error of runs of a dimension and basis, or None where nobody knows it."""
+        ...
+
+
+@runtime_checkable
+class HasKnownSpread(Protocol):
+    """Solver of whose lags and polar it is known how far they may be off."""
+
+    def known_spread(self, parameter: str, incidence_deg: float) -> KnownSpread | None:
+        """Return the half-range of a parameter at an incidence, or None where nobody knows it."""
         ...
 
 

@@ -23,6 +23,7 @@ from equisection.config.groups.solver_keys import SolverKeys
 from equisection.config.groups.steady import Steady
 from equisection.config.groups.structure import Elements, Structure
 from equisection.config.groups.sweep import ModelName, Range, Sweep
+from equisection.config.groups.uncertainty_keys import Uncertainty
 from equisection.config.groups.unsteady import StartKeys, Unsteady, VerdictKeys
 from equisection.keys.group import KeyGroup
 
@@ -54,6 +55,7 @@ __all__ = [
     "Structure",
     "Support",
     "Sweep",
+    "Uncertainty",
     "Unsteady",
     "VerdictKeys",
 ]

@@ -30,7 +30,9 @@ from equisection.results.forced_result import ForcedResult
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.embedded.known_errors import known_error
+from equisection.solvers.embedded.known_spreads import known_spread
 from equisection.solvers.known_error import KnownError
+from equisection.solvers.known_spread import KnownSpread
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 if TYPE_CHECKING:
@@ -118,6 +120,10 @@ class Adapter:
     def known_error(self, dimension: str, basis: str) -> KnownError | None:
         """Return the error of the growth that is known with this polar and these lags."""
         return known_error(dimension, basis, self._polar.label, self._lags)
+
+    def known_spread(self, parameter: str, incidence_deg: float) -> KnownSpread | None:
+        """Return the half-range of a lag or of a coefficient that is known with this polar."""
+        return known_spread(parameter, incidence_deg, self._polar.label, self._lags)
 
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
