@@ -12,6 +12,7 @@ from equisection.analysis.mapped_models import (
     speeds_of_map,
     stability_table,
 )
+from equisection.analysis.onset_intervals import sensitivity_table, with_intervals
 from equisection.analysis.releases_of_map import checked_in_time, in_use
 from equisection.config import load_config
 from equisection.files import written_whole
@@ -28,9 +29,10 @@ def main(
     *,
     stability_map: Path,
     stability: Path,
+    sensitivities: Path,
     use: Path | None,
 ) -> None:
-    """Write the map, the critical speeds and, with a design speed, what it is like there."""
+    """Write the map, the critical speeds with their sensitivities, and the design speed's table."""
     config = load_config(raw_config)
     data = {name: read_dataset(path) for name, path in files.items()}
     solver = solver_from_config(config, config.steady.resolution)
@@ -38,6 +40,8 @@ def main(
     models = mapped_models(config, data, solver)
     write_dataset(stability_map, map_dataset(models, speeds_of_map(config, given)))
     table = checked_in_time(stability_table(models, config.flow.design_speed), models, config)
+    found = sensitivity_table(models, config, solver)
+    table = with_intervals(table, found)
     for row in table.to_dict("records"):
         logging.getLogger(__name__).info(
             "%s at %g deg: %s %.4g m/s; %s",
@@ -48,6 +52,7 @@ def main(
             row["note"],
         )
     _write(table, stability)
+    _write(found, sensitivities)
     if use is not None:
         _write(in_use(models, config), use)
 
@@ -70,5 +75,6 @@ if __name__ == "__main__":
             wanted,
             stability_map=Path(snakemake.output.stability_map),
             stability=Path(snakemake.output.stability),
+            sensitivities=Path(snakemake.output.sensitivities),
             use=Path(at_design) if at_design else None,
         )

@@ -384,6 +384,7 @@ def map_files():
     return [
         f"{RESULTS}/comparison/stability_map.nc",
         *stability_table_of_map(),
+        f"{RESULTS}/comparison/sensitivities.csv",
         *in_use_of_map().values(),
     ]
 

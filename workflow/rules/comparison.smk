@@ -157,6 +157,7 @@ if plan.has_stability_map(CONFIG):
                     "shows": "critical speed over incidence",
                 },
             ),
+            sensitivities=f"{RESULTS}/comparison/sensitivities.csv",
         log:
             f"{LOGS}/stability_map.log",
         priority: FIRST

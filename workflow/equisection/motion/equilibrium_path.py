@@ -142,7 +142,7 @@ class BeamPath:
         return float(self.curve.branches[0].speed[-1])
 
     def incidences_near(self, speeds: Floats) -> Floats:
-        """Return the strips' incidences (rad), read linearly between points of the curve, (N, S)."""
+        """Return incidences (rad) of the strips by straight lines along the curve, shape (N, S)."""
         first = self.curve.branches[0]
         return np.stack(
             [np.interp(speeds, first.speed, strip) for strip in first.incidence.T], axis=1

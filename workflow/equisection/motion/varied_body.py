@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,7 +65,7 @@ def parameters_of(body: BodyInFlow) -> list[BodyParameter]:
     return [one for one in PARAMETERS if not absent.get(one.name)]
 
 
-def _with(body: BodyInFlow, **changes: Floats) -> BodyInFlow:
+def _with(body: BodyInFlow, **changes: Any) -> BodyInFlow:
     return replace(body, structure=replace(body.structure, **changes))
 
 
@@ -216,9 +217,7 @@ def _dimensional(member: str, chords: int, speeds: int) -> Callable[[BodyInFlow,
 #: value of the first two is the slope at zero lift, that of the drag a factor.
 PARAMETERS = (
     BodyParameter("mass", "kg/m", True, _dimensional("bending_mass", 2, 0), _heavier),
-    BodyParameter(
-        "inertia", "kg m", True, _dimensional("torsion_inertia", 4, 0), _of_more_inertia
-    ),
+    BodyParameter("inertia", "kg m", True, _dimensional("torsion_inertia", 4, 0), _of_more_inertia),
     BodyParameter(
         "k_w", "N/m2", True, _dimensional("bending_stiffness", 0, 2), _stiffer_in_bending
     ),
@@ -238,8 +237,7 @@ PARAMETERS = (
         "1",
         False,
         lambda body, _: float(
-            body.structure.bending_damping[0, 0, 0]
-            / _critical_in_bending(body.structure)[0, 0, 0]
+            body.structure.bending_damping[0, 0, 0] / _critical_in_bending(body.structure)[0, 0, 0]
         ),
         _damped_in_bending,
     ),
@@ -248,8 +246,7 @@ PARAMETERS = (
         "1",
         False,
         lambda body, _: float(
-            body.structure.torsion_damping[0, 0, 0]
-            / _critical_in_torsion(body.structure)[0, 0, 0]
+            body.structure.torsion_damping[0, 0, 0] / _critical_in_torsion(body.structure)[0, 0, 0]
         ),
         _damped_in_torsion,
     ),
