@@ -231,7 +231,7 @@ def with_intervals(table: pd.DataFrame, sensitivities: pd.DataFrame) -> pd.DataF
 
 def _in_words(part: pd.DataFrame) -> str:
     """Name the parameters of an interval, and why an end of it is open."""
-    words = [", ".join(part["parameter"])]
+    words = [" + ".join(part["parameter"])]
     ends = part[["speed_at_less", "speed_at_more"]]
     for name, which in (
         ("open below by", (ends == 0.0).any(axis=1)),
@@ -239,5 +239,5 @@ def _in_words(part: pd.DataFrame) -> str:
         ("no equilibrium on the polar with", ends.isna().any(axis=1)),
     ):
         if which.any():
-            words.append(f"{name} {', '.join(part.loc[which, 'parameter'])}")
+            words.append(f"{name} {' + '.join(part.loc[which, 'parameter'])}")
     return "; ".join(words)

@@ -18,7 +18,13 @@ from equisection.keys.values import NAME_PATTERN
 from equisection.keys.written_number import LARGEST, SMALLEST, is_of_sensible_size, number_in
 
 #: Parts of pydantic's locations that are no part of a key's path, and the types they choose.
-_TAGS = {"list": "array", "range": "object", "auto": "string"}
+_TAGS = {
+    "list": "array",
+    "range": "object",
+    "auto": "string",
+    "known": "string",
+    "half-range": "number",
+}
 _KEY_ITSELF = "[key]"
 _STARTS_AS_NUMBER = re.compile(r"\s*[-+]?\.?\d")
 #: Digits of any script and base, with what some languages allow between them.

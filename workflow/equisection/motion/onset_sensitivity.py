@@ -194,9 +194,10 @@ class FollowedOnset:
     def speeds_at_growth(self, growth: float) -> tuple[float, float]:
         """Return the speeds (m/s) at which the growth of the mode of the onset is less and more.
 
-        ``growth`` (V/c) is how much less than zero, and how much more. Along the modes as the map has them, read linearly between its speeds:
-        zero where the mode decays less than that at all lower speeds, infinite where it does not
-        grow so much at any higher one. NaN of a divergence, to which no such growth applies.
+        ``growth`` (V/c) is how much less than zero, and how much more. Along the modes as the map
+        has them, read linearly between its speeds: zero where the mode decays less than that at
+        all lower speeds, infinite where it does not grow so much at any higher one. NaN of a
+        divergence, to which no such growth applies.
         """
         line, speed = self.line, self.line.modes.spectrum.speed
         if self.is_fold or self.critical.critical_mechanism == Mechanism.DIVERGENCE:

@@ -15,16 +15,16 @@ KNOWN: Literal["known"] = "known"
 
 
 def _shape(value: object) -> str:
-    return "known" if value == KNOWN else "number"
+    return "known" if value == KNOWN else "half-range"
 
 
 _Part = Annotated[float, Field(ge=0, le=0.9, allow_inf_nan=False), NUMBER]
 KnownOrPart = Annotated[
-    Annotated[Literal["known"], Tag("known")] | Annotated[_Part, Tag("number")],
+    Annotated[Literal["known"], Tag("known")] | Annotated[_Part, Tag("half-range")],
     Discriminator(_shape),
 ]
 KnownOrNumber = Annotated[
-    Annotated[Literal["known"], Tag("known")] | Annotated[NotNegative, Tag("number")],
+    Annotated[Literal["known"], Tag("known")] | Annotated[NotNegative, Tag("half-range")],
     Discriminator(_shape),
 ]
 
