@@ -75,7 +75,7 @@ class Config(KeyGroup):
     steady: Steady = Field(Steady(), description="Steady polars.")
     sweep: Sweep = Field(Sweep(), description="The sweep over k*.")
     uncertainty: Uncertainty = Field(
-        Uncertainty(), description="How well the inputs of a map of stability are known."
+        Uncertainty(), description="Half-ranges of the inputs of a map of stability."
     )
     rom: Rom = Field(Rom(), description="The model learnt from a release.")
     unsteady: Unsteady = Field(Unsteady(), description="Unsteady runs.")

@@ -224,17 +224,17 @@ PARAMETERS = (
     BodyParameter(
         "k_theta", "N/rad", True, _dimensional("torsion_stiffness", 2, 2), _stiffer_in_torsion
     ),
-    BodyParameter("mass_axis", "chords", False, _mass_behind, _with_mass_behind),
+    BodyParameter("mass_axis", "chord", False, _mass_behind, _with_mass_behind),
     BodyParameter(
         "elastic_axis",
-        "chords",
+        "chord",
         False,
         lambda body, _: float(body.structure.axis[0]),
         _with_axis_behind,
     ),
     BodyParameter(
         "damping_bending",
-        "1",
+        "of critical",
         False,
         lambda body, _: float(
             body.structure.bending_damping[0, 0, 0] / _critical_in_bending(body.structure)[0, 0, 0]
@@ -243,7 +243,7 @@ PARAMETERS = (
     ),
     BodyParameter(
         "damping_torsion",
-        "1",
+        "of critical",
         False,
         lambda body, _: float(
             body.structure.torsion_damping[0, 0, 0] / _critical_in_torsion(body.structure)[0, 0, 0]

@@ -30,7 +30,7 @@ KnownOrNumber = Annotated[
 
 
 class Uncertainty(KeyGroup):
-    """How well the inputs of a map of stability are known (`sweep.incidence_deg`)."""
+    """Half-ranges of the inputs of a map of stability (`sweep.incidence_deg`)."""
 
     damping: Annotated[float, Field(ge=0, le=0.5, allow_inf_nan=False), NUMBER] = Field(
         0.0,
