@@ -42,6 +42,8 @@ COLUMNS = (
 #: Parameter that is the error of the growth itself.
 GROWTH = "growth"
 GIVEN = "configuration"
+#: Kinds of sensitivity: of a parameter that is never zero, and of one that may be.
+RELATIVE, ABSOLUTE = "d ln V/d ln p", "dV/dp (m/s per unit)"
 #: Keys of ``uncertainty`` by parameter.
 _KEYS = {
     "damping_bending": "damping",
@@ -136,7 +138,7 @@ def _rows_of(
                 "value": 0.0,
                 "unit": "V/c",
                 "sensitivity": 1.0 / onset.growth_by_speed,
-                "sensitivity_of": "dV/dp (m/s per V/c)",
+                "sensitivity_of": ABSOLUTE,
                 "half_range": known.size,
                 "speed_at_less": ends[0],
                 "speed_at_more": ends[1],
@@ -156,13 +158,12 @@ def _row(
         down = known.size if parameter.by_a_part else min(known.size, max(value, 0.0))
         less = onset.speed_with(parameter, -down) if down else onset.speed
         more = onset.speed_with(parameter, known.size)
-    relative = "d ln V/d ln p"
     return {
         "parameter": parameter.name,
         "value": value,
         "unit": parameter.unit,
         "sensitivity": derivative / onset.speed if parameter.by_a_part else derivative,
-        "sensitivity_of": relative if parameter.by_a_part else f"dV/dp (m/s per {parameter.unit})",
+        "sensitivity_of": RELATIVE if parameter.by_a_part else ABSOLUTE,
         "half_range": known.size or math.nan,
         "speed_at_less": less,
         "speed_at_more": more,
