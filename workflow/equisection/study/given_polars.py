@@ -46,7 +46,9 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
         if path == FLAT_PLATE:
             continue
         try:
-            points = read_rows(directory / path, config.embedded.symmetric)
+            points = read_rows(
+                directory / path, config.embedded.symmetric, config.embedded.columns.given
+            )
             points.axis_of(directory / path, config.embedded.moment_axis)
             valid = read_validity(directory / path)
         except PolarFileError as error:
