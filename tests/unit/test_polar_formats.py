@@ -15,7 +15,7 @@ from equisection.config import load_config
 from equisection.errors import ConfigError, PolarFileError
 from equisection.io.polar_text import MOST_LINES
 from equisection.run.command_line import main
-from equisection.study.given_polars import check_polars
+from equisection.study.given_polars import check_polars, polar_notices
 
 ANGLES = (-4.0, -2.0, 0.0, 2.0, 4.0)
 #: A thin cambered airfoil: c_l = 2 pi (alpha + 2 deg), c_m = -0.05 about the quarter chord.
@@ -244,6 +244,24 @@ def test_a_file_far_too_long_is_refused_unread(tmp_path: Path) -> None:
     path = save(tmp_path, PLAIN + "5,0.4,0.03,0.08\n" * MOST_LINES)
     with pytest.raises(PolarFileError, match=r"100,006 lines; a polar has 100,000 at most"):
         Polar.read(path)
+
+
+def test_a_line_far_too_long_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(PolarFileError, match=r"line 7: 20,000 characters; a polar has one point"):
+        Polar.read(save(tmp_path, PLAIN + "1," * 10_000))
+
+
+def test_a_polar_of_another_reynolds_number_is_told(tmp_path: Path) -> None:
+    """Re = rho V c/mu is 1.27e5 in the default flow."""
+    path = save(tmp_path, PLAIN)
+    raw = {"embedded": {"polars": {"coarse": str(path)}, "symmetric": False}}
+    config = load_config(raw | {"steady": {"incidence_deg": [-4, -2, 0, 2, 2.5, 4]}})
+    assert not list(polar_notices(config))
+    for reynolds, told in (("1e5", False), ("2.4e5", False), ("1e6", True), ("6e4", True)):
+        save(tmp_path, f"# Valid for: Reynolds number {reynolds}\n" + PLAIN)
+        lines = list(polar_notices(config))
+        assert len(lines) == told
+        assert "this flow has 126900" in "".join(lines) or not told
 
 
 def test_a_full_turn_is_kept_and_does_not_change_what_is_near_zero(tmp_path: Path) -> None:

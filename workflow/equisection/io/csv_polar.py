@@ -18,6 +18,7 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from equisection.errors import PolarFileError
@@ -74,7 +75,7 @@ class _Header:
         """Number of quantities that it names."""
         return len(set(filter(None, self.quantities)))
 
-    @property
+    @cached_property
     def places(self) -> list[tuple[str, int]]:
         """Quantities with the place of their column."""
         return [(name, self.quantities.index(name)) for name in COLUMNS]

@@ -46,6 +46,19 @@ def read_rows(
     return PolarRows(rows, half, found, found.reynolds_number(lines))
 
 
+def reynolds_number(path: Path) -> float:
+    """Return the Reynolds number that the polar file at ``path`` says; NaN where it says none.
+
+    Raises
+    ------
+    PolarFileError
+        The file cannot be read.
+    """
+    lines = text_lines(path)
+    found = next(format for format in FORMATS if format.recognises(path, lines))
+    return found.reynolds_number(lines)
+
+
 def _checked(path: Path, columns: Mapping[str, str]) -> dict[str, str]:
     """Return the names of columns that are given; refuse those of no quantity, and one for two."""
     given = {quantity: name.strip() for quantity, name in columns.items() if name.strip()}

@@ -20,6 +20,8 @@ from equisection.errors import PolarFileError
 Lines = Sequence[tuple[int, str]]
 #: Most bytes and lines of a polar file; a full turn in steps of 0.01 deg has 36,001 points.
 MOST_BYTES, MOST_LINES = 32_000_000, 100_000
+#: Most characters of a line.
+_LONGEST_LINE = 10_000
 #: Longest value that a message quotes.
 _LONGEST = 40
 #: What is no text: control characters but tab and line ends, and invisible marks that turn the
@@ -51,7 +53,13 @@ def text_lines(path: Path) -> Lines:
             f"{path}, line {line}: an invisible character (U+{ord(strange[0]):04X}), so that it "
             "cannot be read as a text file; save the polar as plain text (UTF-8)"
         )
-    return [(number, line.strip()) for number, line in enumerate(text.split("\n"), start=1)]
+    lines = [(number, line.strip()) for number, line in enumerate(text.split("\n"), start=1)]
+    number, longest = max(lines, key=lambda line: len(line[1]))
+    if len(longest) > _LONGEST_LINE:
+        raise PolarFileError(
+            f"{path}, line {number}: {len(longest):,} characters; a polar has one point a line"
+        )
+    return lines
 
 
 def _bytes(path: Path) -> bytes:
@@ -120,7 +128,7 @@ def number(path: Path, line: int, name: str, text: str) -> float:
     text = text.strip()
     value = math.nan
     if is_number(text):
-        value = float(text.replace("d", "e").replace("D", "E"))
+        value = float(text.lower().replace("d", "e"))
     if not math.isfinite(value):
         raise PolarFileError(
             f"{path}, line {line}: {name} is {quoted(text)}; wanted a finite number in digits, as "
