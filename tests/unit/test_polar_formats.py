@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.conftest import ROOT
 
 import equisection as eq
 from equisection.aerodynamics.polar import Polar
@@ -244,6 +245,22 @@ def test_a_file_far_too_long_is_refused_unread(tmp_path: Path) -> None:
     path = save(tmp_path, PLAIN + "5,0.4,0.03,0.08\n" * MOST_LINES)
     with pytest.raises(PolarFileError, match=r"100,006 lines; a polar has 100,000 at most"):
         Polar.read(path)
+
+
+def test_table_of_the_page_is_read(tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "polar-formats.md").read_text("utf-8")
+    table = page.partition("## Tables of your own")[2].split("```")[1].strip()
+    polar = Polar.read(save(tmp_path, table), symmetric=False)
+    assert np.degrees(polar.incidence) == pytest.approx([-4, -2, 0, 2])
+    assert polar.lift == pytest.approx([-0.4, -0.21, 0.0, 0.21])
+
+
+def test_polar_of_a_program_is_not_one_of_a_beam_about_mid_chord(tmp_path: Path) -> None:
+    path = save(tmp_path, PROGRAMS["AeroDyn"])
+    raw = {"solver": "openfoam", "unsteady": {"time_step": 0.02}, "sweep": {"models": ["2d"]}}
+    raw |= {"steady": {"beam_polar": str(path)}}
+    with pytest.raises(ConfigError, match=r"steady\.beam_polar: .* AeroDyn are about 0\.25"):
+        check_polars(load_config(raw))
 
 
 def test_a_line_far_too_long_is_refused(tmp_path: Path) -> None:

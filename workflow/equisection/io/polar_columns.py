@@ -100,12 +100,13 @@ def check_columns(
         )
     missing = [name for name in COLUMNS if name not in found]
     if missing:
+        why = "; without its moment a section has no known twist" if missing == ["cm"] else ""
         own = [f"{name} ({quoted(given[name])})" if name in given else name for name in missing]
         raise PolarFileError(
             f"{path}, line {line}: no column {', '.join(own)}; found {shown}; wanted "
             f"{', '.join(COLUMNS)}: write these names (others are ignored), or say which column "
             f"is which: embedded.columns: {{{missing[-1]}: <name in the file>}} "
-            "(columns= in Python)"
+            f"(columns= in Python){why}"
         )
 
 

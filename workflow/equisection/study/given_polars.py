@@ -108,6 +108,7 @@ def _of_beam(config: Config, directory: Path) -> Iterator[Problem]:
     polar = config.steady.beam_polar
     try:
         points = read_rows(directory / polar, symmetric=False)
+        points.axis_of(directory / polar, MID_CHORD)
         valid = read_validity(directory / polar)
     except PolarFileError as error:
         yield _unreadable("steady.beam_polar", polar, error)
