@@ -296,13 +296,13 @@ def test_a_full_turn_is_kept_and_does_not_change_what_is_near_zero(tmp_path: Pat
         polars.append(Polar.read(save(tmp_path, "alpha,cl,cd,cm\n" + body)))
     whole, cut = polars
     assert np.degrees(whole.incidence_range) == pytest.approx((-180, 180))
-    beam = eq.Beam(length=0.37, chord=0.1, thickness=0.004, youngs_modulus=3e9, density=1200.0)
+    beam = eq.Beam(length=0.37, chord=0.1, thickness=0.004, youngs_modulus=3e8, density=1200.0)
     section = eq.reduce(beam)
     speeds = [
         eq.critical_speed(section, polar, incidence_deg=2.0, speed=(2.0, 60.0)).speed_low.item()
         for polar in (whole, cut)
     ]
-    assert np.isfinite(speeds[0])
+    assert 2.0 < speeds[0] < 59.0
     assert speeds[0] == pytest.approx(speeds[1], rel=1e-6)
 
 
