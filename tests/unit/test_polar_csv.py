@@ -9,7 +9,7 @@ import pytest
 from tests.conftest import ROOT
 
 from equisection.aerodynamics.polar import Polar
-from equisection.analysis.polar_of_results import polar_csv
+from equisection.analysis.polar_of_results import polar_aerodyn, polar_csv
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import write_dataset
 from equisection.results.steady_result import SteadyResult
@@ -72,3 +72,27 @@ def test_results_that_make_no_polar_are_refused_by_name(
             polar_csv([one, other])
     assert main(["polar", str(one), str(fine)]) == 1
     assert capsys.readouterr().err.startswith("error: ")
+
+
+def test_table_for_aerodyn_is_the_same_polar(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Written about the quarter chord and read back, it has the moment about mid-chord again."""
+    kept = ROOT / "results/reference/paper-plate-openfoam/steady/2d"
+    assert main(["polar", "--format", "aerodyn", *map(str, kept.glob("coarse_a*.nc"))]) == 0
+    file = tmp_path / "plate.dat"
+    file.write_text(capsys.readouterr().out, encoding="utf-8")
+    table = Polar.read(file, symmetric=False)
+    shipped = Polar.read(ROOT / "config/polars/plate_2d_11136.csv", symmetric=False)
+    assert table.incidence == pytest.approx(shipped.incidence)
+    assert table.moment == pytest.approx(shipped.moment, abs=1.5e-5)  # five digits each
+    assert table.drag == pytest.approx(shipped.drag)
+    assert table.reynolds_number == pytest.approx(126_882)
+
+
+def test_table_for_aerodyn_makes_nothing_up(tmp_path: Path) -> None:
+    text = polar_aerodyn([result(tmp_path, a) for a in (0.0, 2.0, 4.0, 6.0)])
+    assert "NumAlf" in text
+    assert "(not known: any)" in text
+    rows = [line.split() for line in text.splitlines()[-4:]]
+    assert [float(row[0]) for row in rows] == [0.0, 2.0, 4.0, 6.0]

@@ -15,6 +15,7 @@ Slopes come from the cubic itself.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -98,6 +99,8 @@ class Polar:
         c_d, c_l, c_m (Eq. 21), shape (n,).
     label
         Name for messages and legends.
+    reynolds_number
+        Reynolds number that the file says (-); NaN where it is not known.
     """
 
     incidence: Floats
@@ -105,6 +108,7 @@ class Polar:
     lift: Floats
     moment: Floats
     label: str
+    reynolds_number: float = math.nan
     _drag: _Curve = field(init=False, repr=False)
     _lift: _Curve = field(init=False, repr=False)
     _moment: _Curve = field(init=False, repr=False)
@@ -143,6 +147,7 @@ class Polar:
         *,
         symmetric: bool | None = None,
         moment_axis: float | None = None,
+        columns: Mapping[str, str] | None = None,
     ) -> Polar:
         """Polar of the file at ``path``, with the file's name (without suffix) as its label.
 
@@ -160,11 +165,14 @@ class Polar:
             refused.
         moment_axis
             x/c from the leading edge of the point that the file's moments are about. None: what
-            the format says (0.25 for XFOIL), else mid-chord, 0.5; but moments that look as if they
-            were about the quarter chord are refused. From there the moment is
+            the format says (0.25 for XFOIL and other programs), else mid-chord, 0.5; but moments
+            that look as if they were about another point are refused. From there the moment is
             transferred to mid-chord,
 
                 c_m = c_m,axis - (x/c - 1/2) (c_l cos alpha + c_d sin alpha).
+        columns
+            Names of the columns of a CSV file by quantity (``incidence_deg``, ``cl``, ``cm``,
+            ``cd``), for those that are not the usual ones, as in ``{"cl": "CA", "cd": "CW"}``.
 
         Raises
         ------
@@ -173,14 +181,14 @@ class Polar:
             about.
         """
         path = Path(path)
-        points = read_rows(path, symmetric)
+        points = read_rows(path, symmetric, columns)
         axis = points.axis_of(path, moment_axis)
         incidence_deg, lift, moment, drag = np.array([row.values for row in points.rows]).T
         incidence = np.radians(incidence_deg)
         if axis != MID_CHORD:
             normal_force = lift * np.cos(incidence) + drag * np.sin(incidence)
             moment = moment - (axis - MID_CHORD) * normal_force
-        polar = cls(incidence, drag, lift, moment, path.stem)
+        polar = cls(incidence, drag, lift, moment, path.stem, points.reynolds_number)
         return polar.mirrored() if points.half else polar
 
     @classmethod
@@ -214,7 +222,9 @@ class Polar:
 
         lift, moment = self.lift.copy(), self.moment.copy()
         lift[0] = moment[0] = 0.0
-        return Polar(self.incidence, self.drag, lift, moment, self.label)._both_halves()
+        return Polar(
+            self.incidence, self.drag, lift, moment, self.label, self.reynolds_number
+        )._both_halves()
 
     @cached_property
     def continued(self) -> Polar:
@@ -237,7 +247,9 @@ class Polar:
 
         drag = np.concatenate([self.drag[:0:-1], self.drag])
         lift, moment = reflected(self.lift), reflected(self.moment)
-        return Polar(reflected(self.incidence), drag, lift, moment, self.label)
+        return Polar(
+            reflected(self.incidence), drag, lift, moment, self.label, self.reynolds_number
+        )
 
     @property
     def incidence_range(self) -> tuple[float, float]:

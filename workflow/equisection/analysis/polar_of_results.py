@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from pathlib import Path
 
 import xarray as xr
 
 from equisection.errors import ResultFileError
+from equisection.io.aerodyn_polar import aerodyn_text
 from equisection.io.csv_polar import csv_text
-from equisection.io.polar_rows import COLUMNS
+from equisection.io.polar_columns import COLUMNS
 from equisection.results.netcdf import read_dataset
 
 
@@ -26,20 +28,54 @@ def polar_csv(paths: Sequence[Path]) -> str:
         A file is no steady result, two are of the same incidence, or they are of different
         solvers or meshes.
     """
-    results = sorted(
-        (_steady(path) for path in paths), key=lambda data: data.attrs["incidence_deg"]
-    )
-    _require_one_polar(results)
+    results = _one_polar(paths)
     comments = [f"{results[0].attrs['solver_description']}.", *_flow(results[0])]
     comments.append(
         "Written by 'equisection polar' from steady results. Moment about mid-chord, nose up."
     )
-    comments += [
+    comments += _left_out(results)
+    return csv_text(_points(results), comments)
+
+
+def polar_aerodyn(paths: Sequence[Path]) -> str:
+    """Return the polar of steady results as an airfoil table of AeroDyn, by ascending incidence.
+
+    Raises
+    ------
+    ResultFileError
+        As for :func:`polar_csv`.
+    """
+    results = _one_polar(paths)
+    comments = [
+        f"{results[0].attrs['solver_description']}.",
+        "Written by 'equisection polar' from steady results.",
+        *_left_out(results),
+    ]
+    return aerodyn_text(
+        [values for values, _ in _points(results)], _reynolds_number(results[0]), comments
+    )
+
+
+def _one_polar(paths: Sequence[Path]) -> list[xr.Dataset]:
+    """Return steady results by ascending incidence; refuse those that do not make one polar."""
+    results = sorted(
+        (_steady(path) for path in paths), key=lambda data: data.attrs["incidence_deg"]
+    )
+    _require_one_polar(results)
+    return results
+
+
+def _left_out(results: Sequence[xr.Dataset]) -> list[str]:
+    return [
         f"Left out: {data.attrs['incidence_deg']:g} deg, {data.attrs['failure']}"
         for data in results
         if data.attrs["failure"]
     ]
-    points = [
+
+
+def _points(results: Sequence[xr.Dataset]) -> list[tuple[tuple[float, ...], str]]:
+    """Return values in the order of COLUMNS, with how they were obtained."""
+    return [
         (
             (data.attrs["incidence_deg"], *(float(data[name]) for name in COLUMNS[1:])),
             data.attrs["method"],
@@ -47,7 +83,15 @@ def polar_csv(paths: Sequence[Path]) -> str:
         for data in results
         if not data.attrs["failure"]
     ]
-    return csv_text(points, comments)
+
+
+def _reynolds_number(data: xr.Dataset) -> float:
+    """Return the Reynolds number of a result's case; NaN where it holds none."""
+    case = json.loads(data.attrs.get("case", "{}"))
+    if not case:
+        return math.nan
+    medium, chord = case["medium"], case["geometry"]["chord"]
+    return float(medium["density"] * medium["speed"] * chord / medium["dynamic_viscosity"])
 
 
 def _steady(path: Path) -> xr.Dataset:
@@ -65,8 +109,7 @@ def _flow(data: xr.Dataset) -> list[str]:
     case = json.loads(data.attrs.get("case", "{}"))
     if not case:
         return []
-    geometry, medium = case["geometry"], case["medium"]
-    reynolds = medium["density"] * medium["speed"] * geometry["chord"] / medium["dynamic_viscosity"]
+    geometry, reynolds = case["geometry"], _reynolds_number(data)
     height = geometry["channel_height"]
     around = "free air" if height is None else f"channel {height:g} c high"
     return [

@@ -1,23 +1,48 @@
-"""Polars as comma-separated files, read and written.
+"""Polars as tables of separated values, read and written.
 
-The format: lines that start with ``#`` and empty lines are skipped, the first other line is the
-header. Columns ``incidence_deg, cl, cm, cd`` (upper or lower case, also as c_l or C_L, in any
-order) are read, each once, others are ignored. Angles in degrees, ascending; moment nose up, about
-mid-chord unless the reader is told otherwise.
+Lines that start with ``#``, ``%``, ``!`` or ``//`` and empty lines are skipped. The header is the
+line that names all four quantities, ``incidence_deg`` (or alpha, AoA), ``cl``, ``cm`` and ``cd``
+(upper or lower case, also as c_l or C_L, with a unit in brackets, in any order), each once; others
+are ignored. Lines of text may be above it, and a line of units below it. It tells what separates
+columns: a semicolon, else a tab, else a comma, else blanks. Decimals have a point, or all a comma
+where no comma separates. Angles in degrees; moment nose up, about mid-chord unless the reader is
+told otherwise.
 """
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Sequence
+import itertools
+import math
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from equisection.errors import PolarFileError
-from equisection.io.polar_rows import COLUMNS, FEWEST_POINTS, Lines, PolarFormat, Row, number
+from equisection.io.polar_columns import (
+    COLUMNS,
+    check_columns,
+    check_unit,
+    quantities,
+    unit_of,
+)
+from equisection.io.polar_rows import REYNOLDS, PolarFormat, Row, validity
+from equisection.io.polar_text import Lines, is_number, number
 
-#: What other programs separate columns by.
-_OTHER_SEPARATORS = set(";\t ")
+_COMMENTS = ("#", "%", "!", "//")
+#: Lines that are searched for the header.
+_TOP = 200
+#: What separates columns, in the order in which a header is asked for it; else blanks.
+_SEPARATORS = (";", "\t", ",")
+#: A unit in brackets behind a blank.
+_UNIT_APART = re.compile(r"\s+(?=[\[(][^\])]*[\])])")
+_DECIMAL_COMMA = re.compile(r"[+-]?[0-9]*,[0-9]+(?:[eEdD][+-]?[0-9]+)?")
+#: How programs write a number that is none.
+_NOT_KNOWN = ("nan", "inf", "infinity")
+_NAMES = ", ".join(COLUMNS)
 
 
 def _recognises(path: Path, lines: Lines) -> bool:
@@ -27,51 +52,174 @@ def _recognises(path: Path, lines: Lines) -> bool:
 
 
 def _read(path: Path, lines: Lines) -> list[Row]:
-    used = [(line, text) for line, text in lines if text and not text.startswith("#")]
+    return read_named(path, lines, {})
+
+
+@dataclass(frozen=True)
+class _Header:
+    """The line that names the columns: its number, separator (empty: blanks) and names."""
+
+    line: int
+    separator: str
+    names: list[str]
+    quantities: list[str]
+
+    @classmethod
+    def of(cls, line: int, text: str, given: Mapping[str, str]) -> _Header:
+        separator = next((mark for mark in _SEPARATORS if mark in text), "")
+        names = _fields(_UNIT_APART.sub("", text), separator)
+        return cls(line, separator, names, quantities(names, given))
+
+    @property
+    def known(self) -> int:
+        """Number of quantities that it names."""
+        return len(set(filter(None, self.quantities)))
+
+    @cached_property
+    def places(self) -> list[tuple[str, int]]:
+        """Quantities with the place of their column."""
+        return [(name, self.quantities.index(name)) for name in COLUMNS]
+
+
+def read_named(path: Path, lines: Lines, given: Mapping[str, str]) -> list[Row]:
+    """Read the rows of a table whose columns have the names that the user gives.
+
+    Parameters
+    ----------
+    path
+        The file, for messages.
+    lines
+        Its lines.
+    given
+        Names of columns by quantity (COLUMNS); those that are not given go by their usual names.
+
+    Raises
+    ------
+    PolarFileError
+        With file and line.
+    """
+    used = [(line, text) for line, text in lines if text and not text.startswith(_COMMENTS)]
     if not used:
         raise PolarFileError(
             f"{path}, line 1: the file is empty (or all comment); wanted a header with columns "
-            f"{', '.join(COLUMNS)} and {FEWEST_POINTS} or more points"
+            f"{_NAMES} and 4 or more points"
         )
-    (header_line, header), *points = used
-    names = [_column(name) for name in _fields(header)]
-    twice = [name for name in COLUMNS if names.count(name) > 1]
-    if twice:
+    header = _header(path, lines, used, given)
+    check_columns(path, header.line, header.names, header.quantities, given)
+    for name, place in header.places:
+        check_unit(path, header.line, name, unit_of(header.names[place]))
+    points = [(line, text) for line, text in used if line > header.line]
+    if points and _is_of_units(_fields(points[0][1], header.separator)):
+        _check_units(path, header, *points.pop(0))
+    comma = _decimal_comma(path, header, points)
+    return [_row(path, line, text, header, comma) for line, text in points]
+
+
+def _header(path: Path, lines: Lines, used: Lines, given: Mapping[str, str]) -> _Header:
+    """Return the header: a line that names all quantities, a comment if no other does."""
+    top = list(itertools.takewhile(lambda entry: not _is_row(entry[1]), used[:_TOP]))
+    candidates = [_Header.of(line, text, given) for line, text in top]
+    best = max(candidates, key=lambda header: header.known, default=None)
+    if best is None or best.known < len(COLUMNS):
+        first = used[len(top)][0] if len(top) < len(used) else math.inf
+        comments = [
+            _Header.of(line, text.lstrip("#%!/ \t"), given)
+            for line, text in lines[:_TOP]
+            if line < first and text.startswith(_COMMENTS)
+        ]
+        whole = [header for header in comments if header.known == len(COLUMNS)]
+        best = whole[-1] if whole else best
+    if best is None or not best.known:
         raise PolarFileError(
-            f"{path}, line {header_line}: more than one column is {', '.join(twice)}; found "
-            f"{', '.join(_fields(header))}; delete or rename those that are not to be read"
+            f"{path}, line {used[0][0]}: no line names the columns, as a polar's header does; "
+            f"wanted {_NAMES}, or the names in this file: embedded.columns (columns= in Python)"
         )
-    missing = [name for name in COLUMNS if name not in names]
-    if missing:
-        advice = "others are ignored"
-        if len(names) == 1 and _OTHER_SEPARATORS & set(header):
-            advice = "separated by commas, with a point for decimals"
+    return best
+
+
+def _is_row(text: str) -> bool:
+    """Tell whether a line is one of numbers."""
+    fields = [field for field in re.split(r"[;\t, ]+", text) if field]
+    return len(fields) >= len(COLUMNS) and all(map(is_number, fields))
+
+
+def _is_of_units(fields: Sequence[str]) -> bool:
+    """Tell whether a line is one of units: no number in it, also none that failed."""
+    return not any(
+        is_number(field)
+        or _DECIMAL_COMMA.fullmatch(field)
+        or field.lower().lstrip("+-") in _NOT_KNOWN
+        for field in fields
+    )
+
+
+def _fields(text: str, separator: str) -> list[str]:
+    if not separator:
+        return text.split()
+    if '"' not in text:
+        return [field.strip() for field in text.split(separator)]
+    try:
+        (fields,) = csv.reader([text], delimiter=separator, skipinitialspace=True)
+    except csv.Error:
+        return [text]
+    return [field.strip() for field in fields]
+
+
+def _check_units(path: Path, header: _Header, line: int, text: str) -> None:
+    """Refuse a line of units in which one is another than what is read."""
+    units = _fields(text, header.separator)
+    if len(units) != len(header.names):
+        raise _uneven(path, line, units, header)
+    for name, place in header.places:
+        check_unit(path, line, name, units[place])
+
+
+def _uneven(path: Path, line: int, fields: Sequence[str], header: _Header) -> PolarFileError:
+    by = {"": "blanks", "\t": "tabs", ",": "commas, with a point for decimals"}
+    return PolarFileError(
+        f"{path}, line {line}: {len(fields)} values under {len(header.names)} column names; wanted "
+        f"one value for each column, separated by {by.get(header.separator, 'semicolons')}, as "
+        "the names are"
+    )
+
+
+def _decimal_comma(path: Path, header: _Header, points: Lines) -> bool:
+    """Tell whether decimals have a comma; refuse a file in which some have a point."""
+    if header.separator == ",":
+        return False
+    if not any("," in text for _, text in points):
+        return False
+    places = [place for _, place in header.places]
+    first: dict[str, int] = {}
+    for line, text in points:
+        fields = _fields(text, header.separator)
+        for field in (fields[place] for place in places if place < len(fields)):
+            first.update({mark: line for mark in ",." if mark in field and mark not in first})
+    if len(first) > 1:
         raise PolarFileError(
-            f"{path}, line {header_line}: no column {', '.join(missing)}; found "
-            f"{', '.join(names)}; wanted {', '.join(COLUMNS)} ({advice})"
+            f"{path}, line {first[',']}: a decimal comma, and in line {first['.']} a decimal "
+            "point; write all decimals with a point"
         )
-    return [_row(path, line, text, names) for line, text in points]
+    return "," in first
 
 
-def _column(name: str) -> str:
-    """Return the name of a column, which may be written as the symbol is: c_l, C_L."""
-    name = name.strip().lower()
-    return name.replace("c_", "c", 1) if name.startswith("c_") else name
+def _row(path: Path, line: int, text: str, header: _Header, comma: bool) -> Row:
+    fields = _fields(text, header.separator)
+    if len(fields) != len(header.names):
+        raise _uneven(path, line, fields, header)
+    if comma:
+        fields = [
+            field.replace(",", ".") if _DECIMAL_COMMA.fullmatch(field) else field
+            for field in fields
+        ]
+    return Row(
+        line, tuple([number(path, line, name, fields[place]) for name, place in header.places])
+    )
 
 
-def _fields(text: str) -> list[str]:
-    return next(csv.reader([text], skipinitialspace=True))
-
-
-def _row(path: Path, line: int, text: str, names: list[str]) -> Row:
-    fields = _fields(text)
-    if len(fields) != len(names):
-        raise PolarFileError(
-            f"{path}, line {line}: {len(fields)} values under {len(names)} column names; wanted "
-            "one value for each column, separated by commas"
-        )
-    by_name = dict(zip(names, fields, strict=True))
-    return Row(line, tuple(number(path, line, name, by_name[name]) for name in COLUMNS))
+def _reynolds_number(lines: Lines) -> float:
+    comments = [(line, text) for line, text in lines[:_TOP] if text.startswith("#")]
+    return float(validity(Path(), comments).get(REYNOLDS, math.nan))
 
 
 def csv_text(rows: Iterable[tuple[Sequence[float], str]], comments: Iterable[str]) -> str:
@@ -93,4 +241,4 @@ def csv_text(rows: Iterable[tuple[Sequence[float], str]], comments: Iterable[str
     return text.getvalue()
 
 
-CSV = PolarFormat("CSV", _recognises, _read, moment_axis=None)
+CSV = PolarFormat("CSV", _recognises, _read, None, _reynolds_number)

@@ -48,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         elif options.command == "cost":
             _cost(options.configfile)
         elif options.command == "polar":
-            print(_polar(options.results), end="")
+            print(_polar(options.results, options.format), end="")
         elif options.command == "keep":
             _keep(options.run_folder, options.folder)
         elif options.command == "seal":
@@ -146,7 +146,14 @@ def _parser() -> argparse.ArgumentParser:
         "polar",
         help="a polar file from steady results",
         description="Write the steady results of one solver on one mesh as the CSV file that the "
-        "keys 'embedded.polars' and 'steady.beam_polar' take, with how each value was obtained.",
+        "keys 'embedded.polars' and 'steady.beam_polar' take, with how each value was obtained, or "
+        "as an airfoil table of AeroDyn (OpenFAST), with moments about the quarter chord.",
+    )
+    polar.add_argument(
+        "--format",
+        choices=("csv", "aerodyn"),
+        default="csv",
+        help="format of the file (default: csv)",
     )
     polar.add_argument(
         "results",
@@ -235,11 +242,14 @@ def _seal(places: Sequence[Path]) -> bool:
     return sealed == len(found)
 
 
-def _polar(results: Sequence[Path]) -> str:
+def _polar(results: Sequence[Path], form: str) -> str:
     # Imported here, so that --help and --version come at once.
-    from equisection.analysis.polar_of_results import polar_csv  # noqa: PLC0415
+    from equisection.analysis.polar_of_results import (  # noqa: PLC0415
+        polar_aerodyn,
+        polar_csv,
+    )
 
-    return polar_csv(results)
+    return polar_aerodyn(results) if form == "aerodyn" else polar_csv(results)
 
 
 def _cost(files: Sequence[Path]) -> None:

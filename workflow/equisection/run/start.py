@@ -23,7 +23,7 @@ from equisection.provenance import COMMAND_VARIABLE, CONFIG_VARIABLE, refused_by
 from equisection.solvers.registry import check_provided
 from equisection.study.given_derivatives import check_derivatives
 from equisection.study.given_outline import check_outline
-from equisection.study.given_polars import check_polars
+from equisection.study.given_polars import check_polars, polar_notices
 
 #: Where the folders of runs are, and in it the store of all results by their hash.
 RESULTS = Path("results")
@@ -171,6 +171,7 @@ def notices(config: Config, results: Path = RESULTS) -> Iterator[str]:
         refusal = config.solver_section.refuses_folder(results / STORE)
         if refusal:
             yield f"warning: {refusal}; until then a case that is not kept cannot be computed"
+    yield from polar_notices(config)
     files = [*named_files(config).values(), *_files(results / config.run)]
     ahead = _of_the_future(files, time.time())
     if ahead:

@@ -9,8 +9,8 @@ from pathlib import Path
 from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE
 from equisection.errors import ConfigError, PolarFileError
-from equisection.io.formats import read_rows
-from equisection.io.polar_rows import MID_CHORD, read_validity
+from equisection.io.formats import read_rows, reynolds_number
+from equisection.io.polar_rows import MID_CHORD, REYNOLDS, read_validity
 from equisection.keys.checks import Problem
 from equisection.keys.shown import shown
 
@@ -18,6 +18,8 @@ from equisection.keys.shown import shown
 _SAME_BEAM = 0.01
 #: How many times the h/c of a polar's section another may have that it serves for.
 _LIKE_THICKNESS = 1.25
+#: The same of Reynolds numbers, either way, that nothing is said.
+_LIKE_REYNOLDS = 2.0
 
 
 def check_polars(config: Config, directory: Path | None = None) -> None:
@@ -41,12 +43,31 @@ def check_polars(config: Config, directory: Path | None = None) -> None:
         raise ConfigError("\n".join(problem.line for problem in problems))
 
 
+def polar_notices(config: Config, directory: Path | None = None) -> Iterator[str]:
+    """Yield a line for the polar that a run rests on, if it is of another Reynolds number.
+
+    Only the embedded solver reads one, and only some files say theirs.
+    """
+    path = config.embedded.polars.get(config.steady.resolution, FLAT_PLATE)
+    if config.solver != "embedded" or path == FLAT_PLATE:
+        return
+    of_file = reynolds_number((directory or Path.cwd()) / path)
+    here = _reynolds_number(config)
+    if max(of_file / here, here / of_file) > _LIKE_REYNOLDS:
+        yield (
+            f"warning: embedded.polars.{config.steady.resolution}: {shown(path)} is of Reynolds "
+            f"number {_short(of_file)}, and this flow has {_short(here)}; stall and drag may differ"
+        )
+
+
 def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
     for name, path in config.embedded.polars.items():
         if path == FLAT_PLATE:
             continue
         try:
-            points = read_rows(directory / path, config.embedded.symmetric)
+            points = read_rows(
+                directory / path, config.embedded.symmetric, config.embedded.columns.given
+            )
             points.axis_of(directory / path, config.embedded.moment_axis)
             valid = read_validity(directory / path)
         except PolarFileError as error:
@@ -87,6 +108,7 @@ def _of_beam(config: Config, directory: Path) -> Iterator[Problem]:
     polar = config.steady.beam_polar
     try:
         points = read_rows(directory / polar, symmetric=False)
+        points.axis_of(directory / polar, MID_CHORD)
         valid = read_validity(directory / polar)
     except PolarFileError as error:
         yield _unreadable("steady.beam_polar", polar, error)
@@ -119,11 +141,16 @@ def _decides_rigid_polar(config: Config) -> dict[str, float | bool]:
     return {
         "L/c": beam.length / beam.chord,
         "h/c": beam.thickness / beam.chord,
-        "Reynolds number": flow.density * flow.speed * beam.chord / flow.dynamic_viscosity,
+        REYNOLDS: _reynolds_number(config),
         "flow.root_on_wall": flow.root_on_wall,
         "flow.channel.height_chords": channel.height_chords if channel else math.inf,
         "flow.channel.tip_gap_chords": channel.tip_gap_chords if channel else math.inf,
     }
+
+
+def _reynolds_number(config: Config) -> float:
+    flow = config.flow
+    return flow.density * flow.speed * config.beam.chord / flow.dynamic_viscosity
 
 
 def _short(value: float) -> str:

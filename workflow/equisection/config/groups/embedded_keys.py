@@ -47,14 +47,33 @@ class Identification(KeyGroup):
     )
 
 
+class Columns(KeyGroup):
+    """Names of a CSV file's columns, where they are not the usual ones; empty for those that are.
+
+    A file of another format has its own.
+    """
+
+    incidence_deg: str = Field(
+        "", description="Column of the incidence (deg); by itself `incidence_deg`, `alpha`, `AoA`."
+    )
+    cl: str = Field("", description="Column of the lift coefficient; by itself `cl`, `C_L`.")
+    cm: str = Field("", description="Column of the moment coefficient; by itself `cm`, `C_M`.")
+    cd: str = Field("", description="Column of the drag coefficient; by itself `cd`, `C_D`.")
+
+    @property
+    def given(self) -> dict[str, str]:
+        """Names that are given, by quantity."""
+        return {quantity: name for quantity, name in self.model_dump().items() if name}
+
+
 class Embedded(SolverKeys):
     """The embedded solver."""
 
     polars: Annotated[dict[Name, Annotated[str, Field(min_length=1)]], Field(min_length=1)] = Field(
         {"coarse": "config/polars/plate_2d_11136.csv"},
         description="Section polar of each resolution: a CSV file (`incidence_deg,cl,cm,cd`) or "
-        "a polar of XFOIL (path from the working directory, or one of the project's), or "
-        "`flat-plate` for the thin "
+        "one of XFOIL, XFLR5, QBlade, airfoiltools.com or AeroDyn (`docs/polar-formats.md`; path "
+        "from the working directory, or one of the project's), or `flat-plate` for the thin "
         "analytic plate.",
     )
     symmetric: Truth = Field(
@@ -69,7 +88,10 @@ class Embedded(SolverKeys):
         None,
         description="Point that the moments of the polar files are about (x/c from the leading "
         "edge, 0.25 for the quarter chord). With null it is what a file's format says (0.25 for "
-        "XFOIL), else mid-chord, 0.5.",
+        "XFOIL and other programs), else mid-chord, 0.5.",
+    )
+    columns: Columns = Field(
+        Columns(), description="Names of the columns of CSV files that are not the usual ones."
     )
     incidence_point: Annotated[float, Field(ge=0.25, le=0.75, allow_inf_nan=False), NUMBER] = Field(
         0.75,

@@ -262,7 +262,12 @@ def read_section_polar(section: Embedded, resolution: str) -> Polar:
     source = section.polars[resolution]
     if source == FLAT_PLATE:
         return Polar.flat_plate(FLAT_PLATE_LIMIT)
-    return Polar.read(source, symmetric=section.symmetric, moment_axis=section.moment_axis)
+    return Polar.read(
+        source,
+        symmetric=section.symmetric,
+        moment_axis=section.moment_axis,
+        columns=section.columns.given,
+    )
 
 
 def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:

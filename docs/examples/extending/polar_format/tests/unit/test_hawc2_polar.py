@@ -1,4 +1,4 @@
-"""Airfoil tables of AeroDyn are read like every other polar."""
+"""Profile coefficients of HAWC2 are read like every other polar."""
 
 from pathlib import Path
 
@@ -11,26 +11,20 @@ from equisection.errors import ConfigError, PolarFileError
 from equisection.study.given_polars import check_polars
 
 #: A thin plate: c_l = 2 pi alpha, and no moment about the quarter chord.
-TABLE = """! ------------ AirfoilInfo Input File ----------------------------------
-"DEFAULT"     InterpOrd         ! Interpolation order
-          1   NumTabs           ! Number of airfoil tables
-       0.05   Re                ! Reynolds number in millions
-False         InclUAdata        ! Is unsteady aerodynamics data included
-          5   NumAlf            ! Number of data lines in the following table
-!    Alpha      Cl      Cd        Cm
-!    (deg)      (-)     (-)       (-)
+TABLE = """1 set of a thin plate
+1
+1 5 0.5
   -10.000   -1.0966   0.0000   0.0000
    -5.000   -0.5483   0.0000   0.0000
     0.000    0.0000   0.0000   0.0000
     5.000    0.5483   0.0000   0.0000
    10.000    1.0966   0.0000   0.0000
-        0.1   Re                ! the table of another Reynolds number
 """
 
 
 @pytest.fixture
 def table(tmp_path: Path) -> Path:
-    path = tmp_path / "plate.dat"
+    path = tmp_path / "plate_pc.dat"
     path.write_text(TABLE)
     return path
 
@@ -50,19 +44,20 @@ def test_configuration_names_it(table: Path) -> None:
     }
     check_polars(load_config(raw))
     table.write_text(TABLE.replace("5.000    0.5483", "5.000    high"))
-    with pytest.raises(ConfigError, match=r"embedded\.polars\.plate: .*: line 12: Cl is 'high'"):
+    with pytest.raises(ConfigError, match=r"embedded\.polars\.plate: .*: line 7: Cl is 'high'"):
         check_polars(load_config(raw))
 
 
 @pytest.mark.parametrize(
     ("old", "new", "words"),
     [
-        ("5   NumAlf", "9   NumAlf", r"line 6: NumAlf is 9, and 6 rows follow"),
-        ("5   NumAlf", "x   NumAlf", r"line 6: NumAlf is 'x'"),
-        ("0.5483   0.0000   0.0000", "0.5483", r"line 10: 2 values; wanted alpha, Cl, Cd and Cm"),
+        ("1 set", "2 set", r"line 1: 2 sets; wanted one"),
+        ("1 5 0.5", "1 9 0.5", r"line 3: 9 rows are announced, and 5 follow"),
+        ("1 5 0.5", "1 x 0.5", r"line 3: number of rows is 'x'"),
+        ("0.5483   0.0000   0.0000", "0.5483", r"line 5: 2 values; wanted alpha, Cl, Cd and Cm"),
     ],
 )
 def test_refusal_names_file_and_line(table: Path, old: str, new: str, words: str) -> None:
     table.write_text(TABLE.replace(old, new, 1))
-    with pytest.raises(PolarFileError, match=rf"plate\.dat, {words}"):
+    with pytest.raises(PolarFileError, match=rf"plate_pc\.dat, {words}"):
         eq.Polar.read(table)
