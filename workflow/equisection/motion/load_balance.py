@@ -1,4 +1,4 @@
-"""Balance of a recorded motion against the recorded loads: do they belong to the section?
+"""Balance of a recorded motion against the recorded loads, by the equations of the section.
 
 A section obeys (:mod:`equisection.beam.section`, in units of rho/2, V and c)
 
@@ -25,8 +25,8 @@ from equisection.errors import ArgumentError
 
 Floats = NDArray[np.float64]
 
-#: Largest share of the variance of a load that a record may leave unexplained (-). The kept OpenFOAM
-#: releases leave 0.0003 or less, a load of the wrong sign 4, one that is twice too large 0.25.
+#: Largest share of the variance of a load that a record may leave unexplained (-). Kept releases
+#: of OpenFOAM leave 0.0005 or less; a load that is twice as large as it should be, 0.25 or more.
 MOST_UNEXPLAINED = 0.05
 #: Length of the window over the shorter natural period (-).
 _WINDOW = 1.0

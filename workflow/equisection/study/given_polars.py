@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.config import Config
@@ -20,6 +21,16 @@ _SAME_BEAM = 0.01
 _LIKE_THICKNESS = 1.25
 
 
+@dataclass(frozen=True)
+class _Polars:
+    """Section polars of a solver: their key, files by resolution, and what they are like."""
+
+    key: str
+    files: dict[str, str]
+    symmetric: bool
+    moment_axis: float | None
+
+
 def check_polars(config: Config, directory: Path | None = None) -> None:
     """Refuse polars that are unreadable, of another beam or flow, or without the run's incidence.
 
@@ -33,30 +44,37 @@ def check_polars(config: Config, directory: Path | None = None) -> None:
     """
     directory = directory or Path.cwd()
     problems: list[Problem] = []
+    embedded, given = config.embedded, config.given
     if config.solver == "embedded":
-        problems += _of_section(config, directory)
+        named = _Polars(
+            "embedded.polars", embedded.polars, embedded.symmetric, embedded.moment_axis
+        )
+        problems += _of_section(config, named, directory)
+    if config.solver == "given":
+        named = _Polars("given.polars", given.polars, given.symmetric, given.polar_moment_axis)
+        problems += _of_section(config, named, directory)
     if config.steady.beam_polar:
         problems += _of_beam(config, directory)
     if problems:
         raise ConfigError("\n".join(problem.line for problem in problems))
 
 
-def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
-    for name, path in config.embedded.polars.items():
+def _of_section(config: Config, polars: _Polars, directory: Path) -> Iterator[Problem]:
+    for name, path in polars.files.items():
         if path == FLAT_PLATE:
             continue
         try:
-            points = read_rows(directory / path, config.embedded.symmetric)
-            points.axis_of(directory / path, config.embedded.moment_axis)
+            points = read_rows(directory / path, polars.symmetric)
+            points.axis_of(directory / path, polars.moment_axis)
             valid = read_validity(directory / path)
         except PolarFileError as error:
-            yield _unreadable(f"embedded.polars.{name}", path, error)
+            yield _unreadable(f"{polars.key}.{name}", path, error)
             continue
         if name == config.steady.resolution:
-            yield from _of_another_section(config, name, path, valid, directory)
+            yield from _of_another_section(config, f"{polars.key}.{name}", path, valid, directory)
         rows = points.rows
         last = max(row.incidence_deg for row in rows)
-        first = -last if config.embedded.symmetric else min(row.incidence_deg for row in rows)
+        first = -last if polars.symmetric else min(row.incidence_deg for row in rows)
         incidence = config.flow.incidence_deg
         if name == config.steady.resolution and not first <= incidence <= last:
             yield Problem(
@@ -67,18 +85,23 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
 
 
 def _of_another_section(
-    config: Config, name: str, path: str, valid: dict[str, float | bool], directory: Path
+    config: Config,
+    key: str,
+    path: str,
+    valid: dict[str, float | bool],
+    directory: Path,
 ) -> Iterator[Problem]:
     """Refuse the polar of a section that is much thinner."""
     outline = config.beam.outline_in_flow(directory)
     own = config.beam.thickness / config.beam.chord if outline is None else outline.thickness
     ratio, of_polar = own, valid.get("h/c", math.inf)
     if ratio > _LIKE_THICKNESS * of_polar:
+        or_thin = ", or flat-plate, of a thin one" if key.startswith("embedded") else ""
         yield Problem(
-            f"embedded.polars.{name}",
+            key,
             path,
-            f"allowed is the polar of this section, of h/c {_short(ratio)}, or flat-plate, of a "
-            f"thin one; this file is of a section of h/c {_short(of_polar)}",
+            f"allowed is the polar of this section, of h/c {_short(ratio)}{or_thin}; this file is "
+            f"of a section of h/c {_short(of_polar)}",
         )
 
 
