@@ -34,6 +34,10 @@ _WINDOW = 1.0
 FEWEST_SAMPLES, FEWEST_WINDOWS = 12, 2.0
 #: Part of the unexplained share that a remedy has to remove (-).
 _REMOVED = 0.9
+#: Changes that leave up to so many times as much as the best one are named with it (-).
+_AS_GOOD = 1.5
+#: Difference from 1 from which a factor of a load is a mistake (-).
+_FACTOR = 0.02
 #: Factors that are mistaken units: name of what to change, by the factor that mends it.
 _LENGTHS = {0.5: "semi-chords taken for chords", 2.0: "chords taken for semi-chords"}
 _ANGLES = {
@@ -79,8 +83,9 @@ class LoadBalance:
         Share of the variance of c_l and of c_m that the motion leaves unexplained (-): 0 of a
         record without error, 1 of one without relation.
     growth
-        Growth rate of the twist that no load of the record explains (V/c), d/(2 I*) with d the
-        least-squares fit of r = -d theta' (moment).
+        Growth rate of the twist that no load of the record explains (V/c): d/(2 I*), with d the
+        least-squares fit of r = d theta' to the rest of the moment. A damper that the section does
+        not have makes it negative.
     energy
         Work of the loads that the motion does not show, over the work that they do (both as sums
         of absolute power, -).
@@ -154,7 +159,8 @@ def _require_enough(record: Motion, section: Section) -> None:
     if length < FEWEST_WINDOWS * window:
         raise ArgumentError(
             f"the record is {length:.3g} c/V long; allowed is {FEWEST_WINDOWS * window:.3g} c/V or "
-            "more, two natural periods of the section: go on with the run"
+            "more, two natural periods of the section: go on with the run, or correct the unit of "
+            "the time"
         )
     if record.interval * FEWEST_SAMPLES > window:
         raise ArgumentError(
@@ -176,7 +182,7 @@ def _weigh(record: Motion, section: Section) -> LoadBalance:
     lift, moment = np.mean(rest**2, axis=1) / spread
     pitching = rates[1] - rates[1].mean()
     moving = float(pitching @ pitching) or math.inf
-    growth = -float(pitching @ rest[1]) / moving / (2.0 * section.inertia)
+    growth = float(pitching @ rest[1]) / moving / (2.0 * section.inertia)
     done = float(np.abs(loads * rates).sum()) or math.inf
     energy = float(np.abs((rest * rates).sum())) / done
     return LoadBalance(float(lift), float(moment), growth, energy)
@@ -207,16 +213,29 @@ def _sides(record: Motion, section: Section) -> tuple[Floats, Floats, Floats]:
 
 
 def _remedy(record: Motion, section: Section, found: LoadBalance) -> str:
-    """Return the single change that explains a record, in words; empty if there is none."""
+    """Return the single changes that explain a record, in words; empty if there are none.
+
+    Where motions do not couple, a load that is twice as large is a motion half as large, so that
+    there may be several. A factor of no known unit is named where nothing else explains it.
+    """
     before = max(found.lift, found.moment)
-    best, words = before, ""
-    for changed, what in _changes(record, section):
-        balance = _weigh(changed, section)
-        left = max(balance.lift, balance.moment)
-        if left < best:
-            best, words = left, what
-    explains = best <= MOST_UNEXPLAINED or best < (1.0 - _REMOVED) * before
-    return words if explains else ""
+    for changes in (_changes(record, section), _factors(record, section)):
+        tried = [(_unexplained(changed, section), what) for changed, what in changes]
+        best = min((left for left, _ in tried), default=math.inf)
+        if best <= MOST_UNEXPLAINED or best < (1.0 - _REMOVED) * before:
+            return ", or ".join(what for left, what in tried if left <= _AS_GOOD * best)
+    return ""
+
+
+def _unexplained(record: Motion, section: Section) -> float:
+    balance = _weigh(record, section)
+    return max(balance.lift, balance.moment)
+
+
+def _varying(record: Motion, section: Section) -> tuple[Floats, Floats]:
+    """Return loads and left sides in their weak form, less their means, shape (2, windows)."""
+    left, loads, _ = _sides(record, section)
+    return loads - loads.mean(axis=1, keepdims=True), left - left.mean(axis=1, keepdims=True)
 
 
 def _changes(record: Motion, section: Section) -> Iterator[tuple[Motion, str]]:
@@ -231,16 +250,8 @@ def _changes(record: Motion, section: Section) -> Iterator[tuple[Motion, str]]:
     for factor, mistake in _LENGTHS.items():
         said = f"a time {factor:g} times as long explains it ({mistake}): units.time"
         yield replace(record, interval=factor * record.interval), said
-    yield from _fitted_changes(record, section)
-
-
-def _fitted_changes(record: Motion, section: Section) -> Iterator[tuple[Motion, str]]:
-    """Yield records with a moment about another axis, or a load of another size."""
-    left, loads, _ = _sides(record, section)
-    lift, moment = loads - loads.mean(axis=1, keepdims=True)
-    wanted = left - left.mean(axis=1, keepdims=True)
-    square = float(lift @ lift) or math.inf
-    arm = float((wanted[1] - moment) @ lift) / square
+    (lift, moment), (_, wanted) = _varying(record, section)
+    arm = float((wanted - moment) @ lift) / (float(lift @ lift) or math.inf)
     place = section.elastic_axis - arm
     if 0.0 <= place <= 1.0:
         moved = record.moment + arm * record.lift
@@ -249,11 +260,22 @@ def _fitted_changes(record: Motion, section: Section) -> Iterator[tuple[Motion, 
             f"moments about x/c = {place:.2f}, and not about the axis that was said, explain it: "
             f"moment_axis: {place:.2f}",
         )
-    for name, have, want in (("lift", lift, wanted[0]), ("moment", moment, wanted[1])):
-        factor = float(have @ want) / (float(have @ have) or math.inf)
-        if factor > 0:
-            yield (
-                replace(record, **{name: factor * getattr(record, name)}),
-                f"a {name} {factor:.4g} times as large explains it: units.{name}, span, speed, "
-                "density or chord",
-            )
+
+
+def _factors(record: Motion, section: Section) -> Iterator[tuple[Motion, str]]:
+    """Yield records with a load of another size, whatever made it so."""
+    loads, wanted = _varying(record, section)
+    squares = np.maximum((loads * loads).sum(axis=1), np.finfo(float).tiny)
+    lift, moment = (float(one) for one in (loads * wanted).sum(axis=1) / squares)
+    cause = "units, span, speed, density or chord"
+    is_off = [factor > 0.0 and abs(factor - 1.0) > _FACTOR for factor in (lift, moment)]
+    if is_off[0]:
+        changed = replace(record, lift=lift * record.lift)
+        yield changed, f"a lift {lift:.3g} times as large explains it: {cause}"
+    if is_off[1]:
+        changed = replace(record, moment=moment * record.moment)
+        yield changed, f"a moment {moment:.3g} times as large explains it: {cause}"
+    if all(is_off):
+        changed = replace(record, lift=lift * record.lift, moment=moment * record.moment)
+        said = f"a lift {lift:.3g} and a moment {moment:.3g} times as large explain it: {cause}"
+        yield changed, said
