@@ -97,7 +97,7 @@ def test_verdict_and_history_are_those_of_the_kept_release(release: Path, folder
     if found.verdict["mean_known"] == wanted["mean_known"]:  # at k* 21 1e-12 of the twist decides
         names.append("mean_twist_deg")
     for name in names:
-        assert found.verdict[name] == pytest.approx(wanted[name], rel=1e-6, abs=1e-8), name
+        assert found.verdict[name] == pytest.approx(wanted[name], rel=1e-5, abs=1e-8), name
     until = slice(0, found.time.size)
     assert found.time == pytest.approx(kept["time"].values[until], abs=1e-6)
     assert found.lift == pytest.approx(kept["cl"].values[until], abs=1e-6)

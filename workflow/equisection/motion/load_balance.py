@@ -40,6 +40,10 @@ _AS_GOOD = 1.5
 _FACTOR = 0.02
 #: Factors that are mistaken units: name of what to change, by the factor that mends it.
 _LENGTHS = {0.5: "semi-chords taken for chords", 2.0: "chords taken for semi-chords"}
+_DISTANCES = _LENGTHS | {
+    1e-3: "millimetres taken for metres",
+    1e3: "metres taken for millimetres",
+}
 _ANGLES = {
     math.radians(1.0): "degrees taken for radians",
     math.degrees(1.0): "radians taken for degrees",
@@ -243,7 +247,7 @@ def _changes(record: Motion, section: Section) -> Iterator[tuple[Motion, str]]:
     for name in ("deflection", "twist", "lift", "moment"):
         values = getattr(record, name)
         yield replace(record, **{name: -values}), f"signs.{name}: -1 explains it"
-        factors = _ANGLES if name == "twist" else _LENGTHS if name == "deflection" else _FORCES
+        factors = _ANGLES if name == "twist" else _DISTANCES if name == "deflection" else _FORCES
         for factor, mistake in factors.items():
             said = f"a {name} {factor:.4g} times as large explains it ({mistake}): units.{name}"
             yield replace(record, **{name: factor * values}), said
@@ -271,10 +275,16 @@ def _factors(record: Motion, section: Section) -> Iterator[tuple[Motion, str]]:
     is_off = [factor > 0.0 and abs(factor - 1.0) > _FACTOR for factor in (lift, moment)]
     if is_off[0]:
         changed = replace(record, lift=lift * record.lift)
-        yield changed, f"a lift {lift:.3g} times as large explains it: {cause}"
+        yield (
+            changed,
+            f"a lift {lift:.3g} or a deflection {1 / lift:.3g} times as large explains it: {cause}",
+        )
     if is_off[1]:
         changed = replace(record, moment=moment * record.moment)
-        yield changed, f"a moment {moment:.3g} times as large explains it: {cause}"
+        yield (
+            changed,
+            f"a moment {moment:.3g} or a twist {1 / moment:.3g} times as large explains it: {cause}",
+        )
     if all(is_off):
         changed = replace(record, lift=lift * record.lift, moment=moment * record.moment)
         said = f"a lift {lift:.3g} and a moment {moment:.3g} times as large explain it: {cause}"
