@@ -275,17 +275,13 @@ def _factors(record: Motion, section: Section) -> Iterator[tuple[Motion, str]]:
     is_off = [factor > 0.0 and abs(factor - 1.0) > _FACTOR for factor in (lift, moment)]
     if is_off[0]:
         changed = replace(record, lift=lift * record.lift)
-        yield (
-            changed,
-            f"a lift {lift:.3g} or a deflection {1 / lift:.3g} times as large explains it: {cause}",
-        )
+        said = f"a lift {lift:.3g} or a deflection {1 / lift:.3g} times as large explains it: "
+        yield changed, said + cause
     if is_off[1]:
         changed = replace(record, moment=moment * record.moment)
-        yield (
-            changed,
-            f"a moment {moment:.3g} or a twist {1 / moment:.3g} times as large explains it: {cause}",
-        )
+        said = f"a moment {moment:.3g} or a twist {1 / moment:.3g} times as large explains it: "
+        yield changed, said + cause
     if all(is_off):
         changed = replace(record, lift=lift * record.lift, moment=moment * record.moment)
-        said = f"a lift {lift:.3g} and a moment {moment:.3g} times as large explain it: {cause}"
-        yield changed, said
+        said = f"a lift {lift:.3g} and a moment {moment:.3g} times as large explain it: "
+        yield changed, said + cause
