@@ -105,7 +105,7 @@ class LoadBalance:
 
     @property
     def is_explained(self) -> bool:
-        """Whether both loads are explained."""
+        """Truth of both loads being explained within what is allowed."""
         return max(self.lift, self.moment) <= MOST_UNEXPLAINED
 
     @property

@@ -119,7 +119,7 @@ class Given(SolverKeys):
 
     @property
     def said_basis(self) -> str:
-        """What the histories are."""
+        """Basis of the histories: CFD, experiment, or another computation."""
         return self.basis
 
     def input_files(self) -> list[str]:

@@ -16,7 +16,7 @@ class SolverKeys(KeyGroup):
 
     @property
     def said_basis(self) -> str:
-        """What its runs are, where the configuration says so; empty where the solver does."""
+        """Basis of its results, where the configuration says so; empty where the solver does."""
         return ""
 
     def threads(self, dimension: str) -> int:
