@@ -61,7 +61,7 @@ def test_contradiction_is_learnt_from(learnt: tuple[Project, str]) -> None:
     folder = learnt[0].results
     first = json.loads((folder / "comparison" / "refine" / "2d_round2.json").read_text())["cases"]
     then = json.loads((folder / "comparison" / "refine" / "2d_round3.json").read_text())["cases"]
-    assert len(then) == 2
+    assert 1 <= len(then) <= 2  # an end that was run is not run again
     learnt_from = read_dataset(folder / "rom" / "2d" / "model.nc").attrs["learnt_from"]
     assert learnt_from.removeprefix("2d/") in first
 

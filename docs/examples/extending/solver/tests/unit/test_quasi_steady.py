@@ -52,7 +52,9 @@ def run(tmp_path_factory: pytest.TempPathFactory, load_script: Any) -> Path:
 
     load_script("polar").main(run / rigid, names, polar)
     summary = run / "summary.csv"
-    load_script("summary").main([run / free], summary, section, config.flow.speed)
+    load_script("summary").main(
+        [run / free], summary, section, config.flow.speed, reduction=config.reduction
+    )
     load_script("onset").main(
         summary,
         section,
