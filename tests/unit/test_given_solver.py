@@ -23,7 +23,7 @@ from equisection.solvers.registry import check_provided, solver_from_case, solve
 from equisection.solvers.verdicts import TipMotion, decided_at, judge
 from equisection.store.index import read_index, read_missing
 
-RUN: dict[str, Any] = yaml.safe_load((ROOT / "config/examples/other_program.yaml").read_text())
+RUN: dict[str, Any] = yaml.safe_load((ROOT / "docs/examples/other_program.yaml").read_text())
 KEPT = ROOT / "results/reference/paper-plate-openfoam/unsteady"
 RELEASES = sorted(KEPT.glob("2d*/*.nc"))
 
