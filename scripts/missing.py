@@ -1,4 +1,4 @@
-"""Name the cases that no kept result answers."""
+"""Name the cases that no kept result, or no file of a record, answers."""
 
 import sys
 from collections.abc import Sequence
@@ -16,7 +16,7 @@ def main(indices: Sequence[Path], output: Path) -> None:
         table.to_csv(aside, index=False)
     if len(table):
         names = ", ".join(table["kind"] + "/" + table["model"] + "/" + table["case"])
-        print(f"no kept result of {names}; {output} says why", file=sys.stderr)
+        print(f"no result of {names}; {output} says why", file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -108,6 +108,7 @@ def speeds(
             given=given,
             chord=config.beam.chord,
             incidence_deg=flow.incidence_deg,
+            bases={config.solver: config.solver_section.said_basis},
         )
     ]
     if learnt:

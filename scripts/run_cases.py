@@ -2,15 +2,16 @@
 
 import logging
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from equisection.cases import read_cases
+from equisection.cases import Case, read_cases
 from equisection.results.failures import warning_of
 from equisection.results.loads_zigzag import with_zigzag
 from equisection.run.script import logged
 from equisection.solvers.protocol import MPIRUN, ONE_THREAD, Allocation
+from equisection.solvers.registry import missing_records
 from equisection.store.index import write_index
 from equisection.store.job import run_cases
 from equisection.store.kept_alone import answer_from_kept
@@ -29,11 +30,14 @@ def main(
 
     ``output`` is the index of the results, or the result file of a single case.
     """
+    asked = read_cases(cases)
+    missing = missing_records(asked)
+    _remove(output.parent, missing)
     attributes = run_cases(
-        read_cases(cases), output.parent, store, progress, reuse, allocation=allocation
+        _others(asked, missing), output.parent, store, progress, reuse, allocation=allocation
     )
     if output.suffix == ".json":
-        write_index(output, attributes)
+        write_index(output, attributes, missing)
     warn(attributes, output)
 
 
@@ -46,16 +50,33 @@ def run_together(
 ) -> None:
     """Run several case files as one; the results of each go to the folder of its index."""
     of_index = dict(zip(indices, map(read_cases, cases), strict=True))
+    missing = {index: missing_records(batch) for index, batch in of_index.items()}
+    for index in indices:
+        _remove(index.parent, missing[index])
     run = {
         f"{index.parent.name}/{name}": case
         for index, batch in of_index.items()
-        for name, case in batch.items()
+        for name, case in _others(batch, missing[index]).items()
     }
     attributes = run_cases(run, indices[0].parents[1], store, progress, reuse)
     for index, batch in of_index.items():
-        found = {name: attributes[f"{index.parent.name}/{name}"] for name in batch}
-        write_index(index, found)
+        found = {
+            name: attributes[f"{index.parent.name}/{name}"]
+            for name in _others(batch, missing[index])
+        }
+        write_index(index, found, missing[index])
         warn(found, index)
+
+
+def _remove(folder: Path, names: Iterable[str]) -> None:
+    """Remove results that an earlier run left of cases that have none now."""
+    for name in names:
+        (folder / f"{name}.nc").unlink(missing_ok=True)
+
+
+def _others(cases: Mapping[str, Case], missing: Mapping[str, str]) -> dict[str, Case]:
+    """Return the cases that are not missing."""
+    return {name: case for name, case in cases.items() if name not in missing}
 
 
 def warn(attributes: Mapping[str, Mapping[str, Any]], output: Path) -> None:

@@ -32,6 +32,7 @@ __all__ = [
     "__version__",
     "critical_speed",
     "open_run",
+    "read_history",
     "reduce",
     "release",
     "stability",
@@ -50,6 +51,7 @@ if TYPE_CHECKING:
     from equisection.motion.stability import critical_speed, stability
     from equisection.reduction.beam_section import reduce
     from equisection.solvers.embedded.section_release import release
+    from equisection.solvers.given.recorded_release import read_history
 else:
     _PLACES = {
         "Beam": "beam.beam",
@@ -60,6 +62,7 @@ else:
         "SeparationLags": "aerodynamics.separation",
         "critical_speed": "motion.stability",
         "open_run": "analysis.run_tree",
+        "read_history": "solvers.given.recorded_release",
         "reduce": "reduction.beam_section",
         "release": "solvers.embedded.section_release",
         "stability": "motion.stability",

@@ -21,6 +21,10 @@ class DerivativesFileError(EquisectionError):
     """A table of flutter derivatives cannot be used; the message names file and line."""
 
 
+class HistoryFileError(EquisectionError):
+    """A recorded history cannot be used; the message names file and line."""
+
+
 class PolarFileError(EquisectionError):
     """A polar file cannot be used; the message names file and line."""
 

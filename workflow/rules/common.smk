@@ -38,6 +38,8 @@ FIRST = 50
 PROVIDES = SOLVERS[CONFIG.solver].provides
 # Whether all cases of a batch go to one job: the solver takes many, or they are only looked up.
 IN_ONE_JOB = Capability.BATCH in PROVIDES or not CONFIG.compute
+# Whether cases may have no result: none is kept, or no file has it.
+MAY_MISS = Capability.RECORDS in PROVIDES or not CONFIG.compute
 # Models whose cases of the sweep one job writes, since a solver that takes many cases is quick, and
 # those of a section that it also runs in one.
 WRITTEN_TOGETHER = list(CONFIG.sweep.models) if Capability.BATCH in PROVIDES else []
@@ -392,7 +394,7 @@ def map_files():
 def comparison_files():
     """Return the tables that compare the models with each other."""
     tables = ("summary", "onset", "critical_speed", "linear_theory")
-    missing = () if CONFIG.compute else ("missing",)
+    missing = ("missing",) if MAY_MISS else ()
     return [
         *map_files(),
         *(f"{RESULTS}/comparison/{name}.csv" for name in (*tables, *missing)),

@@ -49,7 +49,7 @@ rule summary:
 
 
 rule missing:
-    """Name the cases that no kept result answers, where none is computed."""
+    """Name the cases that no kept result, or no file of a record, answers."""
     input:
         indices=indices_of_sweep(CONFIG, RESULTS),
         steady=expand(
@@ -65,7 +65,7 @@ rule missing:
     params:
         code=code("missing"),
     message:
-        "cases without a kept result"
+        "cases without a result"
     script:
         "../../scripts/missing.py"
 

@@ -46,6 +46,7 @@ def from_runs(
     given: AsGiven,
     chord: float,
     incidence_deg: float,
+    bases: Mapping[str, str] | None = None,
 ) -> pd.DataFrame:
     """Return the critical speed of each model by the brackets of its runs.
 
@@ -59,6 +60,8 @@ def from_runs(
         c (m).
     incidence_deg
         Rigid incidence (deg) of a study that does not vary it.
+    bases
+        Basis of the runs of a solver whose runs are what its configuration says, by its name.
 
     Returns
     -------
@@ -70,7 +73,8 @@ def from_runs(
         oscillation of the twist the unstable run has diverged; what else grows is called
         ``flutter``, with or without separation, which a history alone does not tell, but
         ``galloping`` where the heave grows and the twist does not. The basis is
-        :data:`CFD` where the solver of all its runs has a mesh, else :data:`TIME`.
+        :data:`CFD` where the solver of all its runs has a mesh, else :data:`TIME`; of records it is
+        what the configuration says, and ``given`` where that is another run's.
     """
     axis = onset_axis_among(summary.columns)
     rows = []
@@ -92,15 +96,19 @@ def from_runs(
                 "mechanism": _mechanism(bracket, unstable),
                 "frequency_hz": strouhal * high / chord,
                 "k_star": given.k_star_at(middle),
-                "basis": _basis(runs["solver"]),
+                "basis": _basis(runs["solver"], bases or {}),
                 "energy_share": math.nan,
             }
         )
     return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
 
 
-def _basis(solvers: Iterable[str]) -> str:
+def _basis(solvers: Iterable[str], bases: Mapping[str, str]) -> str:
     """Return what the runs of some solvers are; a model of another run may have its own."""
+    solvers = list(solvers)
+    said = {bases.get(name) or SOLVERS[name].basis for name in solvers}
+    if len(said) == 1 and said != {""}:
+        return said.pop()
     meshed = all(Capability.MESH in SOLVERS[name].provides for name in solvers)
     return CFD if meshed else TIME
 

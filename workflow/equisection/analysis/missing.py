@@ -1,4 +1,4 @@
-"""Cases that no kept result answers, from the indices of a run."""
+"""Cases that no kept result, or no file of a record, answers, from the indices of a run."""
 
 from __future__ import annotations
 

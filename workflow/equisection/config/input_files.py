@@ -67,11 +67,24 @@ def find_files(config: Config, project: Path, directory: Path | None = None) -> 
                 update={"beam_polar": found(config.steady.beam_polar)}
             ),
             "embedded": config.embedded.model_copy(update=embedded),
+            "given": config.given.model_copy(
+                update={
+                    "polars": {name: found(path) for name, path in config.given.polars.items()},
+                    "histories": _found_pattern(config.given.histories, found),
+                }
+            ),
             "derivatives": config.derivatives.model_copy(
                 update={"table": found(config.derivatives.table)}
             ),
         }
     )
+
+
+def _found_pattern(pattern: str, found: Callable[[str], str]) -> str:
+    """Return a path with placeholders, of which the folder before the first one is looked for."""
+    folder, brace, name = pattern.partition("{")
+    folder, slash, start = folder.rpartition("/")
+    return f"{found(folder)}{slash}{start}{brace}{name}" if folder else pattern
 
 
 def _with_outline(beam: Beam, found: Callable[[str], str]) -> Beam:
@@ -86,6 +99,8 @@ def named_files(config: Config) -> dict[str, str]:
     named = dict(zip([OUTLINE], config.beam.input_files, strict=False))
     if config.solver == "embedded":
         named |= {f"embedded.polars.{name}": path for name, path in config.embedded.polars.items()}
+    if config.solver == "given":
+        named |= {f"given.polars.{name}": path for name, path in config.given.polars.items()}
     if config.steady.beam_polar:
         named["steady.beam_polar"] = config.steady.beam_polar
     if config.derivatives.table:

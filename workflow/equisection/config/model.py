@@ -16,6 +16,7 @@ from equisection.config.groups import (
     Embedded,
     Flow,
     ForcedKeys,
+    Given,
     KeyGroup,
     Lump,
     OpenFoam,
@@ -44,7 +45,7 @@ class Config(KeyGroup):
     run: Name = Field(
         "paper-plate", description="Name of the run; everything goes to `results/<run>/`."
     )
-    solver: Literal["embedded", "openfoam"] = Field(
+    solver: Literal["embedded", "openfoam", "given"] = Field(
         "embedded", description="Solver of the steady and unsteady cases."
     )
     reduction: Literal["consistent", "paper"] = Field(
@@ -85,6 +86,9 @@ class Config(KeyGroup):
     )
     embedded: Embedded = Field(Embedded(), description="The embedded solver.")
     openfoam: OpenFoam = Field(OpenFoam(), description="OpenFOAM.")
+    given: Given = Field(
+        Given(), description="Histories and polars of another program or a wind tunnel."
+    )
 
     @model_validator(mode="after")
     def _agree(self, info: ValidationInfo) -> Config:
@@ -245,6 +249,8 @@ def _set_in_motion(
     start: StartKeys,
 ) -> Iterator[Problem]:
     """Refuse a release from an equilibrium, after which anything looks stable."""
+    if solver == "given":  # whatever moved it is in its record
+        return
     if of_sweep:
         yield from _set_in_motion_at(of_sweep, symmetric, solver, start)
     elif incidence_deg == 0 and (symmetric or solver != "embedded") and not start.is_given:

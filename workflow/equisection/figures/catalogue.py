@@ -128,7 +128,10 @@ def indices_of_beam(run: RunFiles) -> list[str]:
 def indices_of_histories(run: RunFiles) -> list[str]:
     """Return the indices of the runs of which histories are shown: of one section and the beam."""
     config = run.config
-    if not config.compute:  # a model of which nothing is kept is not the one that is shown
+    records = Capability.RECORDS in SOLVERS[config.solver].provides
+    if (
+        records or not config.compute
+    ):  # a model of which nothing is kept is not the one that is shown
         return indices_of_sweep(config, run.folder)
     models = (section_model(config.sweep.shown), beam_model(config.sweep.shown))
     return [

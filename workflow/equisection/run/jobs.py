@@ -55,14 +55,14 @@ class Jobs:
 
 
 def solver_jobs(config: Config, model: CostModel) -> list[Jobs]:
-    """Return the jobs that run a solver, rigid cases first; none where nothing is computed.
+    """Return the jobs that run a solver, rigid cases first; none where results are looked up.
 
     Raises
     ------
     ConfigError
         The cost model has no entry for the solver.
     """
-    if not config.compute:
+    if not config.compute or Capability.RECORDS in SOLVERS[config.solver].provides:
         return []
     batches = Capability.BATCH in SOLVERS[config.solver].provides
     found = []
@@ -83,7 +83,7 @@ def batch_work(config: Config, kind: Kind, *models: str) -> Work:
     A batch is all rigid cases of a dimension, or the sweep of a model or a round of its refinement,
     or the sweeps of several sections.
     """
-    if not config.compute:
+    if not config.compute or Capability.RECORDS in SOLVERS[config.solver].provides:
         return LOOKING_UP
     chosen = [one for one in plan.planned_cases(config) if one.kind == kind and one.model in models]
     number = sum(len(one.names) for one in chosen)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol, runtime_checkable
 if TYPE_CHECKING:  # the graph is built from what solvers provide, without numerics
     from equisection.aerodynamics.polar import Polar
     from equisection.aerodynamics.separation import SeparationLags
-    from equisection.cases import SteadyCase, UnsteadyCase
+    from equisection.cases import Case, SteadyCase, UnsteadyCase
     from equisection.motion.body_in_flow import BodyInFlow
     from equisection.results.plate_grid import PlateGrid
     from equisection.results.section_mesh import SectionMesh
@@ -29,6 +29,7 @@ class Capability(StrEnum):
     FIELDS = "fields"  # the flow near the tip of the beam
     MESH = "mesh"  # a mesh of section and beam, which can be shown and refined
     STATES = "states"  # motions are equations, so that eigenvalues tell their stability
+    RECORDS = "records"  # releases are read from files, of which some may be missing
 
 
 #: What starts the ranks of MPI where no scheduler says otherwise.
@@ -171,4 +172,17 @@ class HasStates(Protocol):
 
     def body(self, case: UnsteadyCase) -> BodyInFlow:
         """Return section or beam of a case in a flow of any speed, without its correction."""
+        ...
+
+
+@runtime_checkable
+class HasRecords(Protocol):
+    """A solver with the capability ``records``."""
+
+    def record_of(self, model: str, case: str, point: Mapping[str, float]) -> dict[str, Any]:
+        """Return the settings of a release of a model, by its case's name and point."""
+        ...
+
+    def missing(self, case: Case) -> str:
+        """Return why a case has no record; empty if it has one."""
         ...

@@ -6,12 +6,12 @@ for each job would cost more than the job. So they are listed here.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from equisection.cases import SolverBlock
+from equisection.cases import Case, SolverBlock
 from equisection.errors import CaseFileError, ConfigError
 from equisection.keys.checks import Problem
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Solver
@@ -26,7 +26,8 @@ class SolverEntry:
 
     ``work`` is the module with the work of its jobs (:class:`.work.Estimate`); without it they ask
     for the memory and time that starting them takes. ``check`` is one whose function ``problems``
-    yields the parts of a configuration that it has no cases for.
+    yields the parts of a configuration that it has no cases for. ``basis`` is what its runs are,
+    where they are neither those of a mesh nor of equations in time.
     """
 
     module: str
@@ -34,6 +35,7 @@ class SolverEntry:
     dimensions: tuple[str, ...] = ("2d", "3d")
     work: str = ""
     check: str = ""
+    basis: str = ""
 
 
 SOLVERS: dict[str, SolverEntry] = {
@@ -47,6 +49,12 @@ SOLVERS: dict[str, SolverEntry] = {
         frozenset({Capability.MESH, Capability.SURFACE, Capability.FIELDS}),
         work="equisection.solvers.openfoam.job_work",
         check="equisection.solvers.openfoam.mesh.room",
+    ),
+    "given": SolverEntry(
+        "equisection.solvers.given.adapter",
+        frozenset({Capability.BATCH, Capability.RECORDS}),
+        dimensions=("2d",),
+        basis="given",
     ),
 }
 
@@ -108,6 +116,16 @@ def solver_from_case(block: SolverBlock, allocation: Allocation = ONE_THREAD) ->
             f"{solver.version}; delete the run's folder 'cases' and run again"
         )
     return solver
+
+
+def missing_records(cases: Mapping[str, Case]) -> dict[str, str]:
+    """Return why cases have no record, by their names, of solvers that read releases from files."""
+    return {
+        name: reason
+        for name, case in cases.items()
+        if Capability.RECORDS in SOLVERS[case.solver.name].provides
+        and (reason := solver_from_case(case.solver).missing(case))  # type: ignore[attr-defined]
+    }
 
 
 def _adapter(name: str) -> Any:

@@ -33,7 +33,7 @@ from equisection.reduction.reduce import Reduction
 from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.section_dataset import no_section, section_from_dataset
-from equisection.solvers.protocol import Solver
+from equisection.solvers.protocol import HasRecords, Solver
 from equisection.solvers.verdicts import pitch_frequency
 from equisection.structure.fittings import (
     deflection_dashpots,
@@ -78,7 +78,11 @@ def case_at(
     """
     there = point.of_config(config)
     k_star = point.columns.get(K_STAR.name) or k_star_as_given(there, data["equivalent"])
-    return unsteady_case(there, model, k_star, data, solver)
+    case = unsteady_case(there, model, k_star, data, solver)
+    if not isinstance(solver, HasRecords):
+        return case
+    settings = solver.record_of(model.name, point.name, point.columns)
+    return case.model_copy(update={"solver": case.solver.model_copy(update={"settings": settings})})
 
 
 def unsteady_case(

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.config import Config
@@ -22,6 +23,17 @@ _LIKE_THICKNESS = 1.25
 _LIKE_REYNOLDS = 2.0
 
 
+@dataclass(frozen=True)
+class _Polars:
+    """Section polars of a solver: their key, files by resolution, and what they are like."""
+
+    key: str
+    files: dict[str, str]
+    symmetric: bool
+    moment_axis: float | None
+    columns: Mapping[str, str] | None = None
+
+
 def check_polars(config: Config, directory: Path | None = None) -> None:
     """Refuse polars that are unreadable, of another beam or flow, or without the run's incidence.
 
@@ -35,8 +47,8 @@ def check_polars(config: Config, directory: Path | None = None) -> None:
     """
     directory = directory or Path.cwd()
     problems: list[Problem] = []
-    if config.solver == "embedded":
-        problems += _of_section(config, directory)
+    for polars in _polars_of(config):
+        problems += _of_section(config, polars, directory)
     if config.steady.beam_polar:
         problems += _of_beam(config, directory)
     if problems:
@@ -46,38 +58,53 @@ def check_polars(config: Config, directory: Path | None = None) -> None:
 def polar_notices(config: Config, directory: Path | None = None) -> Iterator[str]:
     """Yield a line for the polar that a run rests on, if it is of another Reynolds number.
 
-    Only the embedded solver reads one, and only some files say theirs.
+    Only solvers that are given polars read one, and only some files say theirs.
     """
-    path = config.embedded.polars.get(config.steady.resolution, FLAT_PLATE)
-    if config.solver != "embedded" or path == FLAT_PLATE:
-        return
-    of_file = reynolds_number((directory or Path.cwd()) / path)
-    here = _reynolds_number(config)
-    if max(of_file / here, here / of_file) > _LIKE_REYNOLDS:
-        yield (
-            f"warning: embedded.polars.{config.steady.resolution}: {shown(path)} is of Reynolds "
-            f"number {_short(of_file)}, and this flow has {_short(here)}; stall and drag may differ"
+    for polars in _polars_of(config):
+        path = polars.files.get(config.steady.resolution, FLAT_PLATE)
+        if path == FLAT_PLATE:
+            continue
+        of_file = reynolds_number((directory or Path.cwd()) / path)
+        here = _reynolds_number(config)
+        if max(of_file / here, here / of_file) > _LIKE_REYNOLDS:
+            yield (
+                f"warning: {polars.key}.{config.steady.resolution}: {shown(path)} is of Reynolds "
+                f"number {_short(of_file)}, and this flow has {_short(here)}; stall and drag may "
+                "differ"
+            )
+
+
+def _polars_of(config: Config) -> Iterator[_Polars]:
+    """Yield the section polars of the configured solver, if it is given any."""
+    embedded, given = config.embedded, config.given
+    if config.solver == "embedded":
+        yield _Polars(
+            "embedded.polars",
+            embedded.polars,
+            embedded.symmetric,
+            embedded.moment_axis,
+            embedded.columns.given,
         )
+    if config.solver == "given":
+        yield _Polars("given.polars", given.polars, given.symmetric, given.polar_moment_axis)
 
 
-def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
-    for name, path in config.embedded.polars.items():
+def _of_section(config: Config, polars: _Polars, directory: Path) -> Iterator[Problem]:
+    for name, path in polars.files.items():
         if path == FLAT_PLATE:
             continue
         try:
-            points = read_rows(
-                directory / path, config.embedded.symmetric, config.embedded.columns.given
-            )
-            points.axis_of(directory / path, config.embedded.moment_axis)
+            points = read_rows(directory / path, polars.symmetric, polars.columns)
+            points.axis_of(directory / path, polars.moment_axis)
             valid = read_validity(directory / path)
         except PolarFileError as error:
-            yield _unreadable(f"embedded.polars.{name}", path, error)
+            yield _unreadable(f"{polars.key}.{name}", path, error)
             continue
         if name == config.steady.resolution:
-            yield from _of_another_section(config, name, path, valid, directory)
+            yield from _of_another_section(config, f"{polars.key}.{name}", path, valid, directory)
         rows = points.rows
         last = max(row.incidence_deg for row in rows)
-        first = -last if config.embedded.symmetric else min(row.incidence_deg for row in rows)
+        first = -last if polars.symmetric else min(row.incidence_deg for row in rows)
         incidence = config.flow.incidence_deg
         if name == config.steady.resolution and not first <= incidence <= last:
             yield Problem(
@@ -88,18 +115,23 @@ def _of_section(config: Config, directory: Path) -> Iterator[Problem]:
 
 
 def _of_another_section(
-    config: Config, name: str, path: str, valid: dict[str, float | bool], directory: Path
+    config: Config,
+    key: str,
+    path: str,
+    valid: dict[str, float | bool],
+    directory: Path,
 ) -> Iterator[Problem]:
     """Refuse the polar of a section that is much thinner."""
     outline = config.beam.outline_in_flow(directory)
     own = config.beam.thickness / config.beam.chord if outline is None else outline.thickness
     ratio, of_polar = own, valid.get("h/c", math.inf)
     if ratio > _LIKE_THICKNESS * of_polar:
+        or_thin = ", or flat-plate, of a thin one" if key.startswith("embedded") else ""
         yield Problem(
-            f"embedded.polars.{name}",
+            key,
             path,
-            f"allowed is the polar of this section, of h/c {_short(ratio)}, or flat-plate, of a "
-            f"thin one; this file is of a section of h/c {_short(of_polar)}",
+            f"allowed is the polar of this section, of h/c {_short(ratio)}{or_thin}; this file is "
+            f"of a section of h/c {_short(of_polar)}",
         )
 
 

@@ -17,6 +17,7 @@ from equisection.config.groups.derivative_keys import DerivativeKeys
 from equisection.config.groups.embedded_keys import FLAT_PLATE, Embedded, Separation
 from equisection.config.groups.flow import Channel, Flow
 from equisection.config.groups.forced_keys import ForcedKeys
+from equisection.config.groups.given_keys import Given
 from equisection.config.groups.openfoam_keys import OpenFoam
 from equisection.config.groups.rom_keys import Rom
 from equisection.config.groups.solver_keys import SolverKeys
@@ -42,6 +43,7 @@ __all__ = [
     "Embedded",
     "Flow",
     "ForcedKeys",
+    "Given",
     "KeyGroup",
     "Lump",
     "ModelName",

@@ -14,6 +14,11 @@ class SolverKeys(KeyGroup):
         """Return the files that the solver reads."""
         return []
 
+    @property
+    def said_basis(self) -> str:
+        """Basis of its results, where the configuration says so; empty where the solver does."""
+        return ""
+
     def threads(self, dimension: str) -> int:
         """Return the threads of a job that runs cases of a dimension."""
         del dimension

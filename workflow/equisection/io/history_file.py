@@ -1,0 +1,278 @@
+"""Histories as tables of other programs: columns, units and signs of each, read to one meaning.
+
+A file is text with a line of column names over lines of numbers, separated by commas, semicolons,
+tabs or blanks. Names may be in quotes, and the line of names in parentheses or behind a ``#``, as
+monitors and reports of flow solvers write them. Lines before it are skipped.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from equisection.conventions import dynamic_pressure
+from equisection.errors import HistoryFileError
+
+Floats = NDArray[np.float64]
+
+#: Quantities of a history that every file has; ``drag`` is read where a column is named for it.
+NEEDED = ("time", "twist", "deflection", "lift", "moment")
+QUANTITIES = (*NEEDED, "drag")
+#: Units of each quantity; ``b`` is the semi-chord c/2, ``1`` a coefficient over q c or q c^2.
+UNITS: dict[str, tuple[str, ...]] = {
+    "time": ("s", "ms", "c/V", "b/V"),
+    "twist": ("rad", "deg"),
+    "deflection": ("m", "mm", "c", "b"),
+    "lift": ("N", "N/m", "1"),
+    "moment": ("N m", "N m/m", "1"),
+    "drag": ("N", "N/m", "1"),
+}
+_SEPARATORS = (",", ";", "\t", " ")
+#: A step over the usual one above which samples are missing (-), and the fewest samples.
+_GAP, _FEWEST = 5.0, 16
+
+
+@dataclass(frozen=True)
+class HistoryScales:
+    """Scales by which units become those of the flow.
+
+    Attributes
+    ----------
+    chord, span
+        c, and the length that forces in N are of (m).
+    density, speed
+        rho (kg/m^3), V (m/s) of the record.
+    """
+
+    chord: float
+    density: float
+    speed: float
+    span: float = 1.0
+
+    def factor(self, quantity: str, unit: str) -> float:
+        """Return the factor from a unit to c/V, rad, chords, or coefficients."""
+        rate, force = (
+            self.speed / self.chord,
+            1.0 / (dynamic_pressure(self.density, self.speed) * self.chord),
+        )
+        if quantity == "time":
+            return {"s": rate, "ms": 1e-3 * rate, "c/V": 1.0, "b/V": 0.5}[unit]
+        if quantity == "twist":
+            return {"rad": 1.0, "deg": math.radians(1.0)}[unit]
+        if quantity == "deflection":
+            return {"m": 1.0 / self.chord, "mm": 1e-3 / self.chord, "c": 1.0, "b": 0.5}[unit]
+        arm = self.chord if quantity == "moment" else 1.0
+        per_span = "N m/m" if quantity == "moment" else "N/m"
+        return 1.0 if unit == "1" else force / arm / (1.0 if unit == per_span else self.span)
+
+
+@dataclass(frozen=True)
+class HistoryColumns:
+    """Meaning of the columns of a file.
+
+    Attributes
+    ----------
+    names
+        Column of each of :data:`QUANTITIES`.
+    units
+        Unit of each (:data:`UNITS`).
+    signs
+        1, or -1 where positive is the other way: nose down, or downwards.
+    release
+        Time of the release in the file's unit; earlier lines are left out. None for its first.
+    """
+
+    names: Mapping[str, str]
+    units: Mapping[str, str]
+    signs: Mapping[str, int] = field(default_factory=dict)
+    release: float | None = None
+
+
+@dataclass(frozen=True)
+class HistoryTable:
+    """History as read, in units of rho/2, V and c, each of shape (n,).
+
+    Attributes
+    ----------
+    time
+        s since the release (c/V), rising.
+    twist, deflection
+        rad, nose up, and chords, up.
+    lift, moment, drag
+        Coefficients; ``drag`` is empty where it is not recorded.
+    """
+
+    time: Floats
+    twist: Floats
+    deflection: Floats
+    lift: Floats
+    moment: Floats
+    drag: Floats
+
+    def at(self, time: Floats) -> HistoryTable:
+        """Return the history at other times, by cubic splines through the samples."""
+        from scipy.interpolate import CubicSpline  # noqa: PLC0415, costly for a reader alone
+
+        def there(values: Floats) -> Floats:
+            return np.asarray(CubicSpline(self.time, values)(time)) if values.size else values
+
+        return HistoryTable(
+            time,
+            there(self.twist),
+            there(self.deflection),
+            there(self.lift),
+            there(self.moment),
+            there(self.drag),
+        )
+
+
+def read_table(path: Path, columns: HistoryColumns, scales: HistoryScales) -> HistoryTable:
+    """Read a history.
+
+    Raises
+    ------
+    HistoryFileError
+        The file is missing, has no such columns, or its samples have gaps, come twice or are not
+        numbers; the message names file and line.
+    """
+    first, frame = _frame(path, columns)
+    values: dict[str, Floats] = {}
+    for quantity, name in columns.names.items():
+        if not name:
+            continue
+        found = pd.to_numeric(frame[name], errors="coerce").to_numpy(dtype=np.float64)
+        wrong = np.flatnonzero(~np.isfinite(found))
+        if wrong.size:
+            raise HistoryFileError(
+                f"{path}, line {first + int(wrong[0])}: {name} is {frame[name].iloc[wrong[0]]!r}; "
+                "wanted a finite number"
+            )
+        values[quantity] = found
+    time = values["time"]
+    _require_rising(path, first, columns.names["time"], time)
+    start = float(time[0]) if columns.release is None else columns.release
+    kept = time >= start - 1e-9 * max(abs(start), float(time[-1]))
+    if kept.sum() < _FEWEST:
+        raise HistoryFileError(
+            f"{path}: {int(kept.sum())} samples from the release at {start:g} on; {_FEWEST} or "
+            f"more are needed ({columns.names['time']} goes from {time[0]:g} to {time[-1]:g})"
+        )
+    values["time"] = time - start
+    if columns.release is not None and time[kept][0] - start > 2.0 * np.median(np.diff(time)):
+        raise HistoryFileError(
+            f"{path}: the first sample is at {time[kept][0]:g}, after the release at {start:g}; "
+            "correct given.release, or write the history from the release on"
+        )
+    in_flow = {
+        name: columns.signs.get(name, 1) * scales.factor(name, columns.units[name]) * found[kept]
+        for name, found in values.items()
+    }
+    return HistoryTable(**{name: in_flow.get(name, np.empty(0)) for name in QUANTITIES})
+
+
+def _require_rising(path: Path, first: int, name: str, time: Floats) -> None:
+    """Refuse times that repeat, go back, or leave out a part of the motion."""
+    if time.size < _FEWEST:
+        raise HistoryFileError(f"{path}: {time.size} samples; {_FEWEST} or more are needed")
+    steps = np.diff(time)
+    back = np.flatnonzero(steps <= 0.0)
+    if back.size:
+        at = int(back[0])
+        raise HistoryFileError(
+            f"{path}, line {first + at + 1}: {name} goes from {time[at]:.9g} to "
+            f"{time[at + 1]:.9g}; wanted rising times, each once (was the run started "
+            "again from an earlier state? delete the lines that were run again)"
+        )
+    gap = np.flatnonzero(steps > _GAP * np.median(steps))
+    if gap.size:
+        at = int(gap[0])
+        raise HistoryFileError(
+            f"{path}, line {first + at + 1}: nothing between {name} {time[at]:.9g} and "
+            f"{time[at + 1]:.9g}, {steps[at] / np.median(steps):.3g} times the usual step; put the "
+            "missing samples back"
+        )
+
+
+def _frame(path: Path, columns: HistoryColumns) -> tuple[int, pd.DataFrame]:
+    """Return the number of the first line of values, and the table as text."""
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()
+    except FileNotFoundError:
+        raise HistoryFileError(f"{path}: no such file (looked from {Path.cwd()})") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise HistoryFileError(f"{path}: cannot be read as a text file: {error}") from error
+    wanted = [name for name in columns.names.values() if name]
+    best: list[str] = []
+    for number, line in enumerate(lines):
+        for separator, names in _headings(line):
+            if len(set(wanted) & set(names)) > len(set(wanted) & set(best)):
+                best = names
+            if set(wanted) <= set(names):
+                twice = [name for name in wanted if names.count(name) > 1]
+                if twice:
+                    raise HistoryFileError(
+                        f"{path}, line {number + 1}: more than one column is {', '.join(twice)}; "
+                        "rename those that are not to be read"
+                    )
+                return number + 2, _values(path, number + 2, lines[number + 1 :], separator, names)
+    seen = best or next((names for line in lines if (names := _widest(line))), [])
+    missing = [
+        f"{quantity} ({name!r})" for quantity, name in columns.names.items() if name not in seen
+    ]
+    raise HistoryFileError(
+        f"{path}: no column for {', '.join(missing)}; columns are "
+        f"{', '.join(map(repr, seen)) or 'none'}; name them in given.columns"
+    )
+
+
+def _headings(line: str) -> Iterator[tuple[str, list[str]]]:
+    text = line.strip().lstrip("#").strip()
+    if text.startswith("(") and text.endswith(")"):
+        text = text[1:-1]
+    for separator in _SEPARATORS:
+        if separator in text:
+            names = next(csv.reader([text], delimiter=separator, skipinitialspace=True))
+            yield separator, [name.strip() for name in names]
+
+
+def _widest(line: str) -> list[str]:
+    return max((names for _, names in _headings(line)), key=len, default=[])
+
+
+def _values(
+    path: Path, first: int, lines: list[str], separator: str, names: list[str]
+) -> pd.DataFrame:
+    """Return the lines of values as text, by the names of their columns."""
+    text = "\n".join(lines)
+    try:
+        return pd.read_csv(
+            io.StringIO(text),
+            sep=r"\s+" if separator == " " else separator,
+            header=None,
+            names=names,
+            index_col=False,
+            dtype=str,
+            skip_blank_lines=False,
+            keep_default_na=False,
+            skipinitialspace=True,
+            on_bad_lines="error",
+        ).pipe(_without_blank_end)
+    except (pd.errors.ParserError, pd.errors.EmptyDataError, ValueError) as error:
+        raise HistoryFileError(
+            f"{path}, from line {first}: cannot be read as {len(names)} columns: {error}"
+        ) from None
+
+
+def _without_blank_end(frame: pd.DataFrame) -> pd.DataFrame:
+    """Leave out empty lines at the end."""
+    empty = (frame.fillna("") == "").all(axis=1).to_numpy()
+    last = len(frame) - int(np.argmin(empty[::-1])) if not empty.all() else 0
+    return frame.iloc[:last]

@@ -1,0 +1,265 @@
+"""Polars and histories from files in the place of runs; fulfils the solver protocol.
+
+A case holds what its file means and the digest of its content, so that an edited file is judged
+again. Its motion is weighed against its loads before anything is judged
+(:mod:`equisection.motion.load_balance`).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import math
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from equisection.aerodynamics.polar import Polar
+from equisection.cases import Case, SteadyCase, UnsteadyCase
+from equisection.config import Config
+from equisection.config.groups.given_keys import PLACEHOLDER
+from equisection.errors import HistoryFileError, IncidenceOutOfRangeError, SolverError
+from equisection.results.steady_result import SteadyResult
+from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
+
+if TYPE_CHECKING:
+    from equisection.solvers.given.recorded_release import RecordedRelease
+
+logger = logging.getLogger(__name__)
+
+_NOTHING = np.empty(0)
+#: Settings of a release: what its file means.
+_MEANING = (
+    "columns",
+    "units",
+    "signs",
+    "span",
+    "moment_axis",
+    "deflection_axis",
+    "release",
+)
+
+
+class Adapter:
+    """Files of another program or a wind tunnel."""
+
+    name = "given"
+    version = "1"
+    provides = frozenset({Capability.BATCH, Capability.RECORDS})
+
+    def __init__(self, settings: dict[str, Any]) -> None:
+        self._settings = settings
+
+    @classmethod
+    def from_config(cls, config: Config, resolution: str) -> Adapter:
+        """Return the files of a configuration, with the polar of a resolution.
+
+        Raises
+        ------
+        PolarFileError
+            The polar file cannot be used.
+        """
+        keys = config.given
+        polar = Polar.read(
+            keys.polars[resolution], symmetric=keys.symmetric, moment_axis=keys.polar_moment_axis
+        )
+        return cls(
+            {
+                "source": keys.source or keys.basis,
+                "polar": {
+                    "label": polar.label,
+                    "incidence_deg": np.degrees(polar.incidence).tolist(),
+                    "cd": polar.drag.tolist(),
+                    "cl": polar.lift.tolist(),
+                    "cm": polar.moment.tolist(),
+                },
+                "histories": keys.histories,
+                **{name: keys.model_dump()[name] for name in _MEANING},
+            }
+        )
+
+    @classmethod
+    def from_settings(
+        cls, settings: dict[str, Any], allocation: Allocation = ONE_THREAD
+    ) -> Adapter:
+        """Return the files of a case, which are read in one thread."""
+        del allocation
+        return cls(settings)
+
+    def settings(self, dimension: str) -> dict[str, Any]:
+        """Return the polar; that of a release comes from :meth:`record_of`."""
+        del dimension
+        return {name: self._settings[name] for name in ("source", "polar")}
+
+    def record_of(self, model: str, case: str, point: Mapping[str, float]) -> dict[str, Any]:
+        """Return the settings of a release: the file, its digest, and what it means.
+
+        Parameters
+        ----------
+        model, case
+            Names of the model and of the case.
+        point
+            Values of the case on the axes of the study by their names.
+        """
+        known = {"model": model, "case": case} | {
+            name: f"{value:g}" for name, value in point.items()
+        }
+        unknown = [
+            name for name in PLACEHOLDER.findall(self._settings["histories"]) if name not in known
+        ]
+        path = PLACEHOLDER.sub(
+            lambda found: known.get(found[1], found[0]), self._settings["histories"]
+        )
+        try:
+            digest = "" if unknown else hashlib.sha256(Path(path).read_bytes()).hexdigest()
+        except FileNotFoundError:
+            digest = ""
+        meaning = {name: self._settings[name] for name in _MEANING}
+        return {"source": self._settings["source"], "file": path, "digest": digest, **meaning}
+
+    def describe(self, dimension: str) -> str:
+        """Return the source in words."""
+        del dimension
+        return f"given files ({self._settings['source']})"
+
+    def missing(self, case: Case) -> str:
+        """Return why a case has no result; empty if there is a file of it."""
+        if not isinstance(case, UnsteadyCase) or case.not_run or self._settings.get("digest"):
+            return ""
+        return f"no file {self._settings.get('file', '')}, which given.histories names for it"
+
+    def run_steady(
+        self, cases: Sequence[SteadyCase], work: Path, progress: Progress
+    ) -> list[SteadyResult]:
+        """Read the polar at each incidence."""
+        del work
+        data = self._settings["polar"]
+        polar = Polar(
+            np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
+        )
+        results = []
+        for number, case in enumerate(cases, start=1):
+            results.append(_of_polar(polar, case))
+            progress(number, len(cases))
+        return results
+
+    def run_unsteady(
+        self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
+    ) -> list[UnsteadyResult]:
+        """Read each release, weigh it, and judge it."""
+        del work
+        total, done, results = sum(case.duration for case in cases), 0.0, []
+        for case in cases:
+            results.append(self._release(case))
+            done += case.duration
+            progress(done, total)
+        return results
+
+    def _release(self, case: UnsteadyCase) -> UnsteadyResult:
+        from equisection.solvers.verdicts import refused  # noqa: PLC0415
+
+        path = Path(self._settings["file"])
+        try:
+            if hashlib.sha256(path.read_bytes()).hexdigest() != self._settings["digest"]:
+                raise SolverError(f"{path} was changed while its case waited; run again")
+            record = self._read(path, case)
+            if not record.balance.is_explained:
+                raise HistoryFileError(f"{path}: {record.balance.text}")
+            return _judged(path, case, record)
+        except OSError as error:
+            raise SolverError(f"{path}: {error}; run again") from error
+        except HistoryFileError as error:
+            return refused(case.model_copy(update={"refusal": str(error), "diverges": False}))
+
+    def _read(self, path: Path, case: UnsteadyCase) -> RecordedRelease:
+        # Imported here: writing a case file takes this module too, and none of what follows.
+        from equisection.io.history_file import HistoryColumns, HistoryScales  # noqa: PLC0415
+        from equisection.solvers.given.recorded_release import (  # noqa: PLC0415
+            RecordAxes,
+            recorded_release,
+        )
+
+        of, medium = self._settings, case.medium
+        assert case.section is not None, "the registry lets no 3D case through"
+        return recorded_release(
+            path,
+            HistoryColumns(of["columns"], of["units"], of["signs"], of["release"]),
+            HistoryScales(case.geometry.chord, medium.density, medium.speed, of["span"]),
+            RecordAxes(of["moment_axis"], of["deflection_axis"]),
+            section=case.section,
+            incidence_rad=math.radians(case.incidence_deg),
+            interval=case.output_interval,
+            load_factors=(case.lift_factor, case.moment_factor),
+            k_star=case.k_star,
+        )
+
+
+def _judged(path: Path, case: UnsteadyCase, record: RecordedRelease) -> UnsteadyResult:
+    """Return the result of a release that its loads explain, up to its verdict.
+
+    Raises
+    ------
+    HistoryFileError
+        The record is too short for a verdict.
+    """
+    from equisection.solvers.verdicts import TipMotion, decided_at, judge, pitch_frequency  # noqa: PLC0415
+
+    section, history = case.section, record.history
+    assert section is not None
+    tip = TipMotion(
+        history.time,
+        history.twist / section.twist_recovery,
+        history.deflection / section.deflection_recovery,
+    )
+    end, last, remark = decided_at(case, tip), float(history.time[-1]), ""
+    if math.isinf(end) and last < case.duration - 1.5 * case.output_interval:
+        least = case.criteria.periods / pitch_frequency(case)
+        if last < least:
+            raise HistoryFileError(
+                f"{path}: the record ends at {last:.4g} c/V without a verdict; allowed is "
+                f"{least:.4g} c/V or more, {case.criteria.periods} natural periods: go on with the "
+                "run"
+            )
+        remark = (
+            f"; the record ends at {last:.4g} of {case.duration:g} c/V and is judged as far as it "
+            "goes"
+        )
+        logger.warning("%s%s", path, remark)
+    kept = history.time <= min(end, case.duration) * (1 + 1e-9)
+    tip = tip.until(min(end, case.duration))
+    verdict = judge(case, tip)
+    verdict["reason"] = f"{verdict['reason']}; {record.balance.text}{remark}"
+    return UnsteadyResult(
+        time=tip.time,
+        twist=history.twist[kept],
+        deflection=history.deflection[kept],
+        tip_twist=tip.twist,
+        tip_deflection=tip.deflection,
+        lift=history.lift_coefficient[kept],
+        moment=history.moment_coefficient[kept],
+        axis_moment=record.axis_moment[kept] if section.axis_behind_mid_chord else _NOTHING,
+        incidence=history.incidence_rad + history.twist[kept],
+        verdict=verdict,
+    )
+
+
+def _of_polar(polar: Polar, case: SteadyCase) -> SteadyResult:
+    alpha = math.radians(case.incidence_deg)
+    try:
+        polar.require(alpha)
+    except IncidenceOutOfRangeError as error:
+        return SteadyResult(
+            math.nan, math.nan, math.nan, _NOTHING, _NOTHING, _NOTHING, "none", failure=str(error)
+        )
+    return SteadyResult(
+        float(polar.drag_coefficient(alpha)),
+        float(polar.lift_coefficient(alpha)),
+        float(polar.moment_coefficient(alpha)),
+        _NOTHING,
+        _NOTHING,
+        _NOTHING,
+        "given polar",
+    )
