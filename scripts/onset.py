@@ -4,13 +4,11 @@ import logging
 import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from equisection.aerodynamics.derivatives import Derivatives
 from equisection.analysis import critical_speeds
-from equisection.analysis.derivative_speeds import Equilibrium, from_derivatives
 from equisection.analysis.deviations import deviations
 from equisection.analysis.known_growth_error import (
     KnownErrors,
@@ -18,7 +16,6 @@ from equisection.analysis.known_growth_error import (
     with_known_errors,
 )
 from equisection.analysis.known_growth_error import in_words as errors_in_words
-from equisection.analysis.learning import onsets_of
 from equisection.analysis.linear_theory import (
     linear_onset,
     linear_theory,
@@ -29,19 +26,19 @@ from equisection.analysis.onset import onset_table, with_speeds
 from equisection.beam.section import Section
 from equisection.config import Config, load_config
 from equisection.files import written_whole
-from equisection.motion.derivative_flutter import FlowingBody
-from equisection.motion.stability import stability
-from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import nominal_k_star, section_from_dataset
 from equisection.run.script import logged
 from equisection.solvers.known_error import KnownError
 from equisection.solvers.protocol import HasSectionLoads, Solver
 from equisection.solvers.registry import solver_from_config
-from equisection.structure.modal_matrices import modal_matrices
 from equisection.study import plan
 from equisection.study.assemble import section_refusal
 from equisection.study.axes import INCIDENCE, SPEED, AsGiven, onset_axis, varied
+
+if TYPE_CHECKING:  # what few runs ask for is imported where it is asked for
+    from equisection.analysis.derivative_speeds import Equilibrium
+    from equisection.motion.derivative_flutter import FlowingBody
 
 
 def main(
@@ -69,6 +66,8 @@ def main(
     table = with_speeds(table, AsGiven(nominal_k_star(sections), speed))
     table = with_known_errors(table, known or {})
     if learnt:
+        from equisection.analysis.learning import onsets_of  # noqa: PLC0415
+
         table = table.merge(onsets_of([read_dataset(path) for path in learnt]), how="outer")
     _write(table, output)
 
@@ -144,6 +143,10 @@ def speeds(
             )
         )
     if table_of_derivatives is not None:
+        from equisection.aerodynamics.derivatives import Derivatives  # noqa: PLC0415
+        from equisection.analysis.derivative_speeds import from_derivatives  # noqa: PLC0415
+        from equisection.motion.derivative_flutter import FlowingBody  # noqa: PLC0415
+
         bodies = {
             name: FlowingBody.of_section(section, flow.density)
             for name, section in sections.items()
@@ -169,10 +172,12 @@ def speeds(
 
 def _equilibrium(
     config: Config, solver: Solver, sections: Mapping[str, Section]
-) -> Equilibrium | None:
+) -> "Equilibrium | None":
     """Return the incidence of static equilibrium by the solver's polar, if it has equations."""
     if not isinstance(solver, HasSectionLoads):
         return None
+    from equisection.motion.stability import stability  # noqa: PLC0415
+
     polar, lags = solver.section_loads
     flow = config.flow
 
@@ -192,8 +197,12 @@ def _equilibrium(
     return incidence
 
 
-def _beam(config: Config, modes: Path) -> dict[str, FlowingBody]:
+def _beam(config: Config, modes: Path) -> dict[str, "FlowingBody"]:
     """Return the beam on the modes of its structure."""
+    from equisection.motion.derivative_flutter import FlowingBody  # noqa: PLC0415
+    from equisection.results.modes_dataset import modes_from_dataset  # noqa: PLC0415
+    from equisection.structure.modal_matrices import modal_matrices  # noqa: PLC0415
+
     beam, structure = config.beam, config.structure
     of_both = structure.bending_modes, structure.torsion_modes
     matrices = modal_matrices(beam, modes_from_dataset(read_dataset(modes)), *of_both)

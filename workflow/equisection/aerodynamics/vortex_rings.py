@@ -166,8 +166,7 @@ class SpanGeometry:
         total = np.zeros((way.size, self.strips, edge.size))
         x = way[:, None, None]
         for lift, weight in self._storeys():
-            for sign, distance in zip(signs, distances, strict=True):
-                total += weight * sign * _lack(x, distance, lift)
+            total += weight * _lack_of_images(x, distances, signs, lift)
             if self.width is not None:
                 beyond = float(shifts.max()) + self.width
                 total += weight * _lack(x, np.array(beyond), lift) * 2.0 * edge / self.width
@@ -196,6 +195,29 @@ class SpanGeometry:
         signs = (-1.0) ** np.arange(weights.size)
         heights = self.height * np.arange(weights.size)
         return list(zip(heights.tolist(), (signs * weights).tolist(), strict=True))
+
+
+def _lack_of_images(x: Floats, distances: Floats, signs: Floats, y: float) -> Floats:
+    """Sum of :func:`_lack` over images, for X of shape (m, 1, 1) and Z of shape (n, S, S + 1).
+
+    With a = Z/(Z^2 + Y^2), b = X/(X^2 + Y^2) and R it is a b (R + Y^2/R) - a sgn X - b sgn Z: one
+    root and one quotient for each X and Z.
+    """
+    across = signs[:, None, None] * distances / (distances**2 + y**2)
+    along = x / (x**2 + y**2 + (x == 0.0))
+    squares = x**2 + y**2
+    summed = np.zeros((x.shape[0], *distances.shape[1:]))
+    radius, quotient = np.empty_like(summed), np.empty_like(summed)
+    for one, distance in zip(across, distances, strict=True):
+        np.add(squares, distance**2, out=radius)
+        np.sqrt(radius, out=radius)
+        if y:
+            np.divide(y**2, radius, out=quotient)
+            radius += quotient
+        radius *= one
+        summed += radius
+    sides = (signs[:, None, None] * np.sign(distances)).sum(axis=0)
+    return np.asarray(along * (summed - sides) - np.sign(x) * across.sum(axis=0))
 
 
 def _lack(x: Floats, z: Floats, y: float) -> Floats:
