@@ -226,7 +226,7 @@ class StripSystem:
         Of a system at rest the bubble incidences x (rad), shape (N, S), are enough.
         """
         strips, branches = self.layout.strips, self.loads.branches
-        parts = iter(np.split(signals, signals.shape[1] // strips, axis=1))
+        parts = iter([signals[:, at : at + strips] for at in range(0, signals.shape[1], strips)])
         x = next(parts)
         lift_deficit, moment_deficit = branches.lift_deficit(x), branches.moment_deficit(x)
         normal = [branches.polar.normal_rise(x)] if self.structure.is_offset else []
