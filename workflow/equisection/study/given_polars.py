@@ -64,7 +64,10 @@ def polar_notices(config: Config, directory: Path | None = None) -> Iterator[str
         path = polars.files.get(config.steady.resolution, FLAT_PLATE)
         if path == FLAT_PLATE:
             continue
-        of_file = reynolds_number((directory or Path.cwd()) / path)
+        try:
+            of_file = reynolds_number((directory or Path.cwd()) / path)
+        except PolarFileError:
+            continue  # `check_polars` refuses it
         here = _reynolds_number(config)
         if max(of_file / here, here / of_file) > _LIKE_REYNOLDS:
             yield (
