@@ -12,8 +12,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from equisection.errors import OutlineError
 
@@ -160,7 +160,7 @@ def along_curve(points: Floats) -> Floats:
     """
     points = _without_doubles(points, _ONE_POINT * float(np.ptp(points[:, 0])))
     reach = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    curve = CubicSpline(reach, points)
+    curve = scipy.interpolate.CubicSpline(reach, points)
     s = np.linspace(0.0, reach[-1], 20 * len(points) + 1)
     (dx, dy), (ddx, ddy) = curve(s, 1).T, curve(s, 2).T
     curvature = np.abs(dx * ddy - dy * ddx) / np.hypot(dx, dy) ** 3
