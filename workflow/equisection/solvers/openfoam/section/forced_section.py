@@ -29,8 +29,7 @@ from equisection.solvers.openfoam.case_folder import (
     mark_ready,
 )
 from equisection.solvers.openfoam.dictionaries import PLATE, control, dictionary, write_system
-from equisection.solvers.openfoam.free_run import STATE_INTERVAL
-from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, MovingRun
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.reading.loads import has_loads, read_loads, require_reasonable
 from equisection.solvers.openfoam.rigid_flow import Tell
@@ -50,28 +49,8 @@ _NOTHING = np.empty(0)
 
 
 @dataclass(frozen=True)
-class ForcedRun:
-    """The run of one case.
-
-    Attributes
-    ----------
-    installation
-        OpenFOAM.
-    case
-        The case.
-    mesh
-        Its mesh.
-    coupling
-        Iterations of the flow in a time step.
-    work
-        Folder that holds its folders.
-    """
-
-    installation: Installation
-    case: ForcedCase
-    mesh: SectionCells
-    coupling: flow.Coupling
-    work: Path
+class ForcedRun(MovingRun[ForcedCase, SectionCells]):
+    """The run of one case of the section in prescribed motion."""
 
     @property
     def folder(self) -> Path:
@@ -129,13 +108,8 @@ class ForcedRun:
 
     def _set_up(self, tell: Tell) -> None:
         """Make the folder of the moving run from the rigid steady flow, converged or not."""
-
-        def nothing_yet(done: float, total: float) -> None:
-            del done, total
-            tell(0.0, self.case.duration)
-
         source, _, converged = run_steady(
-            self.installation, self.case, self.mesh, self.work, nothing_yet
+            self.installation, self.case, self.mesh, self.work, self.before_release(tell)
         )
         if not converged:
             logger.info("the steady flow does not converge; the motion sets in from its last state")
