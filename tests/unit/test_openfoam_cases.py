@@ -333,6 +333,19 @@ def test_writing_a_case_imports_nothing_that_reads_results_of_openfoam() -> None
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
+@pytest.mark.parametrize(
+    "steep",
+    [
+        {"steady": {"incidence_deg": [0.0, 2.0, 4.0, 60.0]}},
+        {"forced": {"incidence_deg": 60.0}},
+    ],
+)
+def test_channel_has_room_at_every_incidence(steep: dict[str, Any]) -> None:
+    check_provided(load_config(openfoam()))
+    with pytest.raises(ConfigError, match=r"turned to 6[0-9.]* deg, does not fit into a channel"):
+        check_provided(load_config(openfoam(**steep)))
+
+
 @pytest.fixture
 def sections_only(monkeypatch: pytest.MonkeyPatch) -> None:
     """A solver without cases of the beam."""
