@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -182,6 +183,19 @@ def test_contour_goes_from_nose_to_tail_on_either_side(tmp_path: Path) -> None:
     nose, tail = first[lower][0], last[lower][-1]
     assert_allclose([last[upper][0], first[upper][-1]], [nose, tail])
     assert (nose[0], tail[0]) == (-0.5, 0.5)
+
+
+def test_sides_are_the_same_at_every_incidence(tmp_path: Path) -> None:
+    """Both front corners of a square are as far forward, whatever rounding leaves of it."""
+    written(tmp_path)
+    mesh = read_poly_mesh(tmp_path)
+    order, side, _, _ = contour_of_outline(mesh, 0.0)
+    for angle in np.radians(np.arange(-30, 31)):
+        turned = PlaneCells(mesh.points[:, :2], np.empty((0, 4), dtype=int)).turned(-angle).points
+        points = np.column_stack([turned, mesh.points[:, 2]])
+        found = contour_of_outline(replace(mesh, points=points), float(angle))
+        assert list(found[0]) == list(order)
+        assert list(found[1]) == list(side)
 
 
 def test_mesh_with_a_gap_is_refused(tmp_path: Path) -> None:
