@@ -18,7 +18,7 @@ import numpy as np
 
 from equisection.cases import ForcedCase
 from equisection.files import write_text
-from equisection.results.forced_result import ForcedResult, signal_of
+from equisection.results.forced_result import ForcedResult, motion_of
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.case_folder import (
     copy_flow,
@@ -131,8 +131,7 @@ class ForcedRun(MovingRun[ForcedCase, SectionCells]):
         case = self.case
         steps = round(case.duration / case.time_step)
         time = case.time_step * np.arange(-_BEYOND, steps + _BEYOND + 1)
-        moved = signal_of(case).at(time)
-        pitch, heave = (moved, 0.0 * moved) if case.component == "pitch" else (0.0 * moved, moved)
+        pitch, heave = motion_of(case, time)
         rows = [
             f"({s:.9g} ((0 {up:.12e} 0) (0 0 {-math.degrees(twist):.12e})))"
             for s, up, twist in zip(time, heave, pitch, strict=True)
@@ -145,10 +144,9 @@ class ForcedRun(MovingRun[ForcedCase, SectionCells]):
         kept = np.rint(loads.time / case.time_step).astype(int) % every == 0
         kept &= loads.time < case.duration + 0.5 * case.time_step
         time = loads.time[kept]
-        moved, still = signal_of(case).at(time), np.zeros(time.size)
-        twist, deflection = (moved, still) if case.component == "pitch" else (still, moved)
+        twist, deflection = motion_of(case, time)
         lift, drag = loads.lift[kept], loads.drag[kept]
-        moment = moment_about((still, deflection), loads.moment[kept], lift, drag)
+        moment = moment_about((0.0 * time, deflection), loads.moment[kept], lift, drag)
         return ForcedResult(time, twist, deflection, lift, moment, failure, spent=spent(self.work))
 
 
