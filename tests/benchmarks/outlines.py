@@ -23,7 +23,7 @@ from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
 from equisection.solvers.openfoam.mesh.outline_mesh import LOG, OutlineMesh
 from equisection.solvers.openfoam.section.rigid_section import check_mesh
-from tests.benchmarks.measure import Row, limit
+from tests.benchmarks.measure import Row, limit, processor_seconds
 
 #: Number of polygons, and of those that are to have a sound mesh.
 POLYGONS, WANTED = 200, 195
@@ -63,14 +63,13 @@ def rows(polygons: int = POLYGONS) -> Iterator[Row]:
     cells, seconds = [], []
     for number in range(polygons):
         points = random_polygon(generator)
-        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        before = processor_seconds()
         with tempfile.TemporaryDirectory() as place:
             try:
                 cells.append(cells_of(installation, points, Path(place)))
             except EquisectionError as error:
                 print(f"polygon {number}: {error}", file=sys.stderr, flush=True)
-        after = resource.getrusage(resource.RUSAGE_CHILDREN)
-        seconds.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        seconds.append(processor_seconds() - before)
     least = WANTED * polygons // POLYGONS
     sound = f"{len(cells)} of {polygons}"
     yield Row("random polygons with a sound mesh", sound, f">= {least}", len(cells) >= least)

@@ -24,7 +24,7 @@ VERY_COARSE = 0.6
 
 
 def forced(component: str, frequency: float, amplitude: float) -> ForcedCase:
-    """Return a case of two c/V at rest incidence 0, a multiple of its period."""
+    """Return a case at incidence 0; two c/V of it are judged, after one of settling."""
     shared = {n: getattr(STEADY, n) for n in type(STEADY).model_fields if n != "kind"}
     return ForcedCase(
         **{**shared, "incidence_deg": 0.0},

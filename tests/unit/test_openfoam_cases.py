@@ -11,7 +11,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
-from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY
+from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY, UNSTEADY_PLATE
 from tests.watching import nothing
 
 from equisection.beam.section import Section
@@ -19,6 +19,7 @@ from equisection.cases import Start
 from equisection.config import Config, load_config
 from equisection.errors import ConfigError, SolverError
 from equisection.figures.catalogue import figures
+from equisection.solvers.openfoam import adapter
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.case_folder import (
     drop_broken_states,
@@ -36,6 +37,7 @@ from equisection.solvers.openfoam.section.body_axes import BodyAxes
 from equisection.solvers.openfoam.section.rigid_section import mesh_of, require_sound_mesh
 from equisection.solvers.openfoam.section.section_history import read_section
 from equisection.solvers.openfoam.section.section_motion import write_motion
+from equisection.solvers.openfoam.settings import Settings
 from equisection.solvers.registry import SOLVERS, check_provided, solver_from_config
 from equisection.study import plan
 
@@ -49,6 +51,36 @@ def openfoam(**changes: Any) -> dict[str, Any]:
         "unsteady": {"time_step": 0.01},
         **changes,
     }
+
+
+def test_moving_cases_run_in_turn_in_folders_of_their_own(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """A section is released by the run of sections and a plate by that of plates."""
+    told: list[tuple[float, float]] = []
+
+    def run(name: str) -> Any:
+        def one(_self: Adapter, _found: Any, case: Any, place: Path, tell: Any) -> tuple[Any, ...]:
+            tell(case.duration / 2, case.duration)
+            return name, case.duration, place.relative_to(tmp_path).as_posix()
+
+        return one
+
+    found = type("Found", (), {"version": lambda self: "v0", "found": "nowhere"})()
+    monkeypatch.setattr(adapter, "find", lambda launcher="": found)
+    for name in ("_free_section", "_free_plate", "_forced_section"):
+        monkeypatch.setattr(Adapter, name, run(name))
+    section = UNSTEADY.model_copy(update={"duration": 10.0})
+    plate = UNSTEADY_PLATE.model_copy(update={"duration": 30.0})
+    solver = Adapter(Settings("coarse", 2))
+    results: list[Any] = solver.run_unsteady(
+        [section, plate], tmp_path, lambda *now: told.append(now)
+    )
+    assert results == [("_free_section", 10.0, "case0"), ("_free_plate", 30.0, "case1")]
+    assert told == [(5.0, 40.0), (25.0, 40.0)]
+    forced: list[Any] = [section]
+    results = solver.run_forced(forced, tmp_path, nothing)
+    assert results == [("_forced_section", 10.0, "case0")]
 
 
 def test_dictionary_is_written_in_openfoams_words() -> None:
@@ -299,6 +331,19 @@ def test_writing_a_case_imports_nothing_that_reads_results_of_openfoam() -> None
     """Importing foamlib takes longer than writing a case."""
     code = "import sys, equisection.solvers.openfoam.adapter; sys.exit('foamlib' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
+
+
+@pytest.mark.parametrize(
+    "steep",
+    [
+        {"steady": {"incidence_deg": [0.0, 2.0, 4.0, 60.0]}},
+        {"forced": {"incidence_deg": 60.0}},
+    ],
+)
+def test_channel_has_room_at_every_incidence(steep: dict[str, Any]) -> None:
+    check_provided(load_config(openfoam()))
+    with pytest.raises(ConfigError, match=r"turned to 6[0-9.]* deg, does not fit into a channel"):
+        check_provided(load_config(openfoam(**steep)))
 
 
 @pytest.fixture

@@ -200,6 +200,14 @@ def test_files_that_are_no_outline(tmp_path: Path, name: str, lines: list[str], 
     assert said in str(caught.value)
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "latin-1"])
+def test_title_in_any_usual_encoding(tmp_path: Path, encoding: str) -> None:
+    rows = [f"{x:.6f} {y:.6f}" for x, y in shapes.naca("0012")[::8]]
+    path = tmp_path / "goe.dat"
+    path.write_text("\n".join(["GÖTTINGEN 0012", *rows]), encoding=encoding)
+    assert read_outline(path).points.shape == (len(rows), 2)
+
+
 def test_polygon_keeps_its_corners(tmp_path: Path) -> None:
     path = written(tmp_path, "box.csv", ["# a box", "x, y", "0,0", "2,0", "2,1", "0,1", "0,0"])
     found = read_outline(path)
@@ -236,6 +244,21 @@ def test_keys_that_are_no_outline(outline: dict[str, object], said: str) -> None
 def test_structure_of_an_airfoil_is_not_that_of_a_rectangle() -> None:
     with pytest.raises(ConfigError, match=r"beam\.cross_section: null: allowed with beam\.outline"):
         load_config({"beam": {"outline": {"naca": "0012"}}})
+
+
+@pytest.mark.parametrize(
+    ("beam", "said"),
+    [
+        ({"outline": {"rectangle": {"thickness": 3.0}}}, "beam.outline.rectangle.thickness: 3: "),
+        ({"outline": {"rectangle": {}}, "thickness": 1e-5}, "beam.thickness: 1e-05: "),
+    ],
+)
+def test_size_of_a_shape_is_refused_by_its_key(beam: dict[str, object], said: str) -> None:
+    beam = {**beam, "cross_section": CROSS_SECTION}
+    config = load_config({"beam": beam, "structure": {"method": "beam"}})
+    with pytest.raises(ConfigError) as caught:
+        check_outline(config)
+    assert f"config: {said}" in str(caught.value)
 
 
 def test_bad_file_is_refused_before_any_job(tmp_path: Path) -> None:

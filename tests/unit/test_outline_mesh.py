@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -175,9 +177,25 @@ def test_contour_goes_from_nose_to_tail_on_either_side(tmp_path: Path) -> None:
     middle = (first + last) / 2
     outward = (edge[:, 1] * middle[:, 0] - edge[:, 0] * middle[:, 1]) > 0
     assert outward.all()
-    assert list(side) == ["upper", "upper", "lower", "lower"] or list(side).count("upper") in (1, 3)
-    for name in ("upper", "lower"):
-        assert (np.diff(middle[side == name][:, 0]) >= 0).all()
+    upper, lower = side == "upper", side == "lower"
+    assert_allclose(first[upper][:-1], last[upper][1:])
+    assert_allclose(last[lower][:-1], first[lower][1:])
+    nose, tail = first[lower][0], last[lower][-1]
+    assert_allclose([last[upper][0], first[upper][-1]], [nose, tail])
+    assert (nose[0], tail[0]) == (-0.5, 0.5)
+
+
+def test_sides_are_the_same_at_every_incidence(tmp_path: Path) -> None:
+    """Both front corners of a square are as far forward, whatever rounding leaves of it."""
+    written(tmp_path)
+    mesh = read_poly_mesh(tmp_path)
+    order, side, _, _ = contour_of_outline(mesh, 0.0)
+    for angle in np.radians(np.arange(-30, 31)):
+        turned = PlaneCells(mesh.points[:, :2], np.empty((0, 4), dtype=int)).turned(-angle).points
+        points = np.column_stack([turned, mesh.points[:, 2]])
+        found = contour_of_outline(replace(mesh, points=points), float(angle))
+        assert list(found[0]) == list(order)
+        assert list(found[1]) == list(side)
 
 
 def test_mesh_with_a_gap_is_refused(tmp_path: Path) -> None:
@@ -224,6 +242,18 @@ def test_missing_gmsh_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "gmsh", None)
     with pytest.raises(SolverError, match="need gmsh: make openfoam"):
         gmsh_fill.loaded()
+
+
+def test_make_installs_the_libraries_that_the_message_names() -> None:
+    makefile = (Path(__file__).parents[2] / "Makefile").read_text(encoding="utf-8")
+    assert f"\nGMSH_NEEDS := {gmsh_fill.LIBRARIES}\n" in makefile
+
+
+def test_start_without_an_outline_loads_no_splines() -> None:
+    """Every start with OpenFOAM looks at the room of the mesh; splines take most of a second."""
+    code = "import sys, equisection.solvers.openfoam.mesh.room; print(*sys.modules)"
+    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not {"scipy.interpolate", "shapely", "gmsh"} & set(said.stdout.split())
 
 
 def test_case_of_another_mesher_is_refused() -> None:

@@ -12,8 +12,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from equisection.errors import OutlineError
 
@@ -65,7 +65,7 @@ class Outline:
     @property
     def perimeter(self) -> float:
         """Length of the contour (chords)."""
-        return float(np.hypot(*(np.roll(self.points, -1, axis=0) - self.points).T).sum())
+        return float(edge_lengths(self.points).sum())
 
     @property
     def area(self) -> float:
@@ -81,6 +81,11 @@ def signed_area(points: Floats) -> float:
     """Return the area of a polygon, positive counter-clockwise."""
     x, y = points.T
     return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def edge_lengths(points: Floats) -> Floats:
+    """Return the lengths of the edges of a closed polygon, that from each vertex on, shape (n,)."""
+    return np.asarray(np.hypot(*(np.roll(points, -1, axis=0) - points).T))
 
 
 def turning_deg(points: Floats) -> Floats:
@@ -160,7 +165,7 @@ def along_curve(points: Floats) -> Floats:
     """
     points = _without_doubles(points, _ONE_POINT * float(np.ptp(points[:, 0])))
     reach = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(points, axis=0).T))])
-    curve = CubicSpline(reach, points)
+    curve = scipy.interpolate.CubicSpline(reach, points)
     s = np.linspace(0.0, reach[-1], 20 * len(points) + 1)
     (dx, dy), (ddx, ddy) = curve(s, 1).T, curve(s, 2).T
     curvature = np.abs(dx * ddy - dy * ddx) / np.hypot(dx, dy) ** 3
@@ -241,22 +246,14 @@ def outline_of(points: Floats, *, is_airfoil: bool = False) -> Outline:
             f"{len(points)} points; allowed are {FEWEST_POINTS} or more, of a triangle with the "
             "first one again at the end"
         )
-    clean = _without_doubles(points, _ONE_POINT)
-    if len(clean) > 1 and math.dist(clean[0], clean[-1]) < _ONE_POINT:
-        clean = clean[:-1]
+    clean = _loop(points)
     if len(clean) < FEWEST_POINTS - 1:
         raise OutlineError(f"{len(clean)} different points; allowed are three or more")
     _require_size(clean)
     _require_one_loop(clean)
     if is_airfoil:
-        ends = (
-            clean
-            if math.dist(points[0], points[-1]) > _ONE_POINT
-            else clean[[*range(len(clean)), 0]]
-        )
-        clean = _without_doubles(along_curve(ends), _ONE_POINT)
-        if math.dist(clean[0], clean[-1]) < _ONE_POINT:
-            clean = clean[:-1]
+        is_blunt = gap > _ONE_POINT
+        clean = _loop(along_curve(clean if is_blunt else np.concatenate([clean, clean[:1]])))
         _require_one_loop(clean)
     if signed_area(clean) < 0:
         clean = clean[::-1]
@@ -269,6 +266,13 @@ def outline_of(points: Floats, *, is_airfoil: bool = False) -> Outline:
     clean = _without_notches(clean)
     _require_blunt(clean)
     return Outline(np.round(clean, _DIGITS) + 0.0)
+
+
+def _loop(points: Floats) -> Floats:
+    """Return points without doubles, and without the first one again at the end."""
+    clean = _without_doubles(points, _ONE_POINT)
+    is_closed = len(clean) > 1 and math.dist(clean[0], clean[-1]) < _ONE_POINT
+    return clean[:-1] if is_closed else clean
 
 
 def _without_doubles(points: Floats, distance: float) -> Floats:

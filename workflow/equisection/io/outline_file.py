@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.errors import OutlineError
+from equisection.io.polar_text import decoded
 
 #: Suffixes of the formats.
 AIRFOIL, POLYGON = ".dat", ".csv"
@@ -60,8 +61,8 @@ def read_outline(path: Path) -> OutlineFile:
     try:
         if path.stat().st_size > _LARGEST:
             raise OutlineError(f"{path}: larger than 2 MB: this is no outline")
-        text = path.read_text(encoding="utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
+        text = decoded(path.read_bytes())
+    except (OSError, UnicodeError) as error:
         raise OutlineError(f"{path}: cannot be read as text: {error}") from None
     lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)]
     if suffix == POLYGON:

@@ -43,7 +43,12 @@ def text_lines(path: Path) -> Lines:
         There is no such file, it is no text, or it is far too long for a polar.
     """
     data = _bytes(path)
-    text = _decoded(path, data).replace("\r\n", "\n").replace("\r", "\n")
+    try:
+        text = decoded(data).replace("\r\n", "\n").replace("\r", "\n")
+    except UnicodeError as error:
+        raise PolarFileError(
+            f"{path}: cannot be read as a text file: {error}; save the polar as plain text (UTF-8)"
+        ) from None
     if text.count("\n") > MOST_LINES:
         raise _too_many(path, text.count("\n"))
     strange = _NO_TEXT.search(text)
@@ -93,17 +98,21 @@ def _too_many(path: Path, count: int) -> PolarFileError:
     )
 
 
-def _decoded(path: Path, data: bytes) -> str:
+def decoded(data: bytes) -> str:
+    """Return the text of a file.
+
+    Raises
+    ------
+    UnicodeError
+        It is of none of the encodings.
+    """
     marked = data.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     for encoding in ["utf-16"] if marked else ["utf-8-sig", "cp1252"]:
         try:
             return data.decode(encoding)
         except UnicodeDecodeError:
             continue
-    raise PolarFileError(
-        f"{path}: cannot be read as a text file: its bytes are neither UTF-8 nor UTF-16 nor "
-        "Windows-1252; save the polar as plain text (UTF-8)"
-    )
+    raise UnicodeError("its bytes are neither UTF-8 nor UTF-16 nor Windows-1252")
 
 
 def quoted(text: str) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from equisection.motion.forced_signal import ForcedSignal
 from equisection.results.spent import Spent
@@ -23,6 +23,13 @@ def signal_of(case: ForcedCase) -> ForcedSignal:
     rows = [(one.frequency, one.amplitude, one.phase) for one in case.harmonics]
     frequencies, amplitudes, phases = np.array(rows).T
     return ForcedSignal(frequencies, amplitudes, phases, case.ramp)
+
+
+def motion_of(case: ForcedCase, time: ArrayLike) -> tuple[Floats, Floats]:
+    """Return twist (rad) and deflection of mid-chord (chords) of a case at times (c/V)."""
+    moved = signal_of(case).at(time)
+    still = np.zeros_like(moved)
+    return (moved, still) if case.component == "pitch" else (still, moved)
 
 
 @dataclass(frozen=True)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from equisection.beam.beam import Beam
+from equisection.beam.outline_keys import OutlineKeys
 from equisection.config import Config
 from equisection.errors import ConfigError, OutlineError
 from equisection.keys.checks import Problem
@@ -25,7 +27,14 @@ def check_outline(config: Config, directory: Path | None = None) -> None:
     try:
         config.beam.outline_in_flow(directory or Path.cwd())
     except OutlineError as error:
-        key = outline.given[0]
-        value = getattr(outline, key)
-        reason = str(error).removeprefix(f"{value}: ")
-        raise ConfigError(Problem(f"beam.outline.{key}", value, reason).line) from None
+        key, value = _given(config.beam, outline)
+        raise ConfigError(Problem(key, value, str(error).removeprefix(f"{value}: ")).line) from None
+
+
+def _given(beam: Beam, outline: OutlineKeys) -> tuple[str, object]:
+    """Return the key that decides the shape, and its value."""
+    if outline.rectangle is None:
+        return f"beam.outline.{outline.given[0]}", outline.naca or outline.file
+    if outline.rectangle.thickness is None:
+        return "beam.thickness", beam.thickness
+    return "beam.outline.rectangle.thickness", outline.rectangle.thickness

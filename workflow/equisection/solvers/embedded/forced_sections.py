@@ -14,7 +14,7 @@ from equisection.aerodynamics.unsteady_loads import ForcedMotion, UnsteadyLoads,
 from equisection.aerodynamics.wake_lags import WakeLags, accurate_lags
 from equisection.cases import ForcedCase
 from equisection.errors import IncidenceOutOfRangeError
-from equisection.results.forced_result import ForcedResult, signal_of
+from equisection.results.forced_result import ForcedResult, motion_of
 
 #: Steps in the shortest period: the rates by differences are then known to 4e-5.
 _STEPS = 400
@@ -36,14 +36,12 @@ def forced_section(
     wake
         Lags of the circulation; Theodorsen's with None.
     """
-    signal = signal_of(case)
-    longest = math.tau / float(signal.frequencies.max()) / _STEPS
+    longest = math.tau / max(one.frequency for one in case.harmonics) / _STEPS
     every = max(1, math.ceil(case.output_interval / longest - 1e-9))
     step = case.output_interval / every
     number = round(case.duration / case.output_interval) * every + 1
     time = np.asarray(step * np.arange(number + _BEYOND), dtype=np.float64)
-    moved, still = signal.at(time), np.zeros(time.size)
-    twist, deflection = (moved, still) if case.component == "pitch" else (still, moved)
+    twist, deflection = motion_of(case, time)
     motion = ForcedMotion(time, math.radians(case.incidence_deg) + twist, deflection)
     found = forced_loads(motion, loads, wake or accurate_lags())
     failure, kept = "", slice(0, number, every)

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
 
@@ -33,6 +33,10 @@ if TYPE_CHECKING:
     from equisection.solvers.openfoam.section.rigid_section import RigidLoads, SectionCells
 
 logger = logging.getLogger(__name__)
+
+#: Case of a moving section or plate, and its result.
+CaseT = TypeVar("CaseT", bound=UnsteadyCase | ForcedCase)
+ResultT = TypeVar("ResultT")
 
 
 class Adapter:
@@ -169,41 +173,49 @@ class Adapter:
         self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
     ) -> list[UnsteadyResult]:
         """Release sections and plates one after the other, each until its verdict is in."""
+        return self._in_turn(cases, work, progress, self._released)
+
+    def run_forced(
+        self, cases: Sequence[ForcedCase], work: Path, progress: Progress
+    ) -> list[ForcedResult]:
+        """Move sections one after the other, each in a folder of its own."""
+        return self._in_turn(cases, work, progress, self._forced_section)
+
+    def _in_turn(
+        self,
+        cases: Sequence[CaseT],
+        work: Path,
+        progress: Progress,
+        run: Callable[[Installation, CaseT, Path, Progress], ResultT],
+    ) -> list[ResultT]:
+        """Run cases one after the other, each in a folder of its own; progress is in c/V."""
         installation = find(launcher=self._launcher)
         logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
         total = sum(case.duration for case in cases)
-        results = []
+        results: list[ResultT] = []
         done = 0.0
         for number, case in enumerate(cases):
 
             def tell(now: float, end: float, before: float = done) -> None:
                 progress(before + now, total)
 
-            run = self._free_section if case.dimension == "2d" else self._free_plate
             results.append(run(installation, case, work / f"case{number}", tell))
             done += case.duration
         return results
 
-    def run_forced(
-        self, cases: Sequence[ForcedCase], work: Path, progress: Progress
-    ) -> list[ForcedResult]:
-        """Move sections one after the other, each in a folder of its own."""
+    def _forced_section(
+        self, installation: Installation, case: ForcedCase, place: Path, tell: Progress
+    ) -> ForcedResult:
         from equisection.solvers.openfoam.section.forced_section import ForcedRun  # noqa: PLC0415
 
-        installation = find(launcher=self._launcher)
-        logger.info("OpenFOAM %s (%s)", installation.version(), installation.found)
-        coupling = self._settings.coupling
-        total, done, results = sum(case.duration for case in cases), 0.0, []
-        for number, case in enumerate(cases):
+        mesh, coupling = self._mesh(case), self._settings.coupling
+        return ForcedRun(installation, case, mesh, coupling, place).run(tell)
 
-            def tell(now: float, end: float, before: float = done) -> None:
-                progress(before + now, total)
-
-            mesh = self._mesh(case)
-            place = work / f"case{number}"
-            results.append(ForcedRun(installation, case, mesh, coupling, place).run(tell))
-            done += case.duration
-        return results
+    def _released(
+        self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
+    ) -> UnsteadyResult:
+        run = self._free_section if case.dimension == "2d" else self._free_plate
+        return run(installation, case, place, tell)
 
     def _free_section(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress

@@ -1,4 +1,4 @@
-"""A free run of section or plate: its case, mesh, coupling and folders."""
+"""A run of section or plate in motion, free or forced: its case, mesh, coupling and folders."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.cases import UnsteadyCase
+from equisection.cases import ForcedCase, UnsteadyCase
 from equisection.results.loads_zigzag import warning_of_zigzag
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.installation import Installation
@@ -53,12 +53,13 @@ class IterationsCheck:
             logger.warning("at %g c/V of the run that goes on: %s", time[-1], warning)
 
 
-#: What ``blockMesh`` makes the mesh of, of the section or of the plate.
+#: Kind of the case, and the mesh, of the section or of the plate.
+CaseT = TypeVar("CaseT", bound=UnsteadyCase | ForcedCase)
 MeshT = TypeVar("MeshT")
 
 
 @dataclass(frozen=True)
-class FreeRun(Generic[MeshT]):
+class MovingRun(Generic[CaseT, MeshT]):
     """The run of one case.
 
     Attributes
@@ -76,21 +77,26 @@ class FreeRun(Generic[MeshT]):
     """
 
     installation: Installation
-    case: UnsteadyCase
+    case: CaseT
     mesh: MeshT
     coupling: flow.Coupling
     work: Path
 
-    @property
-    def folder(self) -> Path:
-        """Folder of the free run, next to that of the steady flow that it starts from."""
-        return self.work / "free"
-
     def before_release(self, tell: Tell) -> Tell:
-        """Return the progress callback of the steady flow, during which the free run is at 0."""
+        """Return the progress callback of the steady flow, during which the run is at 0."""
 
         def nothing_yet(done: float, total: float) -> None:
             del done, total
             tell(0.0, self.case.duration)
 
         return nothing_yet
+
+
+@dataclass(frozen=True)
+class FreeRun(MovingRun[UnsteadyCase, MeshT]):
+    """The run of one free case."""
+
+    @property
+    def folder(self) -> Path:
+        """Folder of the free run, next to that of the steady flow that it starts from."""
+        return self.work / "free"

@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.beam.outline import turning_deg
+from equisection.beam.outline import edge_lengths, turning_deg
 from equisection.solvers.openfoam.mesh.block_mesh import expansion
 from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
-from equisection.solvers.openfoam.mesh.outline_wall import Wall
+from equisection.solvers.openfoam.mesh.outline_wall import Wall, of_limited_slope
 from equisection.solvers.openfoam.mesh.plane_cells import PlaneCells, corner_areas
 from equisection.solvers.openfoam.process import BlowUpError
 
@@ -54,13 +54,10 @@ class Layers:
         The cells; the first vertices are those of the wall, in its order.
     front : (m,) array of int
         Vertices of the front, counter-clockwise; an even number.
-    thinner
-        Factor that the thickness was reduced by; 1 where nothing folded.
     """
 
     cells: PlaneCells
     front: Indices
-    thinner: float
 
 
 @dataclass(frozen=True)
@@ -88,7 +85,7 @@ def layers_of(wall: Wall, sizes: OutlineSizes, refinement: float) -> Layers:
         worst = wall.points[rays.base[int(np.argmin(rays.thickness))]]
         if rays.thickness.min() < sizes.first:
             break
-        layers = _layers(wall, rays, sizes, refinement, thinner)
+        layers = _layers(wall, rays, sizes, refinement)
         areas = corner_areas(layers.cells)
         front = layers.cells.points[layers.front]
         if (
@@ -107,16 +104,12 @@ def layers_of(wall: Wall, sizes: OutlineSizes, refinement: float) -> Layers:
 
 def _narrowing(wall: Wall, rays: _Rays, front: Floats) -> float:
     """Return the least length of an edge of the front over that of its edge on the wall."""
-    on_wall = wall.points[rays.base]
-    lengths = np.hypot(*(np.roll(on_wall, -1, axis=0) - on_wall).T)
-    at_front = np.hypot(*(np.roll(front, -1, axis=0) - front).T)
+    lengths, at_front = edge_lengths(wall.points[rays.base]), edge_lengths(front)
     has_edge = lengths > 0  # not between the rays of a fan
     return float((at_front[has_edge] / lengths[has_edge]).min())
 
 
-def _layers(
-    wall: Wall, rays: _Rays, sizes: OutlineSizes, refinement: float, thinner: float
-) -> Layers:
+def _layers(wall: Wall, rays: _Rays, sizes: OutlineSizes, refinement: float) -> Layers:
     number, count, base = round(sizes.layers * refinement), len(rays.base), len(wall.points)
     first = np.minimum(sizes.first / refinement, rays.thickness / number)
     grown = np.array(
@@ -139,7 +132,7 @@ def _layers(
     after = np.roll(vertices, -1, axis=1)
     # the wall is passed counter-clockwise about the body, with the fluid on the right
     corners = np.stack([vertices[:-1], vertices[1:], after[1:], after[:-1]], axis=-1)
-    return Layers(PlaneCells(np.concatenate(points), corners.reshape(-1, 4)), vertices[-1], thinner)
+    return Layers(PlaneCells(np.concatenate(points), corners.reshape(-1, 4)), vertices[-1])
 
 
 def _growth(thickness: float, number: int, first: float) -> float:
@@ -229,11 +222,8 @@ def _way_to_wall(points: Floats, directions: Floats) -> Floats:
 def _with_slope(thickness: Floats, lengths: Floats) -> Floats:
     """Return thicknesses that change along the closed wall by no more than the slope."""
     count = len(thickness)
-    three = np.tile(thickness, 3)
-    s = _SLOPE * np.concatenate([[0.0], np.cumsum(np.tile(lengths, 3))[:-1]])
-    forward = np.minimum.accumulate(three - s) + s
-    both = np.minimum.accumulate((forward + s)[::-1])[::-1] - s
-    return np.asarray(both[count : 2 * count])
+    s = np.concatenate([[0.0], np.cumsum(np.tile(lengths, 3))[:-1]])
+    return of_limited_slope(np.tile(thickness, 3), s, _SLOPE)[count : 2 * count]
 
 
 def _smooth(thickness: Floats) -> Floats:

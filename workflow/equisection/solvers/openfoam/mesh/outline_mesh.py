@@ -27,7 +27,7 @@ from pathlib import Path
 from equisection.errors import ConfigError, SolverError
 from equisection.files import write_text
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
-from equisection.solvers.openfoam.mesh.outline_sizes import TYPICAL_CELLS, OutlineSizes
+from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
 from equisection.solvers.openfoam.process import BlowUpError
 
 #: Version of this mesh, a part of the case that it is made for.
@@ -98,11 +98,6 @@ class OutlineMesh:
     incidence: float
     refinement: float
     sizes: OutlineSizes = field(default_factory=OutlineSizes)
-
-    @property
-    def cells(self) -> int:
-        """Number of cells, roughly: it depends on the outline."""
-        return round(TYPICAL_CELLS * self.refinement**2)
 
     @property
     def centre(self) -> tuple[float, float]:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from equisection.beam.outline import edge_lengths
 from equisection.errors import EquisectionError
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
 from equisection.solvers.openfoam.mesh.gmsh_fill import Size, filled
@@ -85,7 +86,7 @@ def _disc(mesh: OutlineMesh) -> tuple[PlaneCells, NDArray[np.int64]]:
 def _size_in_disc(mesh: OutlineMesh, front: Floats) -> Size:
     """Return sizes that grow from those of the layers' front, up to those near the body."""
     sizes, refinement = mesh.sizes, mesh.refinement
-    lengths = np.hypot(*(np.roll(front, -1, axis=0) - front).T)
+    lengths = edge_lengths(front)
     at_front = 0.5 * (lengths + np.roll(lengths, 1))
     tree = KDTree(front)
     edge, level = max(x for x, _ in mesh.outline), mesh.centre[1]

@@ -6,6 +6,7 @@ import itertools
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 from equisection.beam.outline import KINK_DEG, turning_deg
@@ -51,11 +52,7 @@ def wall_of(outline: Floats, sizes: OutlineSizes, refinement: float) -> Wall:
     for side in _sides(outline):
         vertices = _spaced(side, sizes, refinement)
         points.append(vertices[:-1])
-        is_corner.append(
-            np.arange(len(vertices) - 1) == 0
-            if side.corners[0]
-            else np.zeros(len(vertices) - 1, dtype=bool)
-        )
+        is_corner.append((np.arange(len(vertices) - 1) == 0) & side.corners[0])
     return Wall(np.concatenate(points), np.concatenate(is_corner))
 
 
@@ -93,17 +90,15 @@ def _spaced(side: _Side, sizes: OutlineSizes, refinement: float) -> Floats:
         if is_corner:
             spacing = np.minimum(spacing, at_corner + sizes.wall_growth * distance)
     fewest = _BETWEEN_CORNERS if any(side.corners) else _BETWEEN_KINKS
-    spacing = _of_limited_slope(np.minimum(spacing, length / fewest), s, sizes.wall_growth)
-    number = np.concatenate(
-        [[0.0], np.cumsum(0.5 * (1 / spacing[1:] + 1 / spacing[:-1]) * np.diff(s))]
-    )
+    spacing = of_limited_slope(np.minimum(spacing, length / fewest), s, sizes.wall_growth)
+    number = scipy.integrate.cumulative_trapezoid(1 / spacing, s, initial=0)
     cells = max(fewest, round(float(number[-1])))
     cells = max(fewest, 2 * round(cells * refinement / 2))
     at = np.interp(np.linspace(0.0, number[-1], cells + 1), number, s)
     return np.stack([np.interp(at, reach, side.points[:, axis]) for axis in (0, 1)], axis=-1)
 
 
-def _of_limited_slope(values: Floats, s: Floats, slope: float) -> Floats:
+def of_limited_slope(values: Floats, s: Floats, slope: float) -> Floats:
     """Return the largest values below the given ones whose slope is at most the given one."""
     forward = np.minimum.accumulate(values - slope * s) + slope * s
     return np.asarray(np.minimum.accumulate((forward + slope * s)[::-1])[::-1] - slope * s)

@@ -33,6 +33,8 @@ def problems(config: Config) -> Iterator[Problem]:
     if outline is None and config.openfoam.mesher == OUTLINE:
         outline = outline_of(rectangle(channel.thickness))
     angles = {*config.steady.incidence_deg, config.flow.incidence_deg, released}
+    if config.forced.incidence_deg is not None:
+        angles.add(config.forced.incidence_deg)
     try:
         for angle in sorted(angles, key=abs, reverse=True):
             incidence = math.radians(angle)
@@ -44,5 +46,5 @@ def problems(config: Config) -> Iterator[Problem]:
         yield Problem(
             "flow.channel",
             given.model_dump(),
-            f"allowed is a channel with room for the mesh at all of steady.incidence_deg; {error}",
+            f"allowed is a channel with room for the mesh at every incidence; {error}",
         )

@@ -160,9 +160,10 @@ def contour_of_outline(
     places = to_section(poly.points[:, :2], incidence)
     behind = dict(zip(low[:, 1].tolist(), range(len(low)), strict=True))
     nodes = low[:, 0]
-    tail = nodes[np.lexsort((np.abs(places[nodes, 1]), -places[nodes, 0].round(9)))[0]]
-    nose = nodes[np.lexsort((np.abs(places[nodes, 1]), places[nodes, 0].round(9)))[0]]
-    loop, node, turn = [], int(tail), 0
+    # of points that are as far, the one nearest to the chord, and of two of these the lower one
+    x, y = places[nodes].T.round(9)
+    nose, tail = (int(nodes[np.lexsort((y, np.abs(y), way))[0]]) for way in (x, -x))
+    loop, node, turn = [], tail, 0
     for _ in range(len(low)):
         face = behind[node]
         loop.append(face)

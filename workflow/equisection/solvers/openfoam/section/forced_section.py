@@ -18,7 +18,7 @@ import numpy as np
 
 from equisection.cases import ForcedCase
 from equisection.files import write_text
-from equisection.results.forced_result import ForcedResult, signal_of
+from equisection.results.forced_result import ForcedResult, motion_of
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.case_folder import (
     copy_flow,
@@ -29,8 +29,7 @@ from equisection.solvers.openfoam.case_folder import (
     mark_ready,
 )
 from equisection.solvers.openfoam.dictionaries import PLATE, control, dictionary, write_system
-from equisection.solvers.openfoam.free_run import STATE_INTERVAL
-from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.free_run import STATE_INTERVAL, MovingRun
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.reading.loads import has_loads, read_loads, require_reasonable
 from equisection.solvers.openfoam.rigid_flow import Tell
@@ -50,28 +49,8 @@ _NOTHING = np.empty(0)
 
 
 @dataclass(frozen=True)
-class ForcedRun:
-    """The run of one case.
-
-    Attributes
-    ----------
-    installation
-        OpenFOAM.
-    case
-        The case.
-    mesh
-        Its mesh.
-    coupling
-        Iterations of the flow in a time step.
-    work
-        Folder that holds its folders.
-    """
-
-    installation: Installation
-    case: ForcedCase
-    mesh: SectionCells
-    coupling: flow.Coupling
-    work: Path
+class ForcedRun(MovingRun[ForcedCase, SectionCells]):
+    """The run of one case of the section in prescribed motion."""
 
     @property
     def folder(self) -> Path:
@@ -129,13 +108,8 @@ class ForcedRun:
 
     def _set_up(self, tell: Tell) -> None:
         """Make the folder of the moving run from the rigid steady flow, converged or not."""
-
-        def nothing_yet(done: float, total: float) -> None:
-            del done, total
-            tell(0.0, self.case.duration)
-
         source, _, converged = run_steady(
-            self.installation, self.case, self.mesh, self.work, nothing_yet
+            self.installation, self.case, self.mesh, self.work, self.before_release(tell)
         )
         if not converged:
             logger.info("the steady flow does not converge; the motion sets in from its last state")
@@ -157,8 +131,7 @@ class ForcedRun:
         case = self.case
         steps = round(case.duration / case.time_step)
         time = case.time_step * np.arange(-_BEYOND, steps + _BEYOND + 1)
-        moved = signal_of(case).at(time)
-        pitch, heave = (moved, 0.0 * moved) if case.component == "pitch" else (0.0 * moved, moved)
+        pitch, heave = motion_of(case, time)
         rows = [
             f"({s:.9g} ((0 {up:.12e} 0) (0 0 {-math.degrees(twist):.12e})))"
             for s, up, twist in zip(time, heave, pitch, strict=True)
@@ -171,10 +144,9 @@ class ForcedRun:
         kept = np.rint(loads.time / case.time_step).astype(int) % every == 0
         kept &= loads.time < case.duration + 0.5 * case.time_step
         time = loads.time[kept]
-        moved, still = signal_of(case).at(time), np.zeros(time.size)
-        twist, deflection = (moved, still) if case.component == "pitch" else (still, moved)
+        twist, deflection = motion_of(case, time)
         lift, drag = loads.lift[kept], loads.drag[kept]
-        moment = moment_about((still, deflection), loads.moment[kept], lift, drag)
+        moment = moment_about((0.0 * time, deflection), loads.moment[kept], lift, drag)
         return ForcedResult(time, twist, deflection, lift, moment, failure, spent=spent(self.work))
 
 
