@@ -6,19 +6,8 @@ import math
 
 import numpy as np
 import pytest
-from tests.physics.test_stability_map import (
-    ATTACHED,
-    CHORD,
-    DENSITY,
-    PLATE,
-    POLAR,
-    STIFF,
-    THIN,
-    beam_of,
-    body_of,
-    damped,
-    rising,
-)
+from tests.physics.test_stability_map import STIFF, beam_of, body_of, rising
+from tests.plate_section import ATTACHED, CHORD, DENSITY, PLATE, POLAR, THIN, damped
 
 from equisection.aerodynamics.polar import Polar
 from equisection.errors import EquisectionError

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.plate_section import ASSEMBLED, ATTACHED, CHORD, DENSITY, PLATE, POLAR, THIN, damped
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
@@ -24,22 +24,6 @@ from equisection.motion.stability_map import MapLine, map_lines
 from equisection.motion.static_branch import BranchEnd, StaticBranch
 from equisection.motion.steady_states import equilibrium, jacobian, least_stable_eigenvalue
 
-POLAR = Polar.read(Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv")
-THIN = Polar.flat_plate(10.0)
-ATTACHED = SeparationLags.none()
-#: Lags of the independent assembly.
-ASSEMBLED = SeparationLags(2.58, 0.64, 0.55)
-DENSITY = 1.18
-
-#: The paper's plate, its consistent section in closed form: a clamped-free beam of GJ, EI.
-CHORD, LENGTH, THICKNESS, E, NU, SOLID = 0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0
-PLATE = Section(
-    torsional_stiffness=E / (2 + 2 * NU) * CHORD * THICKNESS**3 / 3 * (math.pi / 2 / LENGTH) ** 2,
-    flexural_stiffness=E * CHORD * THICKNESS**3 / 12 * (1.8751040687 / LENGTH) ** 4,
-    inertia=SOLID * CHORD**3 * THICKNESS / 12,
-    mass=SOLID * CHORD * THICKNESS,
-    chord=CHORD,
-)
 #: A section whose deflection follows at once: nothing is left to flutter with.
 STIFF = PLATE.model_copy(update={"flexural_stiffness": 1e4 * PLATE.flexural_stiffness})
 
@@ -51,17 +35,6 @@ def body_of(
     density: float = DENSITY,
 ) -> BodyInFlow:
     return BodyInFlow.of_section(section, UnsteadyLoads.from_polar(polar, lags), density)
-
-
-def damped(section: Section, ratio: float) -> Section:
-    """The section with the same part of critical damping in twist and in deflection."""
-    k_theta, k_w = section.torsional_stiffness, section.flexural_stiffness
-    return section.model_copy(
-        update={
-            "torsional_damping": 2 * ratio * math.sqrt(k_theta * section.inertia),
-            "flexural_damping": 2 * ratio * math.sqrt(k_w * section.mass),
-        }
-    )
 
 
 def speed_at(body: BodyInFlow, k_star: float) -> float:
