@@ -305,6 +305,19 @@ def test_jump_of_a_polar_between_rest_and_onset_is_named():
     assert jumps(POLAR) == []
 
 
+def test_what_is_unstable_at_rest_has_no_onset_after_a_band_of_stability():
+    """Two bands of twist with galloping: it starts in the first one and turns into the other."""
+    degrees = np.array([-10.0, 0.0, 4.0, 6.0, 8.0, 10.0, 14.0, 16.0, 18.0, 20.0, 30.0])
+    lift = np.array([-1.0, 0.0, 0.4, 0.5, 0.3, 0.1, 0.5, 0.6, 0.3, 0.1, 0.8])
+    polar = Polar(np.radians(degrees), 0.01 + 0.0 * degrees, lift, 0.01 * degrees, "dips")
+    line = one_line(body_of(PLATE, polar, ATTACHED), 7.0, list(np.linspace(2.0, 140.0, 70)))
+    assert [one.rises for one in line.crossings[:2]] == [False, True]
+    assert line.onset is None
+    found = critical_of(line)
+    assert math.isnan(found.critical_speed)
+    assert "unstable already" in found.note
+
+
 def test_band_of_instability_that_ends_is_named():
     """Galloping from -c_l' - c_d > 0 in a band of twist that the section leaves as it turns."""
     degrees = np.array([-10.0, -4.0, 0.0, 4.0, 6.0, 8.0, 10.0, 14.0, 20.0, 30.0])
