@@ -28,7 +28,7 @@ from equisection.beam.section import Section
 from equisection.motion.sections import release_sections
 from equisection.results.netcdf import read_dataset
 from equisection.results.recorded_history import read_reference_history
-from equisection.verdict.growth import Growth, growth_of
+from equisection.verdict.growth import AFTER_RELEASE, Growth, growth_of
 from tests.benchmarks.measure import Row, limit
 from tests.workflow.project import ROOT
 
@@ -36,7 +36,8 @@ REFERENCE = ROOT / "results" / "reference"
 Sweep = dict[float, ReferenceHistory]
 #: k* between which growth rates are compared.
 COMPARED = (5.5, 14.0)
-#: Growth of CFD and model is read from the last five periods before this time (c/V).
+#: Growth of CFD and model is read from the last 5.4 natural periods of the pitch before this time
+#: (c/V).
 UNTIL = 100.0
 
 
@@ -199,7 +200,7 @@ def _k_star(path: Path) -> float:
 
 def _window(history: ReferenceHistory) -> tuple[float, float]:
     end = min(UNTIL, float(history.time[-1]))
-    return max(10.0, end - 5.4 / natural_frequencies(history.section)[0]), end
+    return max(AFTER_RELEASE, end - 5.4 / natural_frequencies(history.section)[0]), end
 
 
 def _recorded(history: ReferenceHistory) -> float:

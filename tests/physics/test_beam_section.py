@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 
 import pytest
-from tests.physics.test_stability import DENSITY, PLATE, POLAR
+from tests.plate_section import DENSITY, PLATE, POLAR
 
 import equisection as eq
 from equisection.beam.beam import CrossSection

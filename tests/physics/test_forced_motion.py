@@ -63,6 +63,19 @@ def answers(raw: dict[str, Any], **forced: Any) -> ForcedAnswers:
     )
 
 
+def test_history_that_ends_before_the_motion_has_set_in_is_refused_by_name() -> None:
+    config = load_config({**PLATE, "forced": {"run": True}})
+    solver = solver_from_config(config, config.steady.resolution)
+    assert isinstance(solver, Adapter)
+    name = forced_names(config)[0]
+    case = forced_case(config, name, solver)
+    (result,) = solver.run_forced([case], Path(), lambda now, end: None)
+    data = result.of_case(case)
+    short = data.isel(time=data["time"] < 0.5 * case.settling)
+    with pytest.raises(ResultFileError, match=rf"{name}: its history ends at .*; run it again"):
+        derivatives_of({name: (case, short)})
+
+
 def test_lags_of_the_wake_are_those_of_theodorsen() -> None:
     """C(0) = 1, C(infinity) = 1/2, and a hundredth of a per cent between; Jones has 2.3 %."""
     k, lags = np.geomspace(0.005, 5.0, 997), accurate_lags()

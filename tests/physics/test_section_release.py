@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.physics.test_stability import CHORD, DENSITY, PLATE, POLAR, speed_of
+from tests.plate_section import CHORD, DENSITY, PLATE, POLAR, speed_of
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags

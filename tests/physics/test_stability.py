@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
 import xarray as xr
 from scipy.optimize import brentq
+from tests.plate_section import (
+    ASSEMBLED,
+    ATTACHED,
+    CHORD,
+    DENSITY,
+    PLATE,
+    POLAR,
+    THIN,
+    damped,
+    speed_of,
+)
 
 from equisection.aerodynamics.polar import Polar
-from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
+from equisection.aerodynamics.separation import IDENTIFIED_LAGS
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.errors import ArgumentError, IncidenceOutOfRangeError
@@ -19,40 +29,10 @@ from equisection.motion.sections import section_system
 from equisection.motion.stability import critical_speed, stability
 from equisection.motion.static_branch import BranchEnd, StaticBranch, section_equilibrium
 from equisection.motion.steady_states import equilibrium, jacobian, least_stable_eigenvalue
+from equisection.validation.flutter_values import deck
 
-POLARS = Path(__file__).parents[2] / "config/polars"
-POLAR = Polar.read(POLARS / "plate_2d_11136.csv")
-#: The same without its drag, which turns with the wind: what an independent assembly left out.
+#: Its polar without drag, which turns with the wind: what the independent assembly left out.
 DRAGLESS = Polar(POLAR.incidence, np.zeros_like(POLAR.drag), POLAR.lift, POLAR.moment, "no drag")
-THIN = Polar.flat_plate(10.0)
-ATTACHED = SeparationLags.none()
-#: Lags of the independent assembly, which lags all lift; so does the model beyond 2 deg.
-ASSEMBLED = SeparationLags(2.58, 0.64, 0.55)
-DENSITY = 1.18
-
-#: The paper's plate, its consistent section in closed form: a clamped-free beam of GJ, EI.
-CHORD, LENGTH, THICKNESS, E, NU, SOLID = 0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0
-PLATE = Section(
-    torsional_stiffness=E / (2 + 2 * NU) * CHORD * THICKNESS**3 / 3 * (math.pi / 2 / LENGTH) ** 2,
-    flexural_stiffness=E * CHORD * THICKNESS**3 / 12 * (1.8751040687 / LENGTH) ** 4,
-    inertia=SOLID * CHORD**3 * THICKNESS / 12,
-    mass=SOLID * CHORD * THICKNESS,
-    chord=CHORD,
-)
-#: Deck of the benchmark of IABSE's task group 3.1 (Diana et al., Struct. Eng. Int. 30, 2020): its
-#: mass, inertia and natural frequencies.
-DECK = Section(
-    torsional_stiffness=2.47e6 * (2 * math.pi * 0.278) ** 2,
-    flexural_stiffness=22740.0 * (2 * math.pi * 0.1) ** 2,
-    inertia=2.47e6,
-    mass=22740.0,
-    chord=31.0,
-)
-
-
-def speed_of(section: Section, k_star: float, density: float = DENSITY) -> float:
-    """Speed (m/s) at which a section has a k*."""
-    return math.sqrt(section.k_star(density, 1.0) / k_star)
 
 
 def test_eigenvalues_of_the_plate():
@@ -122,7 +102,12 @@ def test_deck_of_the_benchmark_flutters_where_it_is_known_to(incidence_deg):
     Attached flow is linear, so that the incidence does not matter.
     """
     onset = critical_speed(
-        DECK, THIN, incidence_deg=incidence_deg, speed=(20.0, 120.0), density=1.22, lags=ATTACHED
+        deck(0.0),
+        THIN,
+        incidence_deg=incidence_deg,
+        speed=(20.0, 120.0),
+        density=1.22,
+        lags=ATTACHED,
     )
     assert float(onset["critical_speed"]) == pytest.approx(76.165, abs=1e-3)
     assert float(onset["critical_speed"]) == pytest.approx(76.68, rel=0.01)
@@ -326,17 +311,6 @@ def test_a_range_is_two_rising_speeds(speed):
         critical_speed(PLATE, POLAR, incidence_deg=2.5, speed=speed)
 
 
-def damped(section: Section, ratio: float) -> Section:
-    """The section with the same part of critical damping in twist and in deflection."""
-    k_theta, k_w = section.torsional_stiffness, section.flexural_stiffness
-    return section.model_copy(
-        update={
-            "torsional_damping": 2 * ratio * math.sqrt(k_theta * section.inertia),
-            "flexural_damping": 2 * ratio * math.sqrt(k_w * section.mass),
-        }
-    )
-
-
 @pytest.mark.parametrize(
     ("ratio", "k_star"), [(0.003, 8.039), (0.005, 7.685), (0.01, 6.999), (0.02, 6.095)]
 )
@@ -379,7 +353,7 @@ def test_onset_of_the_damped_plate_over_incidence(ratio, known):
 def test_damped_deck_flutters_a_little_later():
     """77.24 m/s at 0.3 per cent by Theodorsen's function, 76.679 with Jones's two states."""
     onset = critical_speed(
-        damped(DECK, 0.003),
+        deck(0.003),
         THIN,
         incidence_deg=0.0,
         speed=(20.0, 120.0),

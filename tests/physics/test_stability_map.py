@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.plate_section import ASSEMBLED, ATTACHED, CHORD, DENSITY, PLATE, POLAR, THIN, damped
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
@@ -24,22 +24,6 @@ from equisection.motion.stability_map import MapLine, map_lines
 from equisection.motion.static_branch import BranchEnd, StaticBranch
 from equisection.motion.steady_states import equilibrium, jacobian, least_stable_eigenvalue
 
-POLAR = Polar.read(Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv")
-THIN = Polar.flat_plate(10.0)
-ATTACHED = SeparationLags.none()
-#: Lags of the independent assembly.
-ASSEMBLED = SeparationLags(2.58, 0.64, 0.55)
-DENSITY = 1.18
-
-#: The paper's plate, its consistent section in closed form: a clamped-free beam of GJ, EI.
-CHORD, LENGTH, THICKNESS, E, NU, SOLID = 0.1, 0.37, 0.004, 3.3e9, 0.35, 1180.0
-PLATE = Section(
-    torsional_stiffness=E / (2 + 2 * NU) * CHORD * THICKNESS**3 / 3 * (math.pi / 2 / LENGTH) ** 2,
-    flexural_stiffness=E * CHORD * THICKNESS**3 / 12 * (1.8751040687 / LENGTH) ** 4,
-    inertia=SOLID * CHORD**3 * THICKNESS / 12,
-    mass=SOLID * CHORD * THICKNESS,
-    chord=CHORD,
-)
 #: A section whose deflection follows at once: nothing is left to flutter with.
 STIFF = PLATE.model_copy(update={"flexural_stiffness": 1e4 * PLATE.flexural_stiffness})
 
@@ -51,17 +35,6 @@ def body_of(
     density: float = DENSITY,
 ) -> BodyInFlow:
     return BodyInFlow.of_section(section, UnsteadyLoads.from_polar(polar, lags), density)
-
-
-def damped(section: Section, ratio: float) -> Section:
-    """The section with the same part of critical damping in twist and in deflection."""
-    k_theta, k_w = section.torsional_stiffness, section.flexural_stiffness
-    return section.model_copy(
-        update={
-            "torsional_damping": 2 * ratio * math.sqrt(k_theta * section.inertia),
-            "flexural_damping": 2 * ratio * math.sqrt(k_w * section.mass),
-        }
-    )
 
 
 def speed_at(body: BodyInFlow, k_star: float) -> float:
@@ -330,6 +303,19 @@ def test_jump_of_a_polar_between_rest_and_onset_is_named():
     assert "jumps between 3 and 4 deg" in found[0].note
     assert "jumps" not in found[1].note
     assert jumps(POLAR) == []
+
+
+def test_what_is_unstable_at_rest_has_no_onset_after_a_band_of_stability():
+    """Two bands of twist with galloping: it starts in the first one and turns into the other."""
+    degrees = np.array([-10.0, 0.0, 4.0, 6.0, 8.0, 10.0, 14.0, 16.0, 18.0, 20.0, 30.0])
+    lift = np.array([-1.0, 0.0, 0.4, 0.5, 0.3, 0.1, 0.5, 0.6, 0.3, 0.1, 0.8])
+    polar = Polar(np.radians(degrees), 0.01 + 0.0 * degrees, lift, 0.01 * degrees, "dips")
+    line = one_line(body_of(PLATE, polar, ATTACHED), 7.0, list(np.linspace(2.0, 140.0, 70)))
+    assert [one.rises for one in line.crossings[:2]] == [False, True]
+    assert line.onset is None
+    found = critical_of(line)
+    assert math.isnan(found.critical_speed)
+    assert "unstable already" in found.note
 
 
 def test_band_of_instability_that_ends_is_named():

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.physics.test_stability import ATTACHED, DECK, DENSITY, PLATE, THIN, speed_of
+from tests.plate_section import ATTACHED, DENSITY, PLATE, POLAR, THIN, speed_of
 
-from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS
 from equisection.aerodynamics.span_strips import cosine_strips
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
@@ -23,9 +21,8 @@ from equisection.motion.steady_states import (
     rigid_state,
 )
 from equisection.solvers.embedded.section_release import release
+from equisection.validation.flutter_values import deck
 from equisection.verdict.cycles import find_cycles
-
-POLAR = Polar.read(Path(__file__).parents[2] / "config/polars/plate_2d_11136.csv")
 
 
 def growth_of(time: np.ndarray, twist: np.ndarray, after: float) -> float:
@@ -38,7 +35,7 @@ def growth_of(time: np.ndarray, twist: np.ndarray, after: float) -> float:
 
 def test_symmetric_section_at_zero_stays_where_it_is():
     """An exact equilibrium at a speed at which it is unstable: what the start is for."""
-    section = DECK.in_flow(1.22, 82.0)
+    section = deck(0.0).in_flow(1.22, 82.0)
     loads = UnsteadyLoads.from_polar(THIN, ATTACHED)
     assert least_stable_eigenvalue(section_system([section], loads, 0.0))[0].real > 0.02
     history = release_sections([section], loads, 0.0, 300.0)
@@ -51,7 +48,7 @@ def test_symmetric_section_at_zero_stays_where_it_is():
 )
 def test_deck_from_a_twist_grows_as_its_eigenvalue(speed, growth, eigenvalue):
     """The deck of IABSE TG3.1 at 0 deg from 0.1 deg of twist, on either side of 76.2 m/s."""
-    section = DECK.in_flow(1.22, speed)
+    section = deck(0.0).in_flow(1.22, speed)
     loads = UnsteadyLoads.from_polar(THIN, ATTACHED)
     exact = least_stable_eigenvalue(section_system([section], loads, 0.0))[0].real
     assert exact == pytest.approx(eigenvalue, abs=1e-5)

@@ -246,6 +246,17 @@ def test_design_speed_has_the_loads_of_statics(config: Config, models: list[Mapp
     assert row["damping_ratio"] > 0.0
 
 
+def test_design_speed_above_the_map_is_said(config: Config, models: list[MappedModel]) -> None:
+    """The body has an equilibrium there, which nobody has looked at."""
+    highest = models[0].lines[0].highest
+    assert models[0].lines[0].path.end_speed > 1.001 * highest
+    for speed, note in ((1.001 * highest, f"above {highest:.4g} m/s"), (highest, "")):
+        flow = config.flow.model_copy(update={"design_speed": speed})
+        row = in_use(models[:1], config.model_copy(update={"flow": flow})).iloc[0]
+        assert row["note"].startswith(note)
+        assert math.isnan(row["tip_twist_deg"]) == bool(note)
+
+
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize(
     "entry", [one for one in catalogue.CATALOGUE if one.job() == MAP], ids=lambda one: one.name

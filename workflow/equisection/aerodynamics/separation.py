@@ -118,7 +118,7 @@ class Branches:
         return cls(polar, polar.lift_slope(alpha), polar.moment_slope(alpha))
 
     def lag_share(self, alpha: Floats) -> Floats:
-        """B at ``alpha`` (rad, any shape), 0 to 1; NaN where the polar has no value."""
+        """Share b of the lift that lags at ``alpha`` (rad, any shape); NaN beyond the polar."""
         return np.interp(alpha, *self._lag_shares, left=np.nan, right=np.nan)
 
     @cached_property

@@ -34,6 +34,8 @@ COLUMNS = (
     "basis",
     "energy_share",
 )
+#: Those of a table that has no margin yet.
+BEFORE_MARGIN = tuple(name for name in COLUMNS if name != "margin")
 #: Basis of a speed: runs of CFD, runs in time of another solver, a model that was learnt from runs,
 #: eigenvalues, or flutter derivatives.
 CFD, TIME, MODEL, EIGENVALUE = "cfd", "time", "model", "eigenvalue"
@@ -66,7 +68,7 @@ def from_runs(
     Returns
     -------
     pd.DataFrame
-        :data:`COLUMNS` without the margin. The speed is the middle of the bracket from
+        :data:`BEFORE_MARGIN`. The speed is the middle of the bracket from
         ``speed_low``, stable, to ``speed_high``, unstable. Where one side is open the speed is NaN,
         and the mechanism of a model that is stable throughout is ``none``, but ``unknown`` where
         runs failed beyond the last stable one. Without an
@@ -100,7 +102,7 @@ def from_runs(
                 "energy_share": math.nan,
             }
         )
-    return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
+    return pd.DataFrame(rows, columns=list(BEFORE_MARGIN))
 
 
 def _basis(solvers: Iterable[str], bases: Mapping[str, str]) -> str:
@@ -162,7 +164,7 @@ def from_learnt(learnt: Iterable[xr.Dataset], *, given: AsGiven, chord: float) -
                 "basis": MODEL,
             }
         )
-    return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
+    return pd.DataFrame(rows, columns=list(BEFORE_MARGIN))
 
 
 def from_eigenvalues(
@@ -192,7 +194,7 @@ def from_eigenvalues(
     Returns
     -------
     pd.DataFrame
-        :data:`COLUMNS` without the margin. ``energy_share`` (-) is the largest part of the power of
+        :data:`BEFORE_MARGIN`. ``energy_share`` (-) is the largest part of the power of
         the air, by which an oscillation's mechanism is named.
     """
     rows = []
@@ -224,7 +226,7 @@ def from_eigenvalues(
                     "energy_share": max(float(one[name]) for name in SHARES),
                 }
             )
-    return pd.DataFrame(rows, columns=[name for name in COLUMNS if name != "margin"])
+    return pd.DataFrame(rows, columns=list(BEFORE_MARGIN))
 
 
 def from_map(stability: pd.DataFrame) -> pd.DataFrame:
@@ -232,7 +234,7 @@ def from_map(stability: pd.DataFrame) -> pd.DataFrame:
     known = stability[np.isfinite(stability["incidence_deg"])].assign(
         basis=EIGENVALUE, energy_share=lambda table: table[list(SHARES)].max(axis=1)
     )
-    return known[[name for name in COLUMNS if name != "margin"]]
+    return known[list(BEFORE_MARGIN)]
 
 
 def with_margin(tables: Iterable[pd.DataFrame], design_speed: float | None) -> pd.DataFrame:

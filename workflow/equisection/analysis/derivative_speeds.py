@@ -8,7 +8,7 @@ from collections.abc import Callable, Mapping
 import pandas as pd
 
 from equisection.aerodynamics.derivatives import Derivatives
-from equisection.analysis.critical_speeds import COLUMNS, DERIVATIVES
+from equisection.analysis.critical_speeds import BEFORE_MARGIN, DERIVATIVES
 from equisection.motion.derivative_flutter import FlowingBody, derivative_onset
 from equisection.study.axes import AsGiven
 
@@ -77,5 +77,4 @@ def from_derivatives(
                 "basis": DERIVATIVES,
             }
         )
-    names = [name for name in COLUMNS if name != "margin"]
-    return pd.DataFrame(rows, columns=names), remarks
+    return pd.DataFrame(rows, columns=list(BEFORE_MARGIN)), remarks

@@ -76,13 +76,14 @@ def _record(name: str, case: ForcedCase, data: xr.Dataset) -> xr.Dataset:
     """Return the samples after the settling time."""
     if data.attrs.get("failure"):
         raise ResultFileError(f"forced case {name}: {data.attrs['failure']}")
-    kept = data.isel(time=data["time"].to_numpy() >= case.settling - 1e-9)
-    if float(kept["time"][-1]) < case.duration - 2.0 * case.output_interval:
+    time = data["time"].to_numpy()
+    end = float(time.max(initial=0.0))
+    if end < case.duration - 2.0 * case.output_interval:
         raise ResultFileError(
-            f"forced case {name}: its history ends at {float(kept['time'][-1]):g} c/V of "
-            f"{case.duration:g}; run it again"
+            f"forced case {name}: its history ends at {end:g} c/V of {case.duration:g}; "
+            "run it again"
         )
-    return kept
+    return data.isel(time=time >= case.settling - 1e-9)
 
 
 def _per_motion(

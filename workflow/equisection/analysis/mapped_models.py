@@ -28,7 +28,7 @@ from equisection.study.axes import SPEED, AsGiven, Point, onset_axis, varied
 Floats = NDArray[np.float64]
 
 #: Columns of ``comparison/stability.csv`` by the members of :class:`Critical`, with the factor of
-#: their units.
+#: their units; None of words.
 _COLUMNS = {
     "speed": ("critical_speed", 1.0),
     "speed_low": ("speed_low", 1.0),
@@ -180,9 +180,7 @@ def stability_table(models: Sequence[MappedModel], design_speed: float | None) -
 
 def _row(model: str, incidence_deg: float, critical: Critical) -> dict[str, object]:
     values = {
-        column: getattr(critical, member) * (1.0 if factor is None else factor)
-        if factor is not None
-        else getattr(critical, member)
+        column: getattr(critical, member) * factor if factor else getattr(critical, member)
         for column, (member, factor) in _COLUMNS.items()
     }
     return {"model": model, "incidence_deg": round(incidence_deg, 9), **values}

@@ -96,24 +96,22 @@ def checked_in_time(
     """
     words: dict[str, list[str]] = {name: [] for name in (*RELEASES, "in_time")}
     for model in models:
-        lines = [line for line in model.lines if line.onset is not None]
         wanted = [
             MapRelease(line, factor * line.onset.speed, twist)
-            for line in lines
+            for line in model.lines
             if line.onset is not None
             for factor, twist in RELEASES.values()
         ]
-        verdicts = released(wanted, config)
-        for line in model.lines or ():
-            if line not in lines:
-                found: list[dict[str, Any]] = []
-            else:
-                start = len(RELEASES) * lines.index(line)
-                found = verdicts[start : start + len(RELEASES)]
-            by_name = dict(zip(RELEASES, found, strict=False))
-            for name in RELEASES:
-                words[name].append(_regime(by_name[name]) if by_name else "")
-            words["in_time"].append(_agreement(by_name, line) if by_name else "")
+        verdicts = iter(released(wanted, config))
+        for line in model.lines:
+            if line.onset is None:
+                for column in words.values():
+                    column.append("")
+                continue
+            by_name = {name: next(verdicts) for name in RELEASES}
+            for name, verdict in by_name.items():
+                words[name].append(_regime(verdict))
+            words["in_time"].append(_agreement(by_name, line))
         if model.refusal:
             for column in words.values():
                 column.append("")
@@ -190,7 +188,7 @@ def in_use(models: Sequence[MappedModel], config: Config) -> pd.DataFrame:
 
 
 def _is_there(line: MapLine, speed: float) -> bool:
-    return line.exists and speed < min(line.path.end_speed, line.highest)
+    return line.exists and speed < line.path.end_speed and speed <= line.highest
 
 
 def _at_design(
@@ -212,6 +210,8 @@ def _at_design(
         "note": "no equilibrium at this speed",
     }
     if verdict is None:
+        if line.exists and speed < line.path.end_speed:
+            row["note"] = f"above {line.highest:.4g} m/s, the highest speed that was looked at"
         return row
     system, states, deficits = line.path.system(np.array([speed]))
     twist, deflection = body.tip(states)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import matplotlib
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
 
-from equisection.figures.map_shown import mark_design_speed, say_origin
+from equisection.figures.map_shown import (
+    first_modes,
+    mark_design_speed,
+    say_origin,
+    spread_incidences,
+)
 from equisection.figures.models import LOOKS
 from equisection.figures.panels import letter
 from equisection.figures.style import LIGHT_GREY, PAGE_WIDTH
@@ -17,9 +21,7 @@ from equisection.results.netcdf import read_dataset
 
 #: Part of the design speed up to which the damping is drawn.
 _UP_TO = 1.2
-_MOST_INCIDENCES, _MOST_MODELS = 7, 3
-#: Modes of each kind that count; higher ones have next to no damping but that of the structure.
-_MODES = 2
+_MOST_MODELS = 3
 
 
 def from_files(stability_map: Path, design_speed: float | None) -> Figure:
@@ -41,20 +43,14 @@ def draw(stability_map: xr.Dataset, design_speed: float | None) -> Figure:
         shown = stability_map["speed"].values <= _UP_TO * design_speed
         stability_map = stability_map.isel(speed=np.flatnonzero(shown))
     names = [str(name) for name in stability_map["model"].values][:_MOST_MODELS]
-    drawn = [name for name in stability_map["mode"].values if int(str(name).split()[-1]) <= _MODES]
+    drawn, incidences = first_modes(stability_map), spread_incidences(stability_map)
     figure = Figure(figsize=(PAGE_WIDTH, 3.4))
     panels = np.atleast_1d(figure.subplots(1, len(names), sharey=True))
-    angles = stability_map["incidence_deg"].values
-    places = np.unique(
-        np.linspace(0, angles.size - 1, min(_MOST_INCIDENCES, angles.size)).astype(int)
-    )
-    colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.9, places.size))
     for axes, name, mark in zip(panels, names, "abc", strict=False):
         one = stability_map.sel(model=name)
         least = 100.0 * one["mode_damping"].sel(mode=drawn).min("mode", skipna=True)
-        for place, colour in zip(places, colours, strict=True):
-            line = least.isel(incidence_deg=int(place))
-            axes.plot(one["speed"], line, color=colour, label=f"{angles[place]:g} deg")
+        for place, label, colour in incidences:
+            axes.plot(one["speed"], least.isel(incidence_deg=place), color=colour, label=label)
         axes.axhline(0.0, color=LIGHT_GREY, linewidth=0.8)
         mark_design_speed(axes, design_speed, upright=True)
         axes.set_xlabel("$V$ (m/s)")

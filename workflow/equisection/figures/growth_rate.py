@@ -101,8 +101,7 @@ def _by_learnt_models(
             seen[name],
             color=look.colour,
             linewidth=0.8,
-            label=f"{look.label}, {data.attrs['words'].split(' from ')[0]} at "
-            f"{data.attrs['words'].split(' at ')[-1]}",
+            label=f"{look.label}, model learnt at k* = {data.attrs['learnt_from_k_star']:g}",
         )
 
 

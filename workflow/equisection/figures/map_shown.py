@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import matplotlib
+import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -20,6 +22,10 @@ MARKERS_OF_MECHANISMS = {
     "galloping": "^",
     "unknown": "x",
 }
+#: Incidences whose lines a panel has at most.
+_MOST_INCIDENCES = 7
+#: Modes of each kind that are drawn; higher ones have next to no damping but that of the structure.
+_MODES = 2
 
 
 def models_of(stability_map: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
@@ -31,6 +37,26 @@ def models_of(stability_map: xr.Dataset) -> Iterator[tuple[xr.Dataset, Look]]:
 def nearest_incidence(stability_map: xr.Dataset, incidence_deg: float) -> xr.Dataset:
     """Return the map at the incidence nearest to one (deg)."""
     return stability_map.sel(incidence_deg=incidence_deg, method="nearest")
+
+
+def spread_incidences(
+    stability_map: xr.Dataset,
+) -> list[tuple[int, str, tuple[float, ...]]]:
+    """Return places, labels and colours of incidences spread over those of a map."""
+    angles = stability_map["incidence_deg"].values
+    chosen = np.linspace(0, angles.size - 1, min(_MOST_INCIDENCES, angles.size))
+    places = np.unique(chosen.astype(int)).tolist()
+    colours = matplotlib.colormaps["viridis"](np.linspace(0.0, 0.9, len(places)))
+    return [
+        (place, f"{angles[place]:g} deg", tuple(colour))
+        for place, colour in zip(places, colours, strict=True)
+    ]
+
+
+def first_modes(stability_map: xr.Dataset) -> list[str]:
+    """Return the names of the first modes of each kind."""
+    names = [str(name) for name in stability_map["mode"].values]
+    return [name for name in names if int(name.split()[-1]) <= _MODES]
 
 
 def mark_design_speed(axes: Axes, speed: float | None, *, upright: bool) -> None:

@@ -9,6 +9,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 from equisection.figures.map_shown import (
+    first_modes,
     mark_design_speed,
     models_of,
     nearest_incidence,
@@ -18,8 +19,6 @@ from equisection.figures.panels import letter
 from equisection.figures.style import DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.results.netcdf import read_dataset
 
-#: Modes of each kind that are drawn.
-_DRAWN = 2
 #: Damping ratios (%) that the panel shows at most.
 _MOST_DAMPING = 12.0
 
@@ -44,7 +43,7 @@ def draw(stability_map: xr.Dataset, incidence_deg: float, design_speed: float | 
     chosen = nearest_incidence(stability_map, incidence_deg)
     figure = Figure(figsize=(PAGE_WIDTH, 3.6))
     left, right = figure.subplots(1, 2)
-    names = [str(name) for name in chosen["mode"].values if int(str(name).split()[-1]) <= _DRAWN]
+    names = first_modes(chosen)
     lowest = 0.0
     for one, look in models_of(chosen):
         for name, dash in zip(names, DASHES, strict=False):

@@ -68,8 +68,8 @@ class _StaticMap:
 
     def __init__(self, body: BodyInFlow, incidence_rad: float) -> None:
         two = np.array([1.0, 2.0]) * body.speed
-        self.system = body.system(two, np.full(2, incidence_rad)).of(np.array([True, False]))
         both = body.system(two, np.full(2, incidence_rad))
+        self.system = both.of(np.array([True, False]))
         n, strips = both.layout.size, both.layout.strips
         first, second = both.rates[:, :, :n]
         over = 1.0 / two**2

@@ -77,7 +77,7 @@ def critical_of(line: MapLine) -> Critical:
         return Critical(note="there is no equilibrium at any speed")
     notes = [*_humps_in_words(line), *_crossings_in_words(line)]
     fold = line.path.end_speed if line.path.end is BranchEnd.FOLD else math.nan
-    if line.onset is not None and not line.is_unstable_at_rest:
+    if line.onset is not None:
         return _of_onset(line, line.onset.low, line.onset.high, fold, notes)
     return _without_crossing(line, fold, notes)
 
@@ -129,7 +129,7 @@ def _of_onset(line: MapLine, low: float, high: float, fold: float, notes: list[s
     turned, lifted = line.body.tip(shape)
     ratio = lifted / turned if turned != 0.0 else complex(math.nan)
     rate = (p.real[1] * high - p.real[0] * low) / chord / (high - low)
-    if abs(p[1].imag) == 0.0:
+    if p[1].imag == 0.0:
         fold = speed
     return Critical(
         critical_speed=speed,

@@ -43,7 +43,7 @@ class LearntHistories:
     twist, deflection
         theta (rad) and w/c, shape (n, N).
     farthest
-        Least and greatest incidence (rad) from LEARN_FROM on, shape (N, 2).
+        Least and greatest incidence (rad), shape (N, 2).
     ends
         End of each history (c/V), shape (N,).
     """

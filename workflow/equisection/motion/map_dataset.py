@@ -167,7 +167,7 @@ def _motions(lines: Sequence[MapLine]) -> dict[str, Any]:
     shape = (len(lines), structure.strips)
     twist, deflection = np.full((2, *shape), np.nan, dtype=np.complex128)
     for row, line in enumerate(lines):
-        if line.onset is None or line.is_unstable_at_rest:
+        if line.onset is None:
             continue
         _, vector = line.mode_at(line.place(line.onset.speed))
         tip, _ = line.body.tip(vector)

@@ -243,24 +243,23 @@ def _followed(spectrum: Spectrum, system: StripSystem) -> FollowedModes:
     if spectrum.speed.size > 1:
         unclear = _clearness(spectrum, places) < CLEAR
         for step in np.flatnonzero(unclear.any(axis=1)):
-            one, other = _the_two(spectrum, places, int(step), int(unclear[step].argmax()))
-            if one is not None and other is not None:
-                pair = sorted((names[one], names[other]))
+            mode = int(unclear[step].argmax())
+            other = _like(spectrum, places, int(step), mode)
+            if other is not None:
+                pair = sorted((names[mode], names[other]))
                 crossings.append((float(spectrum.speed[step]), pair[0], pair[1]))
     return FollowedModes(spectrum, names, places, _of_each_pair(crossings))
 
 
-def _the_two(
-    spectrum: Spectrum, places: NDArray[np.intp], step: int, mode: int
-) -> tuple[int | None, int | None]:
-    """Return a mode and the other mode that it cannot be told from, if that is one."""
+def _like(spectrum: Spectrum, places: NDArray[np.intp], step: int, mode: int) -> int | None:
+    """Return the other mode that one cannot be told from; None if that is no mode."""
     second = np.argsort(spectrum.likeness[step, places[step, mode]])[-2:]
-    others = [
+    others = (
         number
         for number, place in enumerate(places[step + 1])
         if place in second and number != mode
-    ]
-    return mode, (others[0] if others else None)
+    )
+    return next(others, None)
 
 
 def _of_each_pair(

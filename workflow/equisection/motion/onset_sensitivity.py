@@ -207,9 +207,8 @@ class FollowedOnset:
             values = line.modes.values[:, names.index(self.critical.critical_mode)].real
         else:
             values = line.least_stable.real
-        values = np.insert(values, int(np.searchsorted(speed, self.speed)), 0.0)
-        speed = np.insert(speed, int(np.searchsorted(speed, self.speed)), self.speed)
         onset = int(np.searchsorted(speed, self.speed))
+        values, speed = np.insert(values, onset, 0.0), np.insert(speed, onset, self.speed)
         below = np.flatnonzero(values[: onset + 1] <= -growth)
         above = np.flatnonzero(values[onset:] >= growth) + onset
         low = _between(speed, values, int(below[-1]), -growth) if below.size else 0.0
@@ -226,8 +225,8 @@ def _between(speed: Floats, values: Floats, place: int, wanted: float) -> float:
 def _least_stable(spectrum: Spectrum) -> int:
     """Place of the largest growth, of a pair that of the positive frequency."""
     values = spectrum.values[0]
-    least = int(values.real.argmax())
-    return _pair(spectrum, least)[int(values[_pair(spectrum, least)].imag.argmax())]
+    pair = _pair(spectrum, int(values.real.argmax()))
+    return pair[int(values[pair].imag.argmax())]
 
 
 def _pair(spectrum: Spectrum, place: int) -> list[int]:

@@ -127,7 +127,13 @@ class MapLine:
 
     @property
     def onset(self) -> Crossing | None:
-        """First loss of stability that eigenvalues tell; None without one."""
+        """First loss of stability that eigenvalues tell; None without one.
+
+        There is none where a motion grows already at the lowest speed: what is lost again at a
+        higher one, after a hump, is no onset.
+        """
+        if self.is_unstable_at_rest:
+            return None
         return next((one for one in self.crossings if one.rises), None)
 
     @property

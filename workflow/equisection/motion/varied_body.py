@@ -69,40 +69,18 @@ def _with(body: BodyInFlow, **changes: Any) -> BodyInFlow:
     return replace(body, structure=replace(body.structure, **changes))
 
 
-def _heavier(body: BodyInFlow, part: float) -> BodyInFlow:
-    one, factor = body.structure, 1.0 + part
-    return _with(
-        body,
-        bending_mass=factor * one.bending_mass,
-        bending_damping=math.sqrt(factor) * one.bending_damping,
-    )
+def _scaled(member: str, damping: str) -> Change:
+    """Return the change of a mass, inertia or stiffness under which the damping ratios stay."""
 
+    def changed(body: BodyInFlow, part: float) -> BodyInFlow:
+        one, factor = body.structure, 1.0 + part
+        values = {
+            member: factor * getattr(one, member),
+            damping: math.sqrt(factor) * getattr(one, damping),
+        }
+        return _with(body, **values)
 
-def _of_more_inertia(body: BodyInFlow, part: float) -> BodyInFlow:
-    one, factor = body.structure, 1.0 + part
-    return _with(
-        body,
-        torsion_inertia=factor * one.torsion_inertia,
-        torsion_damping=math.sqrt(factor) * one.torsion_damping,
-    )
-
-
-def _stiffer_in_bending(body: BodyInFlow, part: float) -> BodyInFlow:
-    one, factor = body.structure, 1.0 + part
-    return _with(
-        body,
-        bending_stiffness=factor * one.bending_stiffness,
-        bending_damping=math.sqrt(factor) * one.bending_damping,
-    )
-
-
-def _stiffer_in_torsion(body: BodyInFlow, part: float) -> BodyInFlow:
-    one, factor = body.structure, 1.0 + part
-    return _with(
-        body,
-        torsion_stiffness=factor * one.torsion_stiffness,
-        torsion_damping=math.sqrt(factor) * one.torsion_damping,
-    )
+    return changed
 
 
 def _sectional_mass(one: StripStructure) -> float:
@@ -216,13 +194,33 @@ def _dimensional(member: str, chords: int, speeds: int) -> Callable[[BodyInFlow,
 #: Parameters of any body, in the order of tables. Lift, moment and drag scale the whole polar; the
 #: value of the first two is the slope at zero lift, that of the drag a factor.
 PARAMETERS = (
-    BodyParameter("mass", "kg/m", True, _dimensional("bending_mass", 2, 0), _heavier),
-    BodyParameter("inertia", "kg m", True, _dimensional("torsion_inertia", 4, 0), _of_more_inertia),
     BodyParameter(
-        "k_w", "N/m2", True, _dimensional("bending_stiffness", 0, 2), _stiffer_in_bending
+        "mass",
+        "kg/m",
+        True,
+        _dimensional("bending_mass", 2, 0),
+        _scaled("bending_mass", "bending_damping"),
     ),
     BodyParameter(
-        "k_theta", "N/rad", True, _dimensional("torsion_stiffness", 2, 2), _stiffer_in_torsion
+        "inertia",
+        "kg m",
+        True,
+        _dimensional("torsion_inertia", 4, 0),
+        _scaled("torsion_inertia", "torsion_damping"),
+    ),
+    BodyParameter(
+        "k_w",
+        "N/m2",
+        True,
+        _dimensional("bending_stiffness", 0, 2),
+        _scaled("bending_stiffness", "bending_damping"),
+    ),
+    BodyParameter(
+        "k_theta",
+        "N/rad",
+        True,
+        _dimensional("torsion_stiffness", 2, 2),
+        _scaled("torsion_stiffness", "torsion_damping"),
     ),
     BodyParameter("mass_axis", "chord", False, _mass_behind, _with_mass_behind),
     BodyParameter(
