@@ -82,11 +82,7 @@ class Adapter:
     ) -> Adapter:
         """Return the solver of a case, which runs in one thread."""
         del allocation
-        data = settings["polar"]
-        polar = Polar(
-            np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
-        )
-        lags = SeparationLags(**settings["separation"])
+        polar, lags = Polar.of_settings(settings["polar"]), SeparationLags(**settings["separation"])
         return cls(polar, settings["strips"], lags, settings["incidence_point"])
 
     def settings(self, dimension: str) -> dict[str, Any]:
@@ -95,13 +91,7 @@ class Adapter:
         lags = asdict(self._lags)
         del lags["provenance"]
         return {
-            "polar": {
-                "label": self._polar.label,
-                "incidence_deg": np.degrees(self._polar.incidence).tolist(),
-                "cd": self._polar.drag.tolist(),
-                "cl": self._polar.lift.tolist(),
-                "cm": self._polar.moment.tolist(),
-            },
+            "polar": self._polar.as_settings(),
             "strips": self._strips,
             "separation": lags,
             "incidence_point": self._incidence_point,
@@ -163,11 +153,10 @@ class Adapter:
         self, cases: Sequence[ForcedCase], work: Path, progress: Progress
     ) -> list[ForcedResult]:
         """Follow the loads of each section in its prescribed motion."""
-        from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
         from equisection.solvers.embedded.forced_sections import forced_section  # noqa: PLC0415
 
         del work
-        loads = UnsteadyLoads.from_polar(self._polar, self._lags, self._incidence_point - MID_CHORD)
+        loads = self._loads()
         total, done, results = sum(case.duration for case in cases), 0.0, []
         for case in cases:
             results.append(forced_section(case, loads))

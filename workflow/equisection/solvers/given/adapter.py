@@ -69,13 +69,7 @@ class Adapter:
         return cls(
             {
                 "source": keys.source or keys.basis,
-                "polar": {
-                    "label": polar.label,
-                    "incidence_deg": np.degrees(polar.incidence).tolist(),
-                    "cd": polar.drag.tolist(),
-                    "cl": polar.lift.tolist(),
-                    "cm": polar.moment.tolist(),
-                },
+                "polar": polar.as_settings(),
                 "histories": keys.histories,
                 **{name: keys.model_dump()[name] for name in _MEANING},
             }
@@ -136,10 +130,7 @@ class Adapter:
     ) -> list[SteadyResult]:
         """Read the polar at each incidence."""
         del work
-        data = self._settings["polar"]
-        polar = Polar(
-            np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
-        )
+        polar = Polar.of_settings(self._settings["polar"])
         results = []
         for number, case in enumerate(cases, start=1):
             results.append(_of_polar(polar, case))
