@@ -24,6 +24,7 @@ from equisection.errors import HistoryFileError, IncidenceOutOfRangeError, Solve
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
+from equisection.solvers.steady_polar import section_of_polar
 
 if TYPE_CHECKING:
     from equisection.solvers.given.recorded_release import RecordedRelease
@@ -133,7 +134,12 @@ class Adapter:
         polar = Polar.of_settings(self._settings["polar"])
         results = []
         for number, case in enumerate(cases, start=1):
-            results.append(_of_polar(polar, case))
+            try:
+                results.append(
+                    section_of_polar(polar, math.radians(case.incidence_deg), "given polar")
+                )
+            except IncidenceOutOfRangeError as error:
+                results.append(SteadyResult.without_value(str(error)))
             progress(number, len(cases))
         return results
 
@@ -234,23 +240,4 @@ def _judged(path: Path, case: UnsteadyCase, record: RecordedRelease) -> Unsteady
         axis_moment=record.axis_moment[kept] if section.axis_behind_mid_chord else _NOTHING,
         incidence=history.incidence_rad + history.twist[kept],
         verdict=verdict,
-    )
-
-
-def _of_polar(polar: Polar, case: SteadyCase) -> SteadyResult:
-    alpha = math.radians(case.incidence_deg)
-    try:
-        polar.require(alpha)
-    except IncidenceOutOfRangeError as error:
-        return SteadyResult(
-            math.nan, math.nan, math.nan, _NOTHING, _NOTHING, _NOTHING, "none", failure=str(error)
-        )
-    return SteadyResult(
-        float(polar.drag_coefficient(alpha)),
-        float(polar.lift_coefficient(alpha)),
-        float(polar.moment_coefficient(alpha)),
-        _NOTHING,
-        _NOTHING,
-        _NOTHING,
-        "given polar",
     )
