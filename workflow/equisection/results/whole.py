@@ -27,12 +27,17 @@ WITHOUT_DIGEST = (
 )
 
 
-def _beyond_end(path: Path) -> int:
-    """Return how many bytes stand behind the end of HDF5 (B); negative if it is not there.
+def is_whole(path: Path) -> bool:
+    """Tell from the first bytes and the size whether an HDF5 file is as long as it says.
 
-    The layout is that of the HDF5 file format specification, "Superblock", with 8-byte addresses as
-    the library writes them.
+    Cheap (one read of 64 bytes). The layout is that of the HDF5 file format specification,
+    "Superblock", with 8-byte addresses as the library writes them.
     """
+    return _beyond_end(path) >= 0
+
+
+def _beyond_end(path: Path) -> int:
+    """Return how many bytes stand behind the end of HDF5 (B); negative if it is not there."""
     try:
         with path.open("rb") as stream:
             head = stream.read(64)
