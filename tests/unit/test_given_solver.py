@@ -19,7 +19,12 @@ from equisection.errors import ArgumentError, ConfigError
 from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import HasRecords, Solver
-from equisection.solvers.registry import check_provided, solver_from_case, solver_from_config
+from equisection.solvers.registry import (
+    check_provided,
+    missing_records,
+    solver_from_case,
+    solver_from_config,
+)
 from equisection.solvers.verdicts import TipMotion, decided_at, judge
 from equisection.store.index import read_index, read_missing
 
@@ -149,6 +154,15 @@ def test_a_case_changes_with_its_file(folder: Path, tmp_path: Path) -> None:
     assert found.verdict["regime"] == "failed"
 
 
+def test_a_folder_in_the_place_of_a_record_is_named(tmp_path: Path) -> None:
+    (tmp_path / "2d/k5.csv").mkdir(parents=True)
+    case = given_case(KEPT / "2d/k5.nc", in_folder(tmp_path))
+    assert missing_records({"k5": case}) == {
+        "k5": f"a file that cannot be read is {tmp_path}/2d/k5.csv, which given.histories names "
+        "for it"
+    }
+
+
 def test_missing_records_are_named_and_the_others_go_on(
     folder: Path, tmp_path: Path, load_script: Any
 ) -> None:
@@ -171,6 +185,7 @@ def test_missing_records_are_named_and_the_others_go_on(
         ({"given": {**RUN["given"], "polars": {}}}, r"steady\.resolution: 'coarse'"),
         ({"given": {**RUN["given"], "signs": {"twist": 0}}}, r"given\.signs\.twist: 0"),
         ({"sweep": {**RUN["sweep"], "onset": "refine"}}, r"sweep\.onset: 'refine'.* no file has"),
+        ({"forced": {"run": True}}, r"forced\.run: true.* derivatives\.table"),
     ],
     ids=str,
 )

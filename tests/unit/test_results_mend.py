@@ -11,7 +11,7 @@ from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_attributes, write_dataset
 from equisection.store.index import read_index, result_files, write_index
 from equisection.store.made_from import write_record
-from equisection.store.mend import mend, put_aside, unsound_files
+from equisection.store.mend import put_aside, unsound_files
 
 
 def result(case_hash: str) -> xr.Dataset:
@@ -30,6 +30,10 @@ def run(tmp_path: Path) -> Path:
         {name: read_attributes(folder / f"{name}.nc") for name in ("k4", "k5", "k6")},
     )
     return tmp_path
+
+
+def mend(run: Path) -> list[str]:
+    return put_aside(unsound_files(run))
 
 
 def names(run: Path) -> list[str]:

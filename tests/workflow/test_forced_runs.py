@@ -34,6 +34,13 @@ def test_both_components_go_to_one_job_of_a_solver_of_many_cases(clone: Project)
     } == dict.fromkeys(("forced_cases", "forced_batch", *FORCED), 1)
 
 
+def test_derivatives_are_made_without_the_key_if_asked_for_by_name(clone: Project) -> None:
+    project = Project(clone.folder, small(forced={"reduced_velocity": [4, 6, 8, 12]}))
+    project.run(project.target("derivatives/2d.csv"))
+    table = Derivatives.read(project.results / "derivatives/2d.csv")
+    assert table.reduced_velocity.tolist() == [4, 6, 8, 12]
+
+
 def test_each_motion_is_a_job_of_a_solver_of_one_case(tmp_path: Path) -> None:
     project = Project.fresh(tmp_path / "project")
     one_case_at_a_time(project)

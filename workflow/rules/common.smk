@@ -125,7 +125,7 @@ def solver_input_files():
 
 def table_of_derivatives():
     """Return the table of flutter derivatives, if the run makes one or the configuration names one."""
-    if FORCED_NAMES:
+    if CONFIG.forced.run:
         return derivative_files()[:1]
     return given([CONFIG.derivatives.table] if CONFIG.derivatives.table else [])
 
@@ -144,7 +144,7 @@ def case_files_of_motions():
 
 def derivative_files():
     """Return the derivatives from forced motion, if the section is moved."""
-    names = ("2d", "2d-fit") if FORCED_NAMES else ()
+    names = ("2d", "2d-fit") if CONFIG.forced.run else ()
     return [f"{RESULTS}/derivatives/{name}.csv" for name in names]
 
 

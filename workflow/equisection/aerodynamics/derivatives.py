@@ -8,7 +8,7 @@ this project, (c_l, c_m) = Q (w/c, theta), are at K = omega c/V = 2 pi f c/V
              [-(A4 + i A1),   A3 + i A2 ]],
 
 about the axis of the table. About another one, d = (axis of the table - that one) chords ahead of
-it, w of the table is w - d theta and its moment grows by d c_l, so that Q becomes T^T Q T with
+it, w of the table is w - d theta and its c_m becomes c_m - d c_l, so that Q becomes T^T Q T with
 T = [[1, -d], [0, 1]].
 
 Between the rows Q is interpolated over log K by monotone cubics (Fritsch and Carlson, SIAM J.

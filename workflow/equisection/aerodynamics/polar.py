@@ -19,6 +19,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import scipy
@@ -190,6 +191,27 @@ class Polar:
             moment = moment - (axis - MID_CHORD) * normal_force
         polar = cls(incidence, drag, lift, moment, path.stem, points.reynolds_number)
         return polar.mirrored() if points.half else polar
+
+    @classmethod
+    def of_settings(cls, settings: Mapping[str, Any]) -> Polar:
+        """Polar of the settings of a case (:meth:`as_settings`)."""
+        return cls(
+            np.radians(settings["incidence_deg"]),
+            settings["cd"],
+            settings["cl"],
+            settings["cm"],
+            settings["label"],
+        )
+
+    def as_settings(self) -> dict[str, Any]:
+        """Return all that decides a case of the polar, in builtin types."""
+        return {
+            "label": self.label,
+            "incidence_deg": np.degrees(self.incidence).tolist(),
+            "cd": self.drag.tolist(),
+            "cl": self.lift.tolist(),
+            "cm": self.moment.tolist(),
+        }
 
     @classmethod
     def flat_plate(cls, limit_rad: float) -> Polar:

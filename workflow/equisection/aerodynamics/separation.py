@@ -38,7 +38,7 @@ Zero lags are a steady polar behind Wagner's lag; x and c_lag are then no states
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -72,13 +72,13 @@ class SeparationLags:
     lift_lag
         tau_3, not negative.
     provenance
-        Where the values come from.
+        Where the values come from; lags of the same values are equal wherever these do.
     """
 
     relaxation: float
     delay: float
     lift_lag: float
-    provenance: str = "given by the user"
+    provenance: str = field(default="given by the user", compare=False)
 
     def __post_init__(self) -> None:
         for name in ("relaxation", "delay", "lift_lag"):

@@ -91,8 +91,8 @@ class LoadBalance:
         least-squares fit of r = d theta' to the rest of the moment. A damper that the section does
         not have makes it negative.
     energy
-        Work of the loads that the motion does not show, over the work that they do (both as sums
-        of absolute power, -).
+        Work of the loads that the motion does not show, over the sum of the absolute power of the
+        loads (-).
     remedy
         What would explain the record, in words; empty where it is explained or nothing does.
     """

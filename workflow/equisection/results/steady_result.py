@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -53,6 +54,12 @@ class SteadyResult:
     surface: SectionSurface | PlateSurface | None = None
     tip_flow: TipFlow | None = None
     spent: Spent | None = None
+
+    @classmethod
+    def without_value(cls, reason: str) -> SteadyResult:
+        """Return the result of a case that has none, with its reason."""
+        nothing = np.empty(0)
+        return cls(math.nan, math.nan, math.nan, nothing, nothing, nothing, "none", failure=reason)
 
     def of_case(self, case: SteadyCase) -> xr.Dataset:
         """Return the data set that is written to the file of a case."""

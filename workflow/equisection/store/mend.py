@@ -64,17 +64,6 @@ class Unsound:
             self.path.unlink()
 
 
-def mend(run: Path) -> list[str]:
-    """Put aside the unsound files of a run's folder, so that the workflow makes them anew.
-
-    Returns
-    -------
-    list of str
-        One line for each of them, for the terminal.
-    """
-    return put_aside(unsound_files(run))
-
-
 def put_aside(found: Sequence[Unsound]) -> list[str]:
     """Put unsound files aside; return a line for each, also where the folder is read-only."""
     lines = []

@@ -247,14 +247,12 @@ def planned_cases(config: Config) -> Iterator[PlannedCases]:
         dimension = model(name, config.reduction).dimension
         of_sweep = tuple(sweep_cases(config, name))
         yield PlannedCases(FREE, name, dimension, config.steady.resolution, of_sweep, refined)
-    if forced := forced_names(config):
-        yield PlannedCases(FORCED, "2d", "2d", config.steady.resolution, forced)
+    if config.forced.run:
+        yield PlannedCases(FORCED, "2d", "2d", config.steady.resolution, forced_names(config))
 
 
 def forced_names(config: Config) -> tuple[str, ...]:
-    """Return the names of the forced cases, such as ``pitch`` or ``heave_v12``; none if not run."""
-    if not config.forced.run:
-        return ()
+    """Return the names of the forced cases, such as ``pitch`` or ``heave_v12``."""
     parts = [""]
     if config.forced.motion == "harmonic":
         parts = [f"_v{velocity:.6g}" for velocity in config.forced.reduced_velocity]

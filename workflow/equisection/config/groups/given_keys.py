@@ -180,6 +180,18 @@ def _signs_are_not_zero(twist: int, deflection: int, lift: int, moment: int) -> 
             yield Problem(f"given.signs.{name}", sign, "allowed is 1 or -1")
 
 
+@check("solver", "forced.run")
+def _no_forced_motion(solver: str, run: bool) -> Iterator[Problem]:
+    """Refuse motions that nobody has recorded."""
+    if solver == "given" and run:
+        yield Problem(
+            "forced.run",
+            run,
+            "allowed with solver 'given' is false: no file has the section's forced motion; give "
+            "measured flutter derivatives in derivatives.table",
+        )
+
+
 @check("solver", "sweep.onset")
 def _no_further_releases(solver: str, onset: str) -> Iterator[Problem]:
     """Refuse rounds of runs that nobody has recorded."""

@@ -34,6 +34,7 @@ from equisection.solvers.embedded.known_spreads import known_spread
 from equisection.solvers.known_error import KnownError
 from equisection.solvers.known_spread import KnownSpread
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
+from equisection.solvers.steady_polar import section_of_polar
 
 if TYPE_CHECKING:
     from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
@@ -82,11 +83,7 @@ class Adapter:
     ) -> Adapter:
         """Return the solver of a case, which runs in one thread."""
         del allocation
-        data = settings["polar"]
-        polar = Polar(
-            np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
-        )
-        lags = SeparationLags(**settings["separation"])
+        polar, lags = Polar.of_settings(settings["polar"]), SeparationLags(**settings["separation"])
         return cls(polar, settings["strips"], lags, settings["incidence_point"])
 
     def settings(self, dimension: str) -> dict[str, Any]:
@@ -95,13 +92,7 @@ class Adapter:
         lags = asdict(self._lags)
         del lags["provenance"]
         return {
-            "polar": {
-                "label": self._polar.label,
-                "incidence_deg": np.degrees(self._polar.incidence).tolist(),
-                "cd": self._polar.drag.tolist(),
-                "cl": self._polar.lift.tolist(),
-                "cm": self._polar.moment.tolist(),
-            },
+            "polar": self._polar.as_settings(),
             "strips": self._strips,
             "separation": lags,
             "incidence_point": self._incidence_point,
@@ -136,7 +127,7 @@ class Adapter:
                 run = self._section if case.dimension == "2d" else self._beam
                 results.append(run(case))
             except (IncidenceOutOfRangeError, SolverError) as error:
-                results.append(_no_value(str(error)))
+                results.append(SteadyResult.without_value(str(error)))
             progress(number, len(cases))
         return results
 
@@ -163,11 +154,10 @@ class Adapter:
         self, cases: Sequence[ForcedCase], work: Path, progress: Progress
     ) -> list[ForcedResult]:
         """Follow the loads of each section in its prescribed motion."""
-        from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415
         from equisection.solvers.embedded.forced_sections import forced_section  # noqa: PLC0415
 
         del work
-        loads = UnsteadyLoads.from_polar(self._polar, self._lags, self._incidence_point - MID_CHORD)
+        loads = self._loads()
         total, done, results = sum(case.duration for case in cases), 0.0, []
         for case in cases:
             results.append(forced_section(case, loads))
@@ -212,17 +202,7 @@ class Adapter:
         return UnsteadyLoads.from_polar(self._polar, self._lags, rear_point)
 
     def _section(self, case: SteadyCase) -> SteadyResult:
-        alpha = math.radians(case.incidence_deg)
-        self._polar.require(alpha)
-        return SteadyResult(
-            drag=float(self._polar.drag_coefficient(alpha)),
-            lift=float(self._polar.lift_coefficient(alpha)),
-            moment=float(self._polar.moment_coefficient(alpha)),
-            span=np.empty(0),
-            section_lift=np.empty(0),
-            section_moment=np.empty(0),
-            method="section polar",
-        )
+        return section_of_polar(self._polar, math.radians(case.incidence_deg), "section polar")
 
     def _beam(self, case: SteadyCase) -> SteadyResult:
         strips, span = self._span(case.geometry)
@@ -290,10 +270,3 @@ def _groups(cases: Sequence[UnsteadyCase]) -> list[list[int]]:
         for members in groups.values()
         for at in range(0, len(members), LANES)
     ]
-
-
-def _no_value(reason: str) -> SteadyResult:
-    nothing = np.empty(0)
-    return SteadyResult(
-        math.nan, math.nan, math.nan, nothing, nothing, nothing, "none", failure=reason
-    )

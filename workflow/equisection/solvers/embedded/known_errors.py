@@ -40,9 +40,7 @@ def known_error(
     dimension: str, basis: str, polar: str, lags: SeparationLags = IDENTIFIED_LAGS
 ) -> KnownError | None:
     """Return the error that is known with a polar, by its label, and with lags; None for none."""
-    values = (lags.relaxation, lags.delay, lags.lift_lag)
-    default = (IDENTIFIED_LAGS.relaxation, IDENTIFIED_LAGS.delay, IDENTIFIED_LAGS.lift_lag)
-    if values != default:
+    if lags != IDENTIFIED_LAGS:
         return None
     for each in known_errors():
         if (each.dimension, each.basis, each.polar) == (dimension, basis, polar):

@@ -41,10 +41,8 @@ def known_spread(
     lags
         Lags in use.
     """
-    values = (lags.relaxation, lags.delay, lags.lift_lag)
-    default = (IDENTIFIED_LAGS.relaxation, IDENTIFIED_LAGS.delay, IDENTIFIED_LAGS.lift_lag)
     rows = [row for row in _rows() if (row["polar"], row["parameter"]) == (polar, parameter)]
-    if not rows or (parameter.startswith("tau") and values != default):
+    if not rows or (parameter.startswith("tau") and lags != IDENTIFIED_LAGS):
         return None
     at = [float(row["incidence_deg"]) for row in rows]
     half_range = np.interp(abs(incidence_deg), at, [float(row["half_range"]) for row in rows])

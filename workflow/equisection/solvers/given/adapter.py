@@ -7,7 +7,6 @@ again. Its motion is weighed against its loads before anything is judged
 
 from __future__ import annotations
 
-import hashlib
 import logging
 import math
 from collections.abc import Mapping, Sequence
@@ -21,9 +20,11 @@ from equisection.cases import Case, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups.given_keys import PLACEHOLDER
 from equisection.errors import HistoryFileError, IncidenceOutOfRangeError, SolverError
+from equisection.provenance import file_hash
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
+from equisection.solvers.steady_polar import section_of_polar
 
 if TYPE_CHECKING:
     from equisection.solvers.given.recorded_release import RecordedRelease
@@ -69,13 +70,7 @@ class Adapter:
         return cls(
             {
                 "source": keys.source or keys.basis,
-                "polar": {
-                    "label": polar.label,
-                    "incidence_deg": np.degrees(polar.incidence).tolist(),
-                    "cd": polar.drag.tolist(),
-                    "cl": polar.lift.tolist(),
-                    "cm": polar.moment.tolist(),
-                },
+                "polar": polar.as_settings(),
                 "histories": keys.histories,
                 **{name: keys.model_dump()[name] for name in _MEANING},
             }
@@ -107,18 +102,16 @@ class Adapter:
         known = {"model": model, "case": case} | {
             name: f"{value:g}" for name, value in point.items()
         }
-        unknown = [
-            name for name in PLACEHOLDER.findall(self._settings["histories"]) if name not in known
-        ]
         path = PLACEHOLDER.sub(
             lambda found: known.get(found[1], found[0]), self._settings["histories"]
         )
-        try:
-            digest = "" if unknown else hashlib.sha256(Path(path).read_bytes()).hexdigest()
-        except FileNotFoundError:
-            digest = ""
         meaning = {name: self._settings[name] for name in _MEANING}
-        return {"source": self._settings["source"], "file": path, "digest": digest, **meaning}
+        return {
+            "source": self._settings["source"],
+            "file": path,
+            "digest": file_hash(Path(path)),
+            **meaning,
+        }
 
     def describe(self, dimension: str) -> str:
         """Return the source in words."""
@@ -126,23 +119,27 @@ class Adapter:
         return f"given files ({self._settings['source']})"
 
     def missing(self, case: Case) -> str:
-        """Return why a case has no result; empty if there is a file of it."""
-        if not isinstance(case, UnsteadyCase) or case.not_run or self._settings.get("digest"):
+        """Return why a case has no result; empty if there was a file of it that can be read."""
+        if not isinstance(case, UnsteadyCase) or case.not_run or self._settings["digest"]:
             return ""
-        return f"no file {self._settings.get('file', '')}, which given.histories names for it"
+        path = Path(self._settings["file"])
+        what = "a file that cannot be read is" if path.exists() else "no file"
+        return f"{what} {path}, which given.histories names for it"
 
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
     ) -> list[SteadyResult]:
         """Read the polar at each incidence."""
         del work
-        data = self._settings["polar"]
-        polar = Polar(
-            np.radians(data["incidence_deg"]), data["cd"], data["cl"], data["cm"], data["label"]
-        )
+        polar = Polar.of_settings(self._settings["polar"])
         results = []
         for number, case in enumerate(cases, start=1):
-            results.append(_of_polar(polar, case))
+            try:
+                results.append(
+                    section_of_polar(polar, math.radians(case.incidence_deg), "given polar")
+                )
+            except IncidenceOutOfRangeError as error:
+                results.append(SteadyResult.without_value(str(error)))
             progress(number, len(cases))
         return results
 
@@ -163,14 +160,12 @@ class Adapter:
 
         path = Path(self._settings["file"])
         try:
-            if hashlib.sha256(path.read_bytes()).hexdigest() != self._settings["digest"]:
-                raise SolverError(f"{path} was changed while its case waited; run again")
+            if file_hash(path) != self._settings["digest"]:
+                raise SolverError(f"{path} was changed or removed while its case waited; run again")
             record = self._read(path, case)
             if not record.balance.is_explained:
                 raise HistoryFileError(f"{path}: {record.balance.text}")
             return _judged(path, case, record)
-        except OSError as error:
-            raise SolverError(f"{path}: {error}; run again") from error
         except HistoryFileError as error:
             return refused(case.model_copy(update={"refusal": str(error), "diverges": False}))
 
@@ -243,23 +238,4 @@ def _judged(path: Path, case: UnsteadyCase, record: RecordedRelease) -> Unsteady
         axis_moment=record.axis_moment[kept] if section.axis_behind_mid_chord else _NOTHING,
         incidence=history.incidence_rad + history.twist[kept],
         verdict=verdict,
-    )
-
-
-def _of_polar(polar: Polar, case: SteadyCase) -> SteadyResult:
-    alpha = math.radians(case.incidence_deg)
-    try:
-        polar.require(alpha)
-    except IncidenceOutOfRangeError as error:
-        return SteadyResult(
-            math.nan, math.nan, math.nan, _NOTHING, _NOTHING, _NOTHING, "none", failure=str(error)
-        )
-    return SteadyResult(
-        float(polar.drag_coefficient(alpha)),
-        float(polar.lift_coefficient(alpha)),
-        float(polar.moment_coefficient(alpha)),
-        _NOTHING,
-        _NOTHING,
-        _NOTHING,
-        "given polar",
     )

@@ -15,6 +15,7 @@ from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.beam.section import Section
 from equisection.errors import ArgumentError, HistoryFileError
 from equisection.io.history_file import (
+    NEEDED,
     QUANTITIES,
     UNITS,
     HistoryColumns,
@@ -248,7 +249,7 @@ def _require_known(
             raise ArgumentError(
                 f"{what} names {', '.join(unknown)}; allowed are {', '.join(QUANTITIES)}"
             )
-    missing = [name for name in QUANTITIES if name != "drag" and name not in columns]
+    missing = [name for name in NEEDED if name not in columns]
     if missing:
         raise ArgumentError(f"columns has no {', '.join(missing)}; name the column of each")
     for name, unit in units.items():

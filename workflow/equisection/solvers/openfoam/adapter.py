@@ -7,7 +7,6 @@ module without them.
 from __future__ import annotations
 
 import logging
-import math
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -144,7 +143,7 @@ class Adapter:
             try:
                 results.append(run(installation, case, work / f"case{number}", tell))
             except BlowUpError as error:
-                results.append(_no_value(str(error)))
+                results.append(SteadyResult.without_value(str(error)))
         return results
 
     def _rigid_section(
@@ -297,10 +296,4 @@ def _result(loads: RigidLoads) -> SteadyResult:
         _NOTHING,
         loads.method,
         surface=loads.surface,
-    )
-
-
-def _no_value(reason: str) -> SteadyResult:
-    return SteadyResult(
-        math.nan, math.nan, math.nan, _NOTHING, _NOTHING, _NOTHING, "none", failure=reason
     )
