@@ -378,9 +378,10 @@ def _known_errors(onset: pd.DataFrame) -> list[str]:
     for (mean, rms, errs), rows in known.groupby(
         ["growth_error", "growth_error_rms", "errs"], sort=False
     ):
-        models = " and ".join(LOOKS[model].label for model in rows["model"])
+        first = str(rows["model"].iloc[0])  # what is known goes by the dimension
+        who = LOOKS[first].label if len(rows) == 1 else f"{first[:2].upper()} models"
         notes.append(
-            f"{models}: growth {mean:+.4f} V/c off kept CFD in the mean ({rms:.4f} rms), the onset "
+            f"{who}: growth {mean:+.4f} V/c off kept CFD in the mean ({rms:.4f} rms), the onset "
             f"errs to {side_in_words(str(errs))}"
         )
     return notes

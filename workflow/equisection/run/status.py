@@ -19,7 +19,7 @@ from equisection.errors import EquisectionError, ResultFileError
 from equisection.results.failures import failure_of
 from equisection.results.loads_zigzag import warning_of_zigzag
 from equisection.results.netcdf import read_attributes
-from equisection.results.whole import fault_of
+from equisection.results.whole import is_whole
 from equisection.run.listing import Listed, cases_of_run, config_of_run
 from equisection.run.status_cost import CostOfRun
 from equisection.run.status_logs import LINES, JobsOfRun, last_lines, last_warning, printable
@@ -162,7 +162,7 @@ class _Indices:
         path = self._run / result
         attributes, written = self._of.get(result, ({}, 0))
         sound = attributes.get("case_hash") == wanted and path.stat().st_mtime_ns <= written
-        return attributes if sound and not fault_of(path) else read_attributes(path)
+        return attributes if sound and is_whole(path) else read_attributes(path)
 
 
 class _Reader:
