@@ -75,8 +75,7 @@ class Given(SolverKeys):
     )
     polars: dict[Name, _Text] = Field(
         {},
-        description="Section polar of each resolution: a CSV file (`incidence_deg,cl,cm,cd`) or a "
-        "polar of XFOIL.",
+        description="Section polar of each resolution, in a format of `embedded.polars`.",
     )
     symmetric: Truth = Field(
         True, description="Whether the section is symmetric, as `embedded.symmetric`."
