@@ -12,6 +12,7 @@ that keep their points in their plane where the mesh moves.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +35,8 @@ from equisection.solvers.openfoam.mesh.block_mesh import (
 SIDE_WALLS = {"root_wall": "symmetryPlane", "far_wall": "symmetryPlane"}
 #: Cells along the plate and across the gap at refinement 1, and the size of those at the tip.
 _ALONG, _GAP, _AT_TIP = 44, 8, 1 / 16  # chords
+#: Growth from cell to cell beyond the tip, at refinement 1, where the gap is wide.
+_GROWTH = 1.25
 
 
 @dataclass(frozen=True)
@@ -63,17 +66,9 @@ class PlateMesh:
         along, beyond = _layers(self.section.refinement)
         return along + (beyond if self.gap else 0)
 
-    def _ratio(self) -> float:
-        """Return the size of the last cell along the plate over that of the first."""
-        along, _ = _layers(self.section.refinement)
-        return 1 / expansion(self.span, along, _AT_TIP / self.section.refinement)
-
     def edges(self) -> NDArray[np.float64]:
         """Return z/c of the planes between the cells along the plate, shape (n + 1,)."""
-        along, _ = _layers(self.section.refinement)
-        sizes = self._ratio() ** (np.arange(along) / (along - 1))
-        ends = np.concatenate([[0.0], np.cumsum(sizes)])
-        return np.asarray(self.span * ends / ends[-1], dtype=np.float64)
+        return planes_along(self.span, self.section.refinement)
 
     def block_mesh_dict(self) -> str:
         """Return the text of ``blockMeshDict``.
@@ -87,7 +82,7 @@ class PlateMesh:
         along, beyond = _layers(section.refinement)
         planes = [0.0, self.span]
         around, everywhere = list(blocks_around_plate()), [(i, j) for i in _FIVE for j in _FIVE]
-        layers = [(around, Layer(0, along, f"{self._ratio():.8g}"))]
+        layers = [(around, Layer(0, along, f"{_ratio(self.span, section.refinement):.8g}"))]
         plate = [face_x(2, 2), face_x(3, 2), face_y(2, 2), face_y(2, 3)]
         far = around
         if self.gap:
@@ -123,6 +118,33 @@ def plate_cells(spacing: Spacing, refinement: float, *, gap: bool = True) -> int
     along, beyond = _layers(refinement)
     columns, rows = spacing.refined(refinement)
     return spacing.cells(refinement) * along + sum(columns) * sum(rows) * beyond * gap
+
+
+def planes_along(span: float, refinement: float) -> NDArray[np.float64]:
+    """Return z/c of the planes between the cells along a beam of a span (chords)."""
+    along, _ = _layers(refinement)
+    sizes = _ratio(span, refinement) ** (np.arange(along) / (along - 1))
+    ends = np.concatenate([[0.0], np.cumsum(sizes)])
+    return np.asarray(span * ends / ends[-1], dtype=np.float64)
+
+
+def planes_beyond(gap: float, refinement: float) -> NDArray[np.float64]:
+    """Return the distance from the tip (chords) of the planes between the cells beyond it.
+
+    Even ones, or in a wide gap cells that grow from those at the tip.
+    """
+    first, growth = _AT_TIP / refinement, _GROWTH ** (1 / refinement)
+    _, fewest = _layers(refinement)
+    cells = max(fewest, math.ceil(math.log1p(gap * (growth - 1) / first) / math.log(growth)))
+    ratio = expansion(gap, cells, first)
+    ends = np.concatenate([[0.0], np.cumsum(ratio ** (np.arange(cells) / (cells - 1)))])
+    return np.asarray(gap * ends / ends[-1], dtype=np.float64)
+
+
+def _ratio(span: float, refinement: float) -> float:
+    """Return the size of the last cell along the beam over that of the first."""
+    along, _ = _layers(refinement)
+    return 1 / expansion(span, along, _AT_TIP / refinement)
 
 
 def _layers(refinement: float) -> tuple[int, int]:

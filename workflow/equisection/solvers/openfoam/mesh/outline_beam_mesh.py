@@ -1,0 +1,72 @@
+"""Mesh of a beam of any outline: that of its section extruded, and closed beyond a free tip.
+
+Along z it has the layers of the rectangle's mesh (:mod:`~.beam_mesh`): cells that become finer to
+the tip, and beyond it a gap up to the other wall. There cells fill the outline as well, from the
+points of its wall on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.solvers.openfoam.mesh.beam_mesh import planes_along, planes_beyond
+from equisection.solvers.openfoam.mesh.outline_mesh import TIME_LIMIT, OutlineMesh, made_by
+from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
+
+#: Sizes in the plane: first cells as thick as those of the rectangle's mesh, since what is long
+#: along the span and thin as well is what a moving mesh breaks on, in as many layers as make them
+#: thicker than a separation bubble.
+OF_BEAM = OutlineSizes(first=1e-3, layers=20)
+#: Module that makes the mesh.
+_MESHER = "outline_beam_mesher"
+
+
+@dataclass(frozen=True)
+class OutlineBeamMesh:
+    """Input of the mesh of a beam.
+
+    Attributes
+    ----------
+    section
+        The mesh in the plane of the section.
+    span, gap
+        L/c, and the gap between tip and wall (chords); 0 for a beam from wall to wall.
+    """
+
+    section: OutlineMesh
+    span: float
+    gap: float
+
+    def edges(self) -> NDArray[np.float64]:
+        """Return z/c of the planes between the cells along the beam, shape (n + 1,)."""
+        return planes_along(self.span, self.section.refinement)
+
+    def levels(self) -> NDArray[np.float64]:
+        """Return z/c of all planes between the layers of cells, from wall to wall."""
+        if not self.gap:
+            return self.edges()
+        beyond = self.span + planes_beyond(self.gap, self.section.refinement)
+        return np.concatenate([self.edges(), beyond[1:]])
+
+    @property
+    def layers(self) -> int:
+        """Number of layers of cells from wall to wall."""
+        return self.levels().size - 1
+
+    def write(self, folder: Path, time_limit: float = TIME_LIMIT) -> None:
+        """Make the mesh and write ``constant/polyMesh``, in a process of its own.
+
+        Raises
+        ------
+        BlowUpError
+            The outline has no mesh.
+        SolverError
+            The channel has no room for it; or gmsh is missing, crashed, or did not end within the
+            time limit (s).
+        """
+        self.section.require_room()
+        made_by(_MESHER, folder, asdict(self), time_limit)
