@@ -63,7 +63,7 @@ class PlateMesh:
     @property
     def layers(self) -> int:
         """Number of layers of cells from wall to wall."""
-        along, beyond = _layers(self.section.refinement)
+        along, beyond = layers_of_beam(self.section.refinement)
         return along + (beyond if self.gap else 0)
 
     def edges(self) -> NDArray[np.float64]:
@@ -79,7 +79,7 @@ class PlateMesh:
             The turned near field does not fit into the channel.
         """
         section, points = self.section, self.section.points()
-        along, beyond = _layers(section.refinement)
+        along, beyond = layers_of_beam(section.refinement)
         planes = [0.0, self.span]
         around, everywhere = list(blocks_around_plate()), [(i, j) for i in _FIVE for j in _FIVE]
         layers = [(around, Layer(0, along, f"{_ratio(self.span, section.refinement):.8g}"))]
@@ -115,14 +115,14 @@ def plate_cells(spacing: Spacing, refinement: float, *, gap: bool = True) -> int
 
     The layers of the gap, if there is one, also have cells in the place of the plate.
     """
-    along, beyond = _layers(refinement)
+    along, beyond = layers_of_beam(refinement)
     columns, rows = spacing.refined(refinement)
     return spacing.cells(refinement) * along + sum(columns) * sum(rows) * beyond * gap
 
 
 def planes_along(span: float, refinement: float) -> NDArray[np.float64]:
     """Return z/c of the planes between the cells along a beam of a span (chords)."""
-    along, _ = _layers(refinement)
+    along, _ = layers_of_beam(refinement)
     sizes = _ratio(span, refinement) ** (np.arange(along) / (along - 1))
     ends = np.concatenate([[0.0], np.cumsum(sizes)])
     return np.asarray(span * ends / ends[-1], dtype=np.float64)
@@ -134,7 +134,7 @@ def planes_beyond(gap: float, refinement: float) -> NDArray[np.float64]:
     Even ones, or in a wide gap cells that grow from those at the tip.
     """
     first, growth = _AT_TIP / refinement, _GROWTH ** (1 / refinement)
-    _, fewest = _layers(refinement)
+    _, fewest = layers_of_beam(refinement)
     cells = max(fewest, math.ceil(math.log1p(gap * (growth - 1) / first) / math.log(growth)))
     ratio = expansion(gap, cells, first)
     ends = np.concatenate([[0.0], np.cumsum(ratio ** (np.arange(cells) / (cells - 1)))])
@@ -143,10 +143,10 @@ def planes_beyond(gap: float, refinement: float) -> NDArray[np.float64]:
 
 def _ratio(span: float, refinement: float) -> float:
     """Return the size of the last cell along the beam over that of the first."""
-    along, _ = _layers(refinement)
+    along, _ = layers_of_beam(refinement)
     return 1 / expansion(span, along, _AT_TIP / refinement)
 
 
-def _layers(refinement: float) -> tuple[int, int]:
-    """Return the layers of cells along the plate and across the gap."""
+def layers_of_beam(refinement: float) -> tuple[int, int]:
+    """Return the layers of cells along a beam, and across a gap that is not wide."""
     return max(4, round(_ALONG * refinement)), max(2, round(_GAP * refinement))

@@ -108,6 +108,12 @@ class OutlineMesh:
         x, y = zip(*self.outline, strict=True)
         return (min(x) + max(x)) / 2, (min(y) + max(y)) / 2
 
+    def reach(self, incidence: float) -> tuple[float, float]:
+        """Return the lowest and the highest y of the outline at an incidence (rad), chords."""
+        cosine, sine = math.cos(incidence), math.sin(incidence)
+        heights = [y * cosine - x * sine for x, y in self.outline]
+        return min(heights), max(heights)
+
     @property
     def disc_radius(self) -> float:
         """Radius of the disc: that of the sizes, more for a section that is high."""
