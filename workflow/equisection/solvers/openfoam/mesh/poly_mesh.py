@@ -54,7 +54,7 @@ def _faces(content: Any) -> Numbers:
     if isinstance(content, tuple):  # places and corners, in binary
         starts, corners = (np.asarray(part, dtype=np.int64) for part in content)
         last = np.diff(starts) - 1
-        return corners[starts[:-1, None] + np.minimum(np.arange(4), last[:, None])]
+        return np.asarray(corners[starts[:-1, None] + np.minimum(np.arange(4), last[:, None])])
     return np.array([face if len(face) == 4 else face[[0, 1, 2, 2]] for face in content])
 
 

@@ -53,6 +53,9 @@ SectionCells = Mesh | OutlineMesh
 
 logger = logging.getLogger(__name__)
 
+#: Sizes of the cells around the outline of a section.
+SIZES = OutlineSizes()
+
 #: Time left out, shortest and longest record of a rigid unsteady run (c/V).
 RECORD = RigidFlowRecord(10.0, 40.0, 100.0)
 #: Steps of a rigid unsteady run from one sample of the surface data to the next.
@@ -87,7 +90,7 @@ def outline_mesh_of(
     case: SteadyCase | UnsteadyCase | ForcedCase,
     refinement: float,
     far_field: float = 0.0,
-    sizes: OutlineSizes = OutlineSizes(),
+    sizes: OutlineSizes = SIZES,
 ) -> OutlineMesh:
     """Return the mesh of a case around its outline, or around the rectangle of its thickness.
 
