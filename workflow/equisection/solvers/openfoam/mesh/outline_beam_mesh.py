@@ -19,8 +19,9 @@ from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
 
 #: Sizes in the plane: first cells as thick as those of the rectangle's mesh, since what is long
 #: along the span and thin as well is what a moving mesh breaks on, in as many layers as make them
-#: thicker than a separation bubble. Fewer rays fan out at a corner for the same reason.
-OF_BEAM = OutlineSizes(first=1e-3, layers=20, fan_step_deg=30.0)
+#: thicker than a separation bubble. Fewer rays fan out at a corner, and
+#: short sides have fewer cells, for the same reason.
+OF_BEAM = OutlineSizes(first=1e-3, layers=20, fan_step_deg=30.0, side_over_corner=2.5)
 #: Module that makes the mesh.
 _MESHER = "outline_beam_mesher"
 
