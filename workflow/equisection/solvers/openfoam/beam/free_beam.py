@@ -164,8 +164,13 @@ class PlateRun(FreeRun[BeamCells]):
         )
         if not converged:
             logger.info("the steady flow does not converge; the release is from its last state")
+        self.start_from(source)
+
+    def start_from(self, source: Path) -> None:
+        """Make the folder of the free run from the last state of a steady run of the same mesh."""
         folder = emptied(self.folder)
         copy_flow_of_all(source, folder)
+        is_held = self.case.start.twist_deg != 0.0
         write_lumped_motion(folder, self.points, names(), is_deformed=is_held)
         mark_ready(folder)
 

@@ -120,10 +120,14 @@ def plate_cells(spacing: Spacing, refinement: float, *, gap: bool = True) -> int
     return spacing.cells(refinement) * along + sum(columns) * sum(rows) * beyond * gap
 
 
-def planes_along(span: float, refinement: float) -> NDArray[np.float64]:
-    """Return z/c of the planes between the cells along a beam of a span (chords)."""
-    along, _ = layers_of_beam(refinement)
-    sizes = _ratio(span, refinement) ** (np.arange(along) / (along - 1))
+def planes_along(span: float, refinement: float, times: float = 1.0) -> NDArray[np.float64]:
+    """Return z/c of the planes between the cells along a beam of a span (chords).
+
+    There are ``times`` as many as along the plate.
+    """
+    along = round(times * layers_of_beam(refinement)[0])
+    ratio = 1 / expansion(span, along, _AT_TIP / refinement)
+    sizes = ratio ** (np.arange(along) / (along - 1))
     ends = np.concatenate([[0.0], np.cumsum(sizes)])
     return np.asarray(span * ends / ends[-1], dtype=np.float64)
 

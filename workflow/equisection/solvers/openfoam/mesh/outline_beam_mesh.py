@@ -21,7 +21,9 @@ from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
 #: along the span and thin as well is what a moving mesh breaks on, in as many layers as make them
 #: thicker than a separation bubble. Fewer rays fan out at a corner, and
 #: short sides have fewer cells, for the same reason.
-OF_BEAM = OutlineSizes(first=1e-3, layers=20, fan_step_deg=30.0, side_over_corner=2.5)
+OF_BEAM = OutlineSizes(first=1e-3, layers=20, fan_step_deg=30.0, side_over_corner=4.0)
+#: Length of a beam (chords) above which it has more layers, so that they are no longer.
+_LONG = 4.0
 #: Module that makes the mesh.
 _MESHER = "outline_beam_mesher"
 
@@ -44,7 +46,7 @@ class OutlineBeamMesh:
 
     def edges(self) -> NDArray[np.float64]:
         """Return z/c of the planes between the cells along the beam, shape (n + 1,)."""
-        return planes_along(self.span, self.section.refinement)
+        return planes_along(self.span, self.section.refinement, times=max(1.0, self.span / _LONG))
 
     def levels(self) -> NDArray[np.float64]:
         """Return z/c of all planes between the layers of cells, from wall to wall."""
