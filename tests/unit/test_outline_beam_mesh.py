@@ -32,7 +32,7 @@ LEVELS = np.array([0.0, 1.0, 1.5, 2.5])
 
 
 def extruded(folder: Path, tip: int) -> int:
-    """Write the cells around a square of 1 c up to level 3, with those inside it from the tip on."""
+    """Write the cells around a square of 1 c up to level 3, with those inside it beyond the tip."""
     around = ring()
     corners = np.array([[5, 6, 10, 9]])  # of the square, counter-clockwise
     inside = PlaneCells(around.points, np.concatenate([around.corners, corners]))
