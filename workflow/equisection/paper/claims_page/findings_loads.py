@@ -206,7 +206,8 @@ def courant_number(evidence: Evidence) -> Finding:
         f"{100 * area_below:.1f} % of the area; largest {courant.max():.2g}",
         f"{mesh.attrs['solver_description']}, {float(mesh.attrs['time_step']):g} c/V a step",
         "The paper's step is 2.5e-4 c/V if its 1.25e-6 are seconds, and 0.05 c/V if they are "
-        "dt c/V in SI units, as printed ([openfoam-polar.md](openfoam-polar.md#the-papers-cell-sizes)).",
+        "dt c/V in SI units, as printed "
+        "([openfoam-polar.md](openfoam-polar.md#the-papers-cell-sizes)).",
     )
 
 
