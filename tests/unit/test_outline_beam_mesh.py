@@ -15,6 +15,7 @@ from numpy.testing import assert_allclose
 from tests.sample_cases import GEOMETRY, STEADY_PLATE
 from tests.unit.test_outline_mesh import SHAPES, ring
 
+from equisection.beam.outline import outline_of, placed
 from equisection.errors import SolverError
 from equisection.figures.mesh_of_beam import _on_upper_side
 from equisection.figures.surface_of_beam import on_grid
@@ -28,6 +29,25 @@ from equisection.solvers.openfoam.mesh.plane_cells import PlaneCells
 from equisection.solvers.openfoam.mesh.poly_mesh import read_poly_mesh
 from equisection.solvers.openfoam.reading.contour_places import Contour, cut_at
 
+#: A panel of 0.02 c on a tube of 0.07 c that it touches.
+TRACKER = outline_of(
+    placed(
+        np.array(
+            [
+                [0, 0],
+                [0.47, 0],
+                *(
+                    [0.5 - 0.035 * math.cos(t), -0.03 - 0.035 * math.sin(t)]
+                    for t in np.linspace(-0.55, math.pi + 0.55, 40)
+                ),
+                [0.53, 0],
+                [1, 0],
+                [1, 0.02],
+                [0, 0.02],
+            ]
+        )
+    )
+)
 LEVELS = np.array([0.0, 1.0, 1.5, 2.5])
 
 
@@ -89,6 +109,15 @@ def test_long_beam_has_layers_as_long_as_a_short_one() -> None:
         assert mesh.edges()[-1] == pytest.approx(mesh.span)
         assert mesh.levels()[-1] == pytest.approx(mesh.span + 0.3)
         assert mesh.layers == mesh.levels().size - 1
+
+
+def test_beam_with_a_fine_detail_has_more_layers() -> None:
+    """A tube under a panel, whose notches have thin cells: no cell is too slender for checkMesh."""
+    geometry = GEOMETRY.model_copy(update={"outline": TRACKER.as_pairs()})
+    case = STEADY_PLATE.model_copy(update={"geometry": geometry})
+    fine, plain = (outline_beam_mesh_of(one, 0.52).edges() for one in (case, STEADY_PLATE))
+    assert fine.size > plain.size
+    assert np.diff(fine).max() < np.diff(plain).max()
 
 
 def test_root_away_from_a_wall_is_refused() -> None:
