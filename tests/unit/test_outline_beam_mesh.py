@@ -95,10 +95,12 @@ def test_extruded_mesh_is_closed(tmp_path: Path, tip: int, cells: int, on_body: 
 
 def test_cells_beyond_the_tip_grow_where_the_gap_is_wide() -> None:
     assert_allclose(np.diff(planes_beyond(0.3, 1.0)), 0.3 / 8)
-    wide = np.diff(planes_beyond(30.0, 1.0))
-    assert wide.sum() == pytest.approx(30.0)
-    assert wide[0] == pytest.approx(1 / 16)
-    assert 1.0 < (wide[1:] / wide[:-1]).max() <= 1.25
+    for longest in (math.inf, 0.5):
+        wide = np.diff(planes_beyond(30.0, 1.0, longest))
+        assert wide.sum() == pytest.approx(30.0)
+        assert 0.8 / 16 < wide[0] <= 1 / 16
+        assert 1.0 < (wide[1:] / wide[:-1]).max() <= 1.25 + 1e-9
+        assert wide.max() <= longest
 
 
 def test_long_beam_has_layers_as_long_as_a_short_one() -> None:

@@ -85,7 +85,9 @@ class Adapter:
         cells = str(preset.cells if is_section else preset.plate_cells)
         if settings.mesher:
             about = preset.outline_cells if is_section else preset.outline_beam_cells
-            cells = f"about {about}"
+            # in free air the layers beyond the tip are as many as its far field asks for
+            is_more = bool(settings.far_field) and not is_section
+            cells = f"{'more than' if is_more else 'about'} {about}"
         mesh = f"{cells} cells ({settings.mesh})"
         if settings.mesher:
             mesh += f" around the outline ({settings.mesher})"

@@ -132,17 +132,19 @@ def planes_along(span: float, refinement: float, times: float = 1.0) -> NDArray[
     return np.asarray(span * ends / ends[-1], dtype=np.float64)
 
 
-def planes_beyond(gap: float, refinement: float) -> NDArray[np.float64]:
+def planes_beyond(gap: float, refinement: float, longest: float = math.inf) -> NDArray[np.float64]:
     """Return the distance from the tip (chords) of the planes between the cells beyond it.
 
-    Even ones, or in a wide gap cells that grow from those at the tip.
+    Even ones, or in a wide gap cells that grow from those at the tip up to a longest one.
     """
-    first, growth = _AT_TIP / refinement, _GROWTH ** (1 / refinement)
-    _, fewest = layers_of_beam(refinement)
-    cells = max(fewest, math.ceil(math.log1p(gap * (growth - 1) / first) / math.log(growth)))
-    ratio = expansion(gap, cells, first)
-    ends = np.concatenate([[0.0], np.cumsum(ratio ** (np.arange(cells) / (cells - 1)))])
-    return np.asarray(gap * ends / ends[-1], dtype=np.float64)
+    first, (_, fewest) = _AT_TIP / refinement, layers_of_beam(refinement)
+    if gap <= first * fewest:
+        return np.linspace(0.0, gap, fewest + 1)
+    growth, sizes = _GROWTH ** (1 / refinement), [first]
+    while sum(sizes) < gap:
+        sizes.append(min(sizes[-1] * growth, longest))
+    ends = np.concatenate([[0.0], np.cumsum(sizes)])
+    return np.asarray(gap * ends / ends[-1])
 
 
 def _ratio(span: float, refinement: float) -> float:

@@ -59,14 +59,19 @@ class OutlineBeamMesh:
     def _edges(self) -> NDArray[np.float64]:
         times, refinement = max(1.0, self.span / _LONG), self.section.refinement
         edges = planes_along(self.span, refinement, times)
-        slender = float(np.diff(edges).max()) / _thinnest(self.section)
-        return planes_along(self.span, refinement, times * max(1.0, slender / _SLENDER))
+        too_long = float(np.diff(edges).max()) / self._longest
+        return planes_along(self.span, refinement, times * max(1.0, too_long))
+
+    @cached_property
+    def _longest(self) -> float:
+        """Length of the longest layer (chords)."""
+        return _SLENDER * _thinnest(self.section)
 
     def levels(self) -> NDArray[np.float64]:
         """Return z/c of all planes between the layers of cells, from wall to wall."""
         if not self.gap:
             return self.edges()
-        beyond = self.span + planes_beyond(self.gap, self.section.refinement)
+        beyond = self.span + planes_beyond(self.gap, self.section.refinement, self._longest)
         return np.concatenate([self.edges(), beyond[1:]])
 
     @property
