@@ -17,6 +17,7 @@ from tests.conftest import ROOT
 
 from equisection.aerodynamics.polar import Polar
 from equisection.analysis.critical_speeds import COLUMNS, from_map, with_margin
+from equisection.analysis.loads_in_use import reactions
 from equisection.analysis.mapped_models import (
     MappedModel,
     map_dataset,
@@ -244,6 +245,28 @@ def test_design_speed_has_the_loads_of_statics(config: Config, models: list[Mapp
     )
     assert row["regime"] == "settled"
     assert row["damping_ratio"] > 0.0
+    root = reactions(models[:1], config).query("incidence_deg == 2.5").iloc[0]
+    assert (root["support"], root["place_m"]) == ("root", 0.0)
+    assert root["force_n"] == pytest.approx(lift * q * beam.chord * beam.length, rel=1e-6)
+    assert root["bending_moment_nm"] == row["root_bending_moment_nm"]
+    assert root["torque_nm"] == row["root_torque_nm"]
+
+
+def test_reactions_of_every_boundary_carry_the_load_of_the_air(
+    config: Config, models: list[MappedModel]
+) -> None:
+    """The same loads on other supports: their sums stay, and each support is named."""
+    supports = [{"at": 0.5, "deflection": "fixed"}]
+    other = Beam(boundary="one-fork", supports=supports)
+    propped = config.model_copy(update={"beam": other})
+    for held, names in ((config, ["root"]), (propped, ["root", "supports.0", "tip"])):
+        found = reactions(models, held)
+        assert list(found["support"].unique()) == names
+        sums = found.groupby(["model", "incidence_deg"])[["force_n", "torque_nm"]].sum()
+        if held is config:
+            expected = sums
+    np.testing.assert_allclose(sums, expected, rtol=1e-9)
+    assert set(found["model"]) == {"2d", "2d-corrected", "3d"}
 
 
 def test_design_speed_above_the_map_is_said(config: Config, models: list[MappedModel]) -> None:
