@@ -81,5 +81,7 @@ if __name__ == "__main__":
             stability_map=Path(snakemake.output.stability_map),
             stability=Path(snakemake.output.stability),
             sensitivities=Path(snakemake.output.sensitivities),
-            at_design=(Path(in_use_file), Path(snakemake.output.reactions)) if in_use_file else None,
+            at_design=(Path(in_use_file), Path(snakemake.output.reactions))
+            if in_use_file
+            else None,
         )

@@ -19,7 +19,9 @@ def beam_with(**more) -> Beam:
         "mass_per_length": 1.0,
         "inertia_per_length": 0.01,
     }
-    return Beam(**{"chord": 0.5, "length": LENGTH, "thickness": 0.05, "cross_section": section, **more})
+    return Beam(
+        **{"chord": 0.5, "length": LENGTH, "thickness": 0.05, "cross_section": section, **more}
+    )
 
 
 def uniform(beam: Beam) -> StaticLoads:

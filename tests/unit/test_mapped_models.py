@@ -15,6 +15,7 @@ import xarray as xr
 from matplotlib.figure import Figure
 from tests.conftest import ROOT
 
+import equisection as eq
 from equisection.aerodynamics.polar import Polar
 from equisection.analysis.critical_speeds import COLUMNS, from_map, with_margin
 from equisection.analysis.loads_in_use import reactions
@@ -165,6 +166,28 @@ def test_section_of_a_run_has_the_onset_of_the_section(
     rows = table[table["model"] == "2d"]
     np.testing.assert_allclose(rows["speed"], found["critical_speed"], rtol=1e-5)
     np.testing.assert_allclose(rows["margin"], found["critical_speed"] / 22.0, rtol=1e-5)
+
+
+def test_beam_of_a_run_is_that_of_python(config: Config, table: pd.DataFrame) -> None:
+    structure, channel = config.structure, config.flow.channel
+    assert channel is not None
+    found = eq.stability_map(
+        config.beam,
+        Polar.read(POLAR),
+        incidence_deg=[2.5, 5.0],
+        speed=config.sweep.speed,
+        density=config.flow.density,
+        method="beam",
+        elements=(1, structure.elements.span, 1),
+        modes=(structure.bending_modes, structure.torsion_modes),
+        strips=config.embedded.strips,
+        channel=(channel.height_chords, channel.tip_gap_chords),
+    )
+    rows = table[table["model"] == "3d"]
+    known = rows["speed"] <= config.sweep.speed[-1]
+    assert known.any()
+    for one, other in (("speed", "critical_speed"), ("k_star", "critical_k_star")):
+        np.testing.assert_allclose(rows[one][known], found[other][known.to_numpy()], rtol=2e-6)
 
 
 def test_k_star_of_a_run_is_that_of_the_beam_as_given(
