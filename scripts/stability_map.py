@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 
+from equisection.analysis.coarser_bodies import coarser_bodies
 from equisection.analysis.loads_in_use import reactions
 from equisection.analysis.mapped_models import (
     map_dataset,
@@ -44,7 +45,8 @@ def main(
     models = mapped_models(config, data, solver)
     write_dataset(stability_map, map_dataset(models, speeds_of_map(config, given)))
     table = checked_in_time(stability_table(models, config.flow.design_speed), models, config)
-    found = sensitivity_table(models, config, solver)
+    coarser = coarser_bodies(models, config, data, given)
+    found = sensitivity_table(models, config, solver, coarser)
     table = with_intervals(table, found)
     for row in table.to_dict("records"):
         logging.getLogger(__name__).info(

@@ -17,6 +17,7 @@ from tests.conftest import ROOT
 
 import equisection as eq
 from equisection.aerodynamics.polar import Polar
+from equisection.analysis.coarser_bodies import coarser_bodies
 from equisection.analysis.critical_speeds import COLUMNS, from_map, with_margin
 from equisection.analysis.loads_in_use import reactions
 from equisection.analysis.mapped_models import (
@@ -26,13 +27,16 @@ from equisection.analysis.mapped_models import (
     speeds_of_map,
     stability_table,
 )
+from equisection.analysis.onset_intervals import sensitivity_table
 from equisection.analysis.releases_of_map import checked_in_time, in_use
 from equisection.config import Config, load_config
 from equisection.config.groups import Beam, Flow, Structure
 from equisection.errors import ConfigError
 from equisection.figures import catalogue
 from equisection.figures.style import drawing_style
+from equisection.motion.critical import critical_of
 from equisection.motion.stability import critical_speed
+from equisection.motion.stability_map import map_lines
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.correction_dataset import factors_to_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -241,6 +245,39 @@ def test_speeds_of_the_map_go_into_the_table_of_critical_speeds(table: pd.DataFr
     assert tuple(critical.columns) == COLUMNS
     assert set(critical["basis"]) == {"eigenvalue"}
     np.testing.assert_allclose(critical["margin"], critical["speed_low"] / 22.0)
+
+
+def test_coarser_beam_tells_how_well_the_strips_are_known(
+    config: Config, data: dict[str, xr.Dataset], models: list[MappedModel], table: pd.DataFrame
+) -> None:
+    """With half of the strips the onset is that of a map of its own; a last mode stays."""
+    given = AsGiven(nominal_k_star(data["equivalent"]), config.flow.speed)
+    coarser = coarser_bodies(models, config, data, given)
+    assert set(coarser) == {"3d"}
+    assert [(one.parameter, one.number, one.less) for one in coarser["3d"]] == [("strips", 4, 2)]
+    beam = [model for model in models if model.name == "3d"]
+    found = sensitivity_table(beam, config, solver_from_config(config, "coarse"), coarser)
+    rows = found[found["parameter"] == "strips"]
+    body = coarser["3d"][0].body
+    lines = map_lines(body, [line.incidence_rad for line in beam[0].lines], np.array([15.0, 80.0]))
+    own = [critical_of(line).critical_speed for line in lines]
+    np.testing.assert_allclose(rows["speed_at_less"], own, rtol=1e-5)
+    speed = table[table["model"] == "3d"]["speed"].to_numpy()
+    np.testing.assert_allclose(rows["speed_at_more"], 2.0 * speed - own, rtol=1e-5)
+    assert (rows["lowers"] > 0.0).all()
+
+
+def test_last_modes_of_each_kind_are_left_out(
+    config: Config, data: dict[str, xr.Dataset], models: list[MappedModel]
+) -> None:
+    structure = config.structure.model_copy(update={"bending_modes": 3, "torsion_modes": 2})
+    more = config.model_copy(update={"structure": structure})
+    given = AsGiven(nominal_k_star(data["equivalent"]), config.flow.speed)
+    found = coarser_bodies(models, more, data, given)["3d"]
+    modes = next(one for one in found if one.parameter == "modes")
+    assert (modes.number, modes.less) == (5, 2)
+    assert modes.body.structure.bending_shapes.shape[1] == 2
+    assert modes.body.structure.torsion_shapes.shape[1] == 1
 
 
 def test_small_releases_agree_with_the_eigenvalues(
