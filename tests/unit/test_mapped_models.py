@@ -351,13 +351,19 @@ def test_figures_of_a_map_are_drawn(  # noqa: PLR0917 - fixtures
     config: Config,
     data: dict[str, xr.Dataset],
     models: list[MappedModel],
+    table: pd.DataFrame,
     tmp_path: Path,
 ) -> None:
     given = AsGiven(nominal_k_star(data["equivalent"]), config.flow.speed)
     path = tmp_path / "map.nc"
     write_dataset(path, map_dataset(models, speeds_of_map(config, given)))
+    with_interval = table.assign(
+        speed_from=[20.0, np.nan, 0.0, 30.0, 25.0, 21.0], speed_to=[30, np.nan, 40, np.inf, 60, 50]
+    )
+    with_interval.to_csv(tmp_path / "stability.csv")
+    files = {"stability_map": path, "stability": tmp_path / "stability.csv"}
     values = {"incidence_deg": 2.5, "design_speed": design_speed}
     with drawing_style(ROOT / "envs" / "equisection.mplstyle"):
-        figure = catalogue.draw(entry, {"stability_map": path}, values)
+        figure = catalogue.draw(entry, files, values)
         assert isinstance(figure, Figure)
         figure.draw_without_rendering()
