@@ -27,7 +27,7 @@ from equisection.analysis.mapped_models import (
     speeds_of_map,
     stability_table,
 )
-from equisection.analysis.onset_intervals import sensitivity_table
+from equisection.analysis.onset_intervals import sensitivity_table, with_intervals
 from equisection.analysis.releases_of_map import checked_in_time, in_use
 from equisection.config import Config, load_config
 from equisection.config.groups import Beam, Flow, Structure
@@ -327,6 +327,30 @@ def test_reactions_of_every_boundary_carry_the_load_of_the_air(
             expected = sums
     np.testing.assert_allclose(sums, expected, rtol=1e-9)
     assert set(found["model"]) == {"2d", "2d-corrected", "3d"}
+
+
+def test_incidences_that_a_polar_does_not_cover_are_named_in_every_table(
+    config: Config, data: dict[str, xr.Dataset]
+) -> None:
+    """Beyond the polar, and where the equilibrium leaves it: the other incidence goes on."""
+    sweep = config.sweep.model_copy(update={"incidence_deg": (2.5, 11.9, 20.0), "models": ("2d",)})
+    asked = config.model_copy(update={"sweep": sweep})
+    solver = solver_from_config(asked, "coarse")
+    models = mapped_models(asked, data, solver)
+    found = checked_in_time(stability_table(models, 22.0), models, asked)
+    found = with_intervals(found, sensitivity_table(models, asked, solver))
+    said, use = (table.set_index("incidence_deg") for table in (found, in_use(models, asked)))
+    assert np.isfinite(said.loc[2.5, "speed_from"])
+    for angle, words in ((11.9, "the equilibrium leaves the polar"), (20.0, "20 deg is outside")):
+        row = said.loc[angle]
+        assert row["mechanism"] == "unknown"
+        assert math.isnan(row["speed"])
+        assert row["interval_of"] == ""
+        assert words in row["note"]
+        assert words in use.loc[angle, "note"]
+    assert set(reactions(models, asked)["incidence_deg"]) == {2.5}
+    drawn = map_dataset(models, np.asarray(sweep.values()))
+    assert list(drawn["incidence_deg"].values) == [2.5, 11.9, 20.0]
 
 
 def test_design_speed_above_the_map_is_said(config: Config, models: list[MappedModel]) -> None:

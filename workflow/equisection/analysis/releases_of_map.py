@@ -208,11 +208,9 @@ def _at_design(
         "frequency_hz": nan,
         "regime": "",
         "cycle_twist_deg": nan,
-        "note": "no equilibrium at this speed",
+        "note": _absence(line, speed),
     }
     if verdict is None:
-        if line.exists and speed < line.path.end_speed:
-            row["note"] = f"above {line.highest:.4g} m/s, the highest speed that was looked at"
         return row
     system, states, deficits = line.path.system(np.array([speed]))
     twist, deflection = body.tip(states)
@@ -237,6 +235,13 @@ def _at_design(
         note=str(verdict["reason"]),
     )
     return row
+
+
+def _absence(line: MapLine, speed: float) -> str:
+    """Say why nothing is known of a body at a speed (m/s)."""
+    if line.exists and speed < line.path.end_speed:
+        return f"above {line.highest:.4g} m/s, the highest speed that was looked at"
+    return f"no equilibrium at this speed: {critical_of(line).note}"
 
 
 def _least_damped(line: MapLine, speed: float, values: Complexes) -> complex:
