@@ -391,3 +391,11 @@ def test_figures_of_a_map_are_drawn(  # noqa: PLR0917 - fixtures
         figure = catalogue.draw(entry, files, values)
         assert isinstance(figure, Figure)
         figure.draw_without_rendering()
+    if entry.name != "critical-speed":
+        return
+    said = {text.get_text() for text in figure.legends[0].get_texts()}
+    assert {"interval", "open above"} <= said
+    assert ("interval below the design speed" in said) == (design_speed is not None)
+    assert [bool(axes.collections) for axes in figure.axes] == [True, True, True]
+    bars = figure.axes[0].collections[1].get_segments()  # of 2.5 deg; of 5 nothing is known
+    assert [bar[:, 1].tolist() for bar in bars] == [[20.0, 30.0]]

@@ -9,6 +9,7 @@ import xarray as xr
 
 from equisection.analysis.mapped_models import MappedModel, body_of_model
 from equisection.config import Config
+from equisection.keys.group import KeyGroup
 from equisection.motion.body_in_flow import BodyInFlow
 from equisection.solvers.registry import solver_from_config
 from equisection.study import plan
@@ -61,7 +62,7 @@ def _coarser(
     name: str, config: Config, data: Mapping[str, xr.Dataset], given: AsGiven
 ) -> list[CoarserBody]:
     strips, structure = config.embedded.strips, config.structure
-    wanted = []
+    wanted: list[tuple[str, int, int, dict[str, KeyGroup]]] = []
     if strips // 2 >= FEWEST:
         fewer = config.embedded.model_copy(update={"strips": strips // 2})
         wanted.append((STRIPS, strips, strips - strips // 2, {"embedded": fewer}))

@@ -60,8 +60,8 @@ GIVEN = "configuration"
 RELATIVE, ABSOLUTE = "d ln V/d ln p", "dV/dp (m/s per unit)"
 #: Parameter that is the error of the mesh where it is given.
 MESH = "mesh"
-#: Part of the speed from which on, as half of the interval by the error of the growth alone, a slope
-#: at the onset says little.
+#: Part of the speed from which on, as half of the interval by the error of the growth alone, a
+#: slope at the onset says little.
 LITTLE = 0.5
 #: Usual half-ranges of what a beam is made of, as parts, with their sources.
 _STIFFNESS = (0.03, "usual: E of rolled steel (JCSS Probabilistic Model Code, 2001)")
@@ -212,7 +212,7 @@ def _with_parts(speed: float, rows: list[Row]) -> list[Row]:
     squares = np.nan_to_num(lowered**2)
     whole = float(squares.sum())
     share = np.where(np.isnan(lowered), math.nan, squares / whole if whole else 0.0)
-    parts = zip(-lowered, raised, share, strict=True)
+    parts = zip(np.abs(lowered), raised, share, strict=True)
     return [
         {**row, "lowers": down, "raises": up, "share": part}
         for row, (down, up, part) in zip(rows, parts, strict=True)

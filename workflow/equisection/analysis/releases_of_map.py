@@ -170,9 +170,10 @@ def in_use(models: Sequence[MappedModel], config: Config) -> pd.DataFrame:
 
     Static twist (deg) and deflection (m) of the tip; by the static loads of the air alone the
     bending moment (N m, that lifts the tip) and the torque (N m, nose up, about the elastic axis)
-    at the root, and the largest along the span with their places z/L; damping ratio and frequency of the least damped of the first two modes of
-    each kind, share of the speed of divergence, and the regime after a release from 3 deg beyond
-    equilibrium with the amplitude of the tip's twist (deg) if it is a limit cycle.
+    at the root, and the largest along the span with their places z/L; damping ratio and frequency
+    of the least damped of the first two modes of each kind, share of the speed of divergence, and
+    the regime after a release from 3 deg beyond equilibrium with the amplitude of the tip's twist
+    (deg) if it is a limit cycle.
     """
     design = config.flow.design_speed
     assert design is not None, "the plan asks for it with a design speed alone"

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import xarray as xr
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
@@ -81,7 +82,7 @@ def draw(stability_map: xr.Dataset, stability: pd.DataFrame, design_speed: float
 def _top(stability: pd.DataFrame, design_speed: float | None) -> float:
     """Return the highest speed (m/s) of the axis, with room above what is drawn."""
     drawn = stability[["speed", "speed_low", "speed_to"]].to_numpy(dtype=np.float64)
-    return _ROOM * max(drawn[np.isfinite(drawn)].max(initial=1.0), design_speed or 0.0)
+    return _ROOM * max(float(drawn[np.isfinite(drawn)].max(initial=1.0)), design_speed or 0.0)
 
 
 def _ends(stability: pd.DataFrame, one: xr.Dataset) -> Floats:
@@ -140,7 +141,7 @@ def _speeds(axes: Axes, one: xr.Dataset, look: Look) -> set[str]:
 def _legend(figure: Figure, seen: set[str], design_speed: float | None) -> None:
     """Explain the marks that are in the figure, on lines that have no data."""
     axes = figure.axes[0]
-    handles = []
+    handles: list[Artist] = []
     if design_speed is not None:
         handles += [line for line in axes.lines if line.get_label() == "design speed"]
     for mechanism in (name for name in MARKERS_OF_MECHANISMS if name in seen):
