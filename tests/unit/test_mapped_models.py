@@ -337,7 +337,7 @@ def test_incidences_that_a_polar_does_not_cover_are_named_in_every_table(
     asked = config.model_copy(update={"sweep": sweep})
     solver = solver_from_config(asked, "coarse")
     models = mapped_models(asked, data, solver)
-    found = checked_in_time(stability_table(models, 22.0), models, asked)
+    found = stability_table(models, 22.0)
     found = with_intervals(found, sensitivity_table(models, asked, solver))
     said, use = (table.set_index("incidence_deg") for table in (found, in_use(models, asked)))
     assert np.isfinite(said.loc[2.5, "speed_from"])
