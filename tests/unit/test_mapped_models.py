@@ -172,6 +172,7 @@ def test_section_of_a_run_has_the_onset_of_the_section(
     np.testing.assert_allclose(rows["margin"], found["critical_speed"] / 22.0, rtol=1e-5)
 
 
+@pytest.mark.filterwarnings("ignore:structure.method 'beam' leaves out:UserWarning")
 def test_beam_of_a_run_is_that_of_python(config: Config, table: pd.DataFrame) -> None:
     structure, channel = config.structure, config.flow.channel
     assert channel is not None
