@@ -70,6 +70,8 @@ class Growth:
         Distance of its frequency to that of the nearest other motion (f c/V).
     periods
         Periods that the standard error rests on.
+    by_amplitude
+        True of a rate that was read off the twist's amplitude alone.
     """
 
     rate: float = math.nan
@@ -80,6 +82,7 @@ class Growth:
     residue: float = math.nan
     nearest: float = math.nan
     periods: int = 0
+    by_amplitude: bool = False
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -108,7 +111,9 @@ class Growth:
 
     @property
     def note(self) -> str:
-        """Warning about beats in the window, or an empty text."""
+        """Warning about how the rate was read, or about beats in its window; or an empty text."""
+        if self.by_amplitude:
+            return "read off the twist's amplitude alone, in which two motions beat"
         if self.residue > LARGEST_RESIDUE:
             return (
                 f"beats in the window: the fitted waves leave {100 * self.residue:.0f} % of the "
@@ -117,6 +122,10 @@ class Growth:
         if self.nearest * (self.end - self.start) < 1.0:
             return "the window is shorter than a beat with the nearest other motion"
         return ""
+
+
+#: Growth of a record that does not tell it.
+NO_GROWTH = Growth()
 
 
 def growth_window(end: float, pitch_frequency: float) -> tuple[float, float]:
