@@ -42,7 +42,8 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     growth
         Growth of twist and deflection together.
     """
-    elapsed = float(seen.time[-1] - seen.time[0])
+    samples = seen.time.size  # the first may be a sample after the release
+    elapsed = float(seen.time[-1] - seen.time[0]) * samples / (samples - 1)
     if elapsed < seen.criteria.minimal_time:
         if seen.faster_by > RUNS_AWAY:
             return "growing", f"{_AT_THE_END}{_leaves(seen)}"

@@ -282,7 +282,9 @@ class PlateRun(FreeRun[PlateMesh]):
 
     def tip_motion(self, history: PlateHistory) -> TipMotion:
         """Return the motion of the tip."""
-        return TipMotion(history.time, *self.points.tip(history.position))
+        torsion = self.points.torsion_modes
+        modes = first_modes(history.position[:, :torsion].T, history.position[:, torsion:].T)
+        return TipMotion(history.time, *self.points.tip(history.position), modes)
 
     def _result(self, failure: str) -> UnsteadyResult:
         case = self.case
