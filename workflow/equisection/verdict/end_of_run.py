@@ -47,6 +47,8 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     if elapsed < seen.criteria.minimal_time:
         if seen.faster_by > RUNS_AWAY:
             return "growing", f"{_AT_THE_END}{_leaves(seen)}"
+        if seen.swings_rise:
+            return "growing", f"{_AT_THE_END}{_rising(seen)}"
         return "undecided", (
             f"too short to be judged: {elapsed:.3g} c/V of the {seen.criteria.minimal_time:g} "
             "needed; raise the duration"
@@ -151,11 +153,19 @@ def _departure(seen: Observation) -> str:
     swings = seen.half_swings
     if seen.faster_by > GROWN:
         return _leaves(seen)
+    if seen.swings_rise:
+        return _rising(seen)
     if seen.cycles.time.size < _FEWEST_EXTREMA and swings.size > 1:
         first, largest = float(swings[0]), float(swings[1:].max())
         if largest > _DEPARTS * first:
             return f"half swings of {degrees(first)} and then {degrees(largest)}"
     return ""
+
+
+def _rising(seen: Observation) -> str:
+    """Return the last half swings of a twist that swings ever further."""
+    swings = ", ".join(degrees(float(one)) for one in seen.half_swings[-3:])
+    return f"ever larger half swings, the last of {swings}"
 
 
 def _leaves(seen: Observation) -> str:

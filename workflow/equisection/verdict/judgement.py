@@ -166,8 +166,8 @@ def swings_grow(time: ArrayLike, twist: ArrayLike, bound: float) -> bool:
         A value is not finite or time does not increase.
     """
     s, theta, _ = checked(time, twist, np.zeros_like(time))
-    swings = observe(s, theta, np.zeros_like(s), Criteria(), math.nan).half_swings[-3:]
-    return bool(swings.size == 3 and (np.diff(swings) > 0.0).all() and swings[-1] > bound)
+    criteria = Criteria(growing_amplitude_deg=math.degrees(bound))
+    return observe(s, theta, np.zeros_like(s), criteria, math.nan).swings_rise
 
 
 def _last(time: Array) -> float:

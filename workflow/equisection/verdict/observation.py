@@ -124,6 +124,13 @@ class Observation:
         return swings
 
     @property
+    def swings_rise(self) -> bool:
+        """Tell whether each of the last three half swings is larger, the last beyond the bound."""
+        last = self.half_swings[-3:]
+        bound = math.radians(self.criteria.growing_amplitude_deg)
+        return bool(last.size == 3 and (np.diff(last) > 0.0).all() and last[-1] > bound)
+
+    @property
     def faster_by(self) -> float:
         """Ratio of the twist's change in the second half of the time to that in the first (-).
 
