@@ -8,14 +8,15 @@ within its error, can still be zero: the roots of
 
 with the variances V of the line (Fieller, J. R. Stat. Soc. B 16, 1954). w is the square of the
 normal deviate z of a two-sided 95 %. Where the rates scatter about the line by more than their
-errors tell, which a curve does too, it is t^2 chi^2/(n - 2) with Student's t. The interval holds the
-errors of the rates and of the line, not that of the flow solver.
+errors tell, which a curve does too, it is t^2 chi^2/(n - 2) with Student's t. The interval ends at
+the latest at the runs on both sides whose own growth has its sign beyond doubt. It holds the errors
+of the rates and of the line, not that of the flow solver.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
@@ -54,6 +55,15 @@ class GrowthOnset:
     high: float = math.nan
     runs: int = 0
 
+    def within(self, sides: Floats) -> GrowthOnset:
+        """Return it with an interval that ends at the latest at sides of it, of shape (0 to 2,)."""
+        below, above = sides[sides <= self.value], sides[sides >= self.value]
+        return replace(
+            self,
+            low=float(np.nanmax([self.low, *below])) if below.size else self.low,
+            high=float(np.nanmin([self.high, *above])) if above.size else self.high,
+        )
+
 
 def onset_by_growth(runs: pd.DataFrame, axis: Axis) -> GrowthOnset:
     """Return the onset of the runs of one sweep.
@@ -73,17 +83,23 @@ def onset_by_growth(runs: pd.DataFrame, axis: Axis) -> GrowthOnset:
     table = runs[runs["regime"] != Regime.FAILED].sort_values(
         axis.name, key=axis.stability, ascending=False
     )
-    value, rate, error = (
-        table[name].to_numpy(dtype=float)
-        for name in (axis.name, "growth_rate", "growth_standard_error")
-    )
-    known = np.isfinite(rate) & (error > 0.0)
-    value, rate, error = value[known], rate[known], error[known]
+    names = (axis.name, "growth_rate", "growth_standard_error", "growth_low", "growth_high")
+    numbers = table[list(names)].to_numpy(dtype=float).T
+    value, rate, error, low, high = numbers[:, np.isfinite(numbers).all(axis=0) & (numbers[2] > 0)]
     unstable = np.flatnonzero(rate > 0.0)
     if not unstable.size or unstable[0] == 0:
         return GrowthOnset()
-    near = slice(max(int(unstable[0]) - A_SIDE, 0), int(unstable[0]) + A_SIDE)
-    return zero_of_line(value[near], rate[near], error[near])
+    first = int(unstable[0])
+    near = slice(max(first - A_SIDE, 0), first + A_SIDE)
+    found = zero_of_line(value[near], rate[near], error[near])
+    # the nearest runs of which the sign is clear
+    surely_unstable = value[first:][low[first:] > 0.0][:1]
+    surely_stable = value[:first][high[:first] < 0.0][-1:]
+    sides = np.concatenate((surely_unstable, surely_stable))
+    if sides.size == 2 and not sides.min() <= found.value <= sides.max():  # a curve
+        two = slice(first - 1, first + 1)
+        found = zero_of_line(value[two], rate[two], error[two])
+    return found.within(sides)
 
 
 def zero_of_line(value: Floats, rate: Floats, error: Floats) -> GrowthOnset:

@@ -146,7 +146,9 @@ def onset_bracket(
     low = -math.inf if math.isnan(last) else towards(last)
     high = math.inf if math.isnan(first) else towards(first)
     inside = {
-        name: {float(value) for value, regime in zip(values, regimes, strict=True) if regime == name}
+        name: {
+            float(value) for value, regime in zip(values, regimes, strict=True) if regime == name
+        }
         - unstable
         - stable
         for name in UNKNOWN

@@ -58,9 +58,7 @@ def tip_motion(known: xr.Dataset, end: float = math.inf) -> TipMotion:
     """Return the motion of the tip up to a time (c/V), in chords where the file has metres."""
     part = _upto(known, end)
     deflection = part["tip_deflection"].values / float(known.attrs["chord"])
-    return TipMotion(
-        part["time"].values, part["tip_twist"].values, deflection, _first_modes(part)
-    )
+    return TipMotion(part["time"].values, part["tip_twist"].values, deflection, _first_modes(part))
 
 
 def _first_modes(known: xr.Dataset) -> NDArray[np.float64]:

@@ -73,7 +73,7 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
         return "growing", f"{_AT_THE_END}{amplitude} grows, {by}{rate}"
     if last < math.radians(seen.criteria.settled_amplitude_deg):
         return "settled", f"{_AT_THE_END}{amplitude} is that of a section at rest"
-    if direction < 0 and seen.fallen:
+    if direction < 0 and seen.little_is_left:
         return "settled", f"{_AT_THE_END}{amplitude} dies out, {by}"
     if direction < 0:
         return "decaying", f"{_AT_THE_END}{amplitude} decays, {by}"

@@ -13,7 +13,8 @@ settled
     The amplitude is below what counts as an oscillation and does not grow, or it has fallen
     far and goes on falling at an undiminished rate, so that the rest is known.
 decaying
-    The amplitude has fallen over two windows with no sign of a limit cycle beneath.
+    The amplitude has fallen over two windows with no sign of a limit cycle beneath, but not that
+    far yet.
 limit cycle
     The amplitude has been steady over the last periods and does not creep on steadily.
 at the end of the run
@@ -49,9 +50,7 @@ from equisection.verdict.verdict import Criteria, Regime, Verdict
 from equisection.verdict.wording import change, degrees
 
 _FEWEST_SAMPLES = 8
-_UNMOVED = (
-    "nothing has moved, so nothing is known: give the body a start (unsteady.start), or an incidence"
-)
+_UNMOVED = "nothing has moved, so nothing is known: give the body a start (unsteady.start), or an incidence"
 # The spread is counted net of noise, so noise may hide a change of the amplitude: more than
 # this many times the steadiness must not be possible within the error of the trend.
 _HIDDEN_CHANGE = 3.0
@@ -199,7 +198,7 @@ def _while_running(seen: Observation) -> tuple[Regime, str]:
     for regime, test in tests:
         reason = test(seen)
         if reason:
-            return regime, reason
+            return ("settled" if regime == "decaying" and seen.little_is_left else regime), reason
     return "undecided", f"twist amplitude {degrees(_last(seen.amplitude))}, {change(seen)}"
 
 

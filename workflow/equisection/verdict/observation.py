@@ -98,6 +98,12 @@ class Observation:
         return float(self.amplitude[-1]) * self.criteria.decay_factor <= largest
 
     @property
+    def little_is_left(self) -> bool:
+        """Tell whether a decaying amplitude has fallen far enough, or counts as none."""
+        least = math.radians(self.criteria.settled_amplitude_deg)
+        return self.fallen or float(self.amplitude[-1]) < least
+
+    @property
     def has_moved(self) -> bool:
         """Tell whether twist or deflection has changed by enough to be told from nothing."""
         criteria = self.criteria
