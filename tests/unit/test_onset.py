@@ -169,7 +169,8 @@ def test_onset_table_tells_what_the_growth_of_its_runs_does():
     assert math.isnan(stable["k_star_growth"])
     # results from before there were errors
     before = onset_table(summary.drop(columns=["growth_low", "growth_high"])).iloc[0]
-    assert math.isnan(before["k_star_growth"]) and before["in_doubt"] == ""
+    assert math.isnan(before["k_star_growth"])
+    assert before["in_doubt"] == ""
 
 
 def test_refinement_divides_the_bracket():

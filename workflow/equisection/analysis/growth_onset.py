@@ -78,7 +78,7 @@ def onset_by_growth(runs: pd.DataFrame, axis: Axis) -> GrowthOnset:
     axis
         The axis, with the side of the onset on which a beam is stable.
     """
-    if not HAS <= set(runs.columns):
+    if not set(runs.columns) >= HAS:
         return GrowthOnset()
     table = runs[runs["regime"] != Regime.FAILED].sort_values(
         axis.name, key=axis.stability, ascending=False

@@ -181,7 +181,7 @@ def refinement_points(bracket: OnsetBracket, tolerance: float, count: int = 1) -
         return []
     low, high = sorted((bracket.unstable, bracket.stable))
     middle = 0.5 * (low + high)
-    # Each run that says nothing may be in the way of one division; the next finer one goes around it.
+    # Each run that says nothing may be in the way of one division; the next finer goes around it.
     for parts in range(count + 1, count + 2 + len(bracket.unknown)):
         step = (high - low) / parts
         points = {_rounded(low + i * step) for i in range(1, parts)}
@@ -299,7 +299,7 @@ def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
     Its columns are the model, the values on the further axes of the study, the sides of the bracket
     (``k_star_stable``, ``k_star_unstable``), ``failed_inside``, ``stable_below``,
     ``undecided_inside``, ``in_doubt`` and the onset by the growth rates with its interval
-    (``k_star_growth``, ``k_star_growth_low``, ``k_star_growth_high``), ``growth_runs`` from how many.
+    (``k_star_growth``, ``k_star_growth_low``, ``k_star_growth_high``) from ``growth_runs`` runs.
     """
     axes = axes_among(summary.columns)
     axis = onset_axis(axes)
@@ -342,7 +342,7 @@ def sides_in_doubt(bracket: OnsetBracket, runs: pd.DataFrame, axis: Axis) -> lis
     run without an oscillation has no growth rate, and leaves no such doubt.
     """
     found: list[float] = []
-    if not HAS <= set(runs.columns):
+    if not set(runs.columns) >= HAS:
         return found
     for value, is_stable in ((bracket.unstable, False), (bracket.stable, True)):
         for _, run in runs[axis.same(runs[axis.name], value)].iterrows():

@@ -45,37 +45,45 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     samples = seen.time.size  # the first may be a sample after the release
     elapsed = float(seen.time[-1] - seen.time[0]) * samples / (samples - 1)
     if elapsed < seen.criteria.minimal_time:
-        if seen.faster_by > RUNS_AWAY:
-            return "growing", f"{_AT_THE_END}{_leaves(seen)}"
-        if seen.swings_rise:
-            return "growing", f"{_AT_THE_END}{_rising(seen)}"
-        return "undecided", (
-            f"too short to be judged: {elapsed:.3g} c/V of the {seen.criteria.minimal_time:g} "
-            "needed; raise the duration"
-        )
+        return _too_short(seen, elapsed)
     if not seen.ringing or seen.amplitude.size < 3:
         return _by_swings(seen)
-    last = float(seen.amplitude[-1])
-    amplitude = f"twist amplitude {degrees(last)}"
-    by_growth = growth.decides
-    by = f"{growth.words}, {change(seen)}" if by_growth else change(seen)
-    is_long = by_growth or seen.used >= 2 * DECISIVE_PERIODS
-    stalls = _stalls(seen)
-    if not is_long:
+    if not growth.decides and seen.used < 2 * DECISIVE_PERIODS:
         return "undecided", (
             f"too short to be judged: {seen.used / 2:g} of the {DECISIVE_PERIODS} periods needed "
             f"after the first {seen.criteria.discard_time:g} c/V; raise the duration"
         )
-    direction = growth.sign if by_growth and not stalls else _direction(seen)
+    return _by_growth(seen, growth)
+
+
+def _too_short(seen: Observation, elapsed: float) -> tuple[Regime, str]:
+    """Decide from a record of a time (c/V) in which only what runs away is told."""
+    if seen.faster_by > RUNS_AWAY:
+        return "growing", f"{_AT_THE_END}{_leaves(seen)}"
+    if seen.swings_rise:
+        return "growing", f"{_AT_THE_END}{_rising(seen)}"
+    return "undecided", (
+        f"too short to be judged: {elapsed:.3g} c/V of the {seen.criteria.minimal_time:g} "
+        "needed; raise the duration"
+    )
+
+
+def _by_growth(seen: Observation, growth: Growth) -> tuple[Regime, str]:
+    """Decide by the sign of a growth, or by an amplitude that has none."""
+    last = float(seen.amplitude[-1])
+    amplitude = f"twist amplitude {degrees(last)}"
+    by = f"{growth.words}, {change(seen)}" if growth.decides else change(seen)
+    stalls = _stalls(seen)
+    direction = growth.sign if growth.decides and not stalls else _direction(seen)
     if direction > 0:
         slowing = seen.halves[1].growth_rate < UNDIMINISHED * seen.halves[0].growth_rate
         rate = ", at a falling rate" if slowing else ""
         return "growing", f"{_AT_THE_END}{amplitude} grows, {by}{rate}"
     if last < math.radians(seen.criteria.settled_amplitude_deg):
         return "settled", f"{_AT_THE_END}{amplitude} is that of a section at rest"
-    if direction < 0 and seen.little_is_left:
-        return "settled", f"{_AT_THE_END}{amplitude} dies out, {by}"
     if direction < 0:
+        if seen.fallen:
+            return "settled", f"{_AT_THE_END}{amplitude} dies out, {by}"
         return "decaying", f"{_AT_THE_END}{amplitude} decays, {by}"
     words = f"{amplitude} has no clear trend ({by}), and its spread is {100.0 * seen.spread:.2g} %"
     if seen.spread <= seen.criteria.steadiness or stalls or _comes_back(seen, growth):

@@ -349,7 +349,7 @@ class _Fit:
 
 
 def _jackknife(residual: Array, jacobian: Array, periods: int) -> list[float]:
-    """Standard errors of the rates of a lane, which leave out one period at a time.
+    """Return the standard errors of the rates of a lane, by leaving out one period at a time.
 
     Parameters
     ----------

@@ -50,7 +50,10 @@ from equisection.verdict.verdict import Criteria, Regime, Verdict
 from equisection.verdict.wording import change, degrees
 
 _FEWEST_SAMPLES = 8
-_UNMOVED = "nothing has moved, so nothing is known: give the body a start (unsteady.start), or an incidence"
+_UNMOVED = (
+    "nothing has moved, so nothing is known: give the body a start (unsteady.start), or an "
+    "incidence"
+)
 # The spread is counted net of noise, so noise may hide a change of the amplitude: more than
 # this many times the steadiness must not be possible within the error of the trend.
 _HIDDEN_CHANGE = 3.0

@@ -70,6 +70,7 @@ from equisection.solvers.verdicts import (
     LOOKS_EVERY,
     TipMotion,
     decided_at,
+    first_modes,
     is_decided,
     judge,
     last_look,
