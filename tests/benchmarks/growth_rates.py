@@ -1,6 +1,6 @@
 """Growth of the beam over k*: read off the twist's amplitude, and fitted to its first modes.
 
-    python -m tests.benchmarks growth-rates
+python -m tests.benchmarks growth-rates
 """
 
 import math
