@@ -120,11 +120,12 @@ def assess(
     if regime == "undecided" and final:
         regime, reason = decide_at_end(seen, growth)
     by_heave = False
-    if regime in _BOUNDED:
-        if final and (heave := growing_heave(seen)):
+    is_long = float(s[-1] - s[0]) >= criteria.minimal_time
+    if final and (regime in _BOUNDED or (regime == "undecided" and is_long)):
+        if heave := growing_heave(seen):
             regime, reason, by_heave = "growing", heave, True
-        elif not final and (heave := unseen_decay(seen)):
-            regime, reason = "undecided", f"looks {regime} ({reason}), but {heave}"
+    elif regime in _BOUNDED and (heave := unseen_decay(seen)):
+        regime, reason = "undecided", f"looks {regime} ({reason}), but {heave}"
     if regime in {"growing", "undecided"}:
         found = replace(_verdict(seen, regime, reason, growth), heave_grows=by_heave)
         return _with_means(found, window_means(seen))
