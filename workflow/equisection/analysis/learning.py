@@ -38,6 +38,7 @@ from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.recorded_history import history_of
+from equisection.results.unsteady_result import Regime
 from equisection.solvers.registry import solver_from_config
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
@@ -61,6 +62,7 @@ class JudgedRun:
     point: Point
     unstable: bool | None
     file: Path
+    failed: bool = False
 
 
 def runs_of(index: Path) -> list[JudgedRun]:
@@ -70,6 +72,7 @@ def runs_of(index: Path) -> list[JudgedRun]:
             Point.named(name),
             is_unstable(str(found["regime"]), float(found["twist_amplitude_deg"]), THRESHOLD_DEG),
             result_file(index, name),
+            failed=found["regime"] == Regime.FAILED,
         )
         for name, found in read_index(index).items()
     ]
@@ -200,7 +203,7 @@ class Lessons:
             It failed.
         """
         runs = [run for index in self.releases for run in runs_of(index)]
-        if not runs or runs[-1].unstable is None:
+        if not runs or runs[-1].failed:
             name = runs[-1].point.name if runs else "none"
             raise ResultFileError(
                 f"{self.releases[-1]}: the release to learn from failed, or is missing ({name}); "

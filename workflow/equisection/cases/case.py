@@ -173,7 +173,7 @@ class EndCriteria(Block):
     history would get another verdict, or get it at another time.
     """
 
-    rules: int = 6
+    rules: int = 7
     settled_amplitude_deg: float
     growing_amplitude_deg: float
     steadiness: float

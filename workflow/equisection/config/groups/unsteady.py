@@ -54,7 +54,9 @@ class Unsteady(KeyGroup):
     """Runs of the free section and of the free beam, from a steady state."""
 
     duration: Positive = Field(
-        400.0, description="The longest a run may take (c/V), ten output intervals or more."
+        400.0,
+        description="The longest a run may take (c/V), ten output intervals or more. One shorter "
+        "than 30 c/V, or than four periods of the pitch after 10 c/V, is undecided.",
     )
     time_step: Positive = Field(0.05, description="Time step (c/V).")
     output_interval: Positive = Field(

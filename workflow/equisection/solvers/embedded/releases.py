@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import TypedDict
+from typing import Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from equisection.motion.march import Failure
 from equisection.motion.sections import SectionHistories, release_sections
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import Progress
-from equisection.solvers.verdicts import Judge, TipMotion, judge, monitor_of
+from equisection.solvers.verdicts import Judge, TipMotion, first_modes, growths_of_tips, monitor_of
 
 Floats = NDArray[np.float64]
 
@@ -82,9 +82,20 @@ def release_judged(
         monitor=monitor_of(judges, tip_of),
         progress=progress,
     )
+    ends = map(int, histories.samples)
+    tips = [tip_of(histories, lane, slice(end)) for lane, end in enumerate(ends)]
+    growths = growths_of_tips(judges, tips)
     return [
-        _section_result(histories, section, judge, lane, settings["incidence_rad"])
-        for lane, (section, judge) in enumerate(zip(sections, judges, strict=True))
+        _section_result(
+            histories,
+            section,
+            lane,
+            settings["incidence_rad"],
+            judge.attributes(tip, _failure(histories.failures, lane), growth),
+        )
+        for lane, (section, judge, tip, growth) in enumerate(
+            zip(sections, judges, tips, growths, strict=True)
+        )
     ]
 
 
@@ -113,14 +124,25 @@ def release_all_beams(
     ``finite_span`` is what the ``strips`` do to each other.
     """
     parameters = beam_parameters([case.beam for case in cases if case.beam], strips, finite_span)
+    judges = [Judge.of(case) for case in cases]
     histories = release_beams(
         parameters,
         loads,
         **_common_settings(cases[0]),
-        monitor=monitor_of([Judge.of(case) for case in cases], _beam_tip),
+        monitor=monitor_of(judges, _beam_tip),
         progress=progress,
     )
-    return [_beam_result(case, histories, lane) for lane, case in enumerate(cases)]
+    ends = map(int, histories.samples)
+    tips = [_beam_tip(histories, lane, slice(end)) for lane, end in enumerate(ends)]
+    growths = growths_of_tips(judges, tips)
+    return [
+        _beam_result(
+            case, histories, lane, judge.attributes(tip, _failure(histories.failures, lane), growth)
+        )
+        for lane, (case, judge, tip, growth) in enumerate(
+            zip(cases, judges, tips, growths, strict=True)
+        )
+    ]
 
 
 def beam_parameters(
@@ -181,12 +203,21 @@ def _section_tip(
 
 def _beam_tip(histories: BeamHistories, lane: int, part: slice) -> TipMotion:
     return TipMotion(
-        histories.time[part], histories.tip_twist[part, lane], histories.tip_deflection[part, lane]
+        histories.time[part],
+        histories.tip_twist[part, lane],
+        histories.tip_deflection[part, lane],
+        first_modes(
+            histories.torsion_amplitudes[part, lane].T, histories.bending_amplitudes[part, lane].T
+        ),
     )
 
 
 def _section_result(
-    histories: SectionHistories, section: Section, judge: Judge, lane: int, incidence_rad: float
+    histories: SectionHistories,
+    section: Section,
+    lane: int,
+    incidence_rad: float,
+    verdict: dict[str, Any],
 ) -> UnsteadyResult:
     end = int(histories.samples[lane])
     tip = _section_tip(histories, section, lane, slice(end))
@@ -202,12 +233,14 @@ def _section_result(
         lift=histories.lift_coefficient[:end, lane],
         moment=histories.moment_coefficient[:end, lane],
         incidence=incidence_rad + twist,
-        verdict=judge.attributes(tip, _failure(histories.failures, lane)),
+        verdict=verdict,
         axis_moment=about_axis[:end, lane] if is_offset and about_axis is not None else np.empty(0),
     )
 
 
-def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> UnsteadyResult:
+def _beam_result(
+    case: UnsteadyCase, histories: BeamHistories, lane: int, verdict: dict[str, Any]
+) -> UnsteadyResult:
     end = int(histories.samples[lane])
     about_axis = histories.axis_moment_coefficient
     tip = _beam_tip(histories, lane, slice(end))
@@ -220,7 +253,7 @@ def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> Uns
         lift=histories.lift_coefficient[:end, lane],
         moment=histories.moment_coefficient[:end, lane],
         incidence=math.radians(case.incidence_deg) + tip.twist,
-        verdict=judge(case, tip, _failure(histories.failures, lane)),
+        verdict=verdict,
         axis_moment=np.empty(0) if about_axis is None else about_axis[:end, lane],
         torsion_amplitudes=histories.torsion_amplitudes[:end, lane].T,
         bending_amplitudes=histories.bending_amplitudes[:end, lane].T,

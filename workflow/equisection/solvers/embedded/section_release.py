@@ -75,7 +75,8 @@ def release(
         Over ``time`` (s) and ``convective_time`` (c/V): ``twist`` (rad) and ``deflection`` (m) of
         the section, ``tip_twist`` (rad) and ``tip_deflection`` (m) of its beam, ``cl``, ``cm``,
         ``incidence`` (rad). The verdict is in the attributes:
-        ``regime`` (`settled`, `limit-cycle`, `growing`, `failed`), ``reason`` and its numbers.
+        ``regime`` (`settled`, `decaying`, `limit-cycle`, `growing`, `undecided`, `failed`),
+        ``reason`` and its numbers.
 
     Raises
     ------

@@ -70,6 +70,7 @@ from equisection.solvers.verdicts import (
     LOOKS_EVERY,
     TipMotion,
     decided_at,
+    first_modes,
     is_decided,
     judge,
     last_look,
@@ -298,7 +299,9 @@ class PlateRun(FreeRun[BeamCells]):
 
     def tip_motion(self, history: PlateHistory) -> TipMotion:
         """Return the motion of the tip."""
-        return TipMotion(history.time, *self.points.tip(history.position))
+        torsion = self.points.torsion_modes
+        modes = first_modes(history.position[:, :torsion].T, history.position[:, torsion:].T)
+        return TipMotion(history.time, *self.points.tip(history.position), modes)
 
     def _result(self, failure: str) -> UnsteadyResult:
         case = self.case
