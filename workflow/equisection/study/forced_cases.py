@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from typing import TYPE_CHECKING, Literal
 
@@ -51,7 +50,7 @@ def forced_case(config: Config, name: str, solver: Solver) -> ForcedCase:
         harmonics=harmonics,
         ramp=_RAMP * keys.settling,
         settling=keys.settling,
-        duration=_multiple(keys.settling + record(frequencies, keys.periods), interval),
+        duration=_multiple(keys.settling + keys.record(frequencies), interval),
         time_step=unsteady.time_step,
         output_interval=interval,
     )
@@ -60,10 +59,3 @@ def forced_case(config: Config, name: str, solver: Solver) -> ForcedCase:
 def _multiple(duration: float, interval: float) -> float:
     """Return the multiple of an interval that is next to a duration."""
     return round(math.ceil(duration / interval - 1e-6) * interval, 9)
-
-
-def record(frequencies: list[float], periods: int) -> float:
-    """Return the length of a record (c/V) in whose halves the frequencies are told apart."""
-    apart = [abs(a - b) for a, b in itertools.pairwise(sorted(frequencies))]
-    halves = [math.tau / one for one in apart]
-    return max(periods * math.tau / min(frequencies), *(2.0 * half for half in halves), 0.0)

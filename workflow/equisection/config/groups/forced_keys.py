@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -57,6 +57,21 @@ class ForcedKeys(KeyGroup):
     def frequencies(self) -> tuple[float, ...]:
         """Reduced frequencies omega c/V, descending."""
         return tuple(math.tau / one for one in self.reduced_velocity)
+
+    def record(self, frequencies: Sequence[float]) -> float:
+        """Length of a record (c/V) in whose halves frequencies (omega c/V) are told apart."""
+        apart = [abs(a - b) for a, b in itertools.pairwise(sorted(frequencies))]
+        halves = [math.tau / one for one in apart]
+        return max(
+            self.periods * math.tau / min(frequencies), *(2.0 * half for half in halves), 0.0
+        )
+
+    @property
+    def longest(self) -> float:
+        """Duration of the longest run (c/V), but for its last step."""
+        together = self.motion == "multi-sine"
+        slowest = self.frequencies if together else self.frequencies[-1:]
+        return self.settling + self.record(slowest)
 
 
 @check("forced.reduced_velocity")
