@@ -30,6 +30,7 @@ from tests.benchmarks import (  # noqa: E402
     outlines,
     plate,
     stability_map,
+    starts,
 )
 from tests.benchmarks.measure import Row  # noqa: E402
 
@@ -47,6 +48,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "outlines": outlines.rows,
     "plate": plate.rows,
     "stability-map": stability_map.rows,
+    "starts": starts.rows,
 }
 
 

@@ -191,8 +191,12 @@ class Harmonic(Block):
 class Start(Block):
     """Start of a free motion: twist of the tip until the release (deg), and its heave rate then.
 
-    The beam has them in its first modes, the section by its recovery factors.
+    The beam has them in its first modes, the section by its recovery factors. The twist is that
+    beyond the state: the undeformed beam, or its static equilibrium in the flow.
     """
 
+    left_out = frozenset({"state"})
+
+    state: Literal["rigid", "equilibrium"] = "rigid"
     twist_deg: float = 0.0
     heave_rate: float = 0.0  # over V, up
