@@ -166,6 +166,20 @@ class BeamModes(Block):
             raise EquisectionError(f"{model} takes no beam with {', '.join(more)}")
 
 
+class ModeShapes(Block):
+    """Shapes of the beam's first modes, normalised to a largest value of 1, over ``span`` = z/L.
+
+    One row a mode. ``elastic_axis`` is where the beam turns and its deflection is taken.
+    """
+
+    left_out = frozenset({"elastic_axis"})
+
+    span: tuple[float, ...]
+    bending: tuple[tuple[float, ...], ...]
+    torsion: tuple[tuple[float, ...], ...]
+    elastic_axis: float = 0.5  # x/c from the leading edge
+
+
 class EndCriteria(Block):
     """Criteria for the end and the regime of a run, which leave its history as it is.
 

@@ -43,6 +43,17 @@ class ForcedKeys(KeyGroup):
         description="Amplitude of the incidence (deg), by pitch or by the speed of heave: of a "
         "harmonic, or root mean square times the root of 2 of a multi-sine.",
     )
+    beam_modes: Annotated[int, Field(ge=0, le=12), WHOLE] = Field(
+        0,
+        description="Bending modes, and as many torsion modes, of the beam that are moved too, "
+        "each by itself: the loads on these modes come to `derivatives/3d.csv`, and their onset "
+        "takes the place of strips with the loads of the section (-). 0: the section alone.",
+    )
+    twist_deg: Angle = Field(
+        0.0,
+        description="Mean twist of the moved beam where that is largest (deg), in its first "
+        "torsion mode, beyond `incidence_deg`: that of its static equilibrium.",
+    )
     periods: Annotated[int, Field(ge=2, le=100), WHOLE] = Field(
         4,
         description="Periods of the slowest harmonic that are recorded, or more where it takes "
@@ -83,6 +94,17 @@ def _ascending_velocities(velocities: tuple[float, ...]) -> Iterator[Problem]:
                 high,
                 f"allowed is a number that is 2 % or more above the one before it, {low:g}",
             )
+
+
+@check("forced.beam_modes", "structure.bending_modes", "structure.torsion_modes")
+def _modes_that_there_are(moved: int, bending: int, torsion: int) -> Iterator[Problem]:
+    if moved > min(bending, torsion):
+        yield Problem(
+            "forced.beam_modes",
+            moved,
+            f"allowed is 0 to {min(bending, torsion)}, what structure.bending_modes and "
+            "structure.torsion_modes are",
+        )
 
 
 @check("forced.run", "derivatives.table")

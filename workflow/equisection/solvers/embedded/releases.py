@@ -108,7 +108,7 @@ def release_judged(
 
 def _with_rigid(equilibria: Floats) -> tuple[Floats, NDArray[np.bool_]]:
     """Return structural states, undeformed where there is no equilibrium, and where that is."""
-    is_without = ~np.isfinite(equilibria).all(axis=1)
+    is_without = np.asarray(~np.isfinite(equilibria).all(axis=1), dtype=np.bool_)
     return np.where(is_without[:, None], 0.0, equilibria), is_without
 
 
