@@ -23,7 +23,7 @@ from equisection.solvers.embedded.job_work import STEPS_OF_BEAM
 
 
 def forced_beam(
-    case: ForcedCase, loads: UnsteadyLoads, strips: SpanStrips, finite_span: FiniteSpan
+    case: ForcedCase, loads: UnsteadyLoads, strips: SpanStrips, finite_span: FiniteSpan | None
 ) -> ForcedResult:
     """Return the history of a case; a failed one where a strip leaves the polar.
 
@@ -34,7 +34,7 @@ def forced_beam(
     loads
         Unsteady loads of the section polar.
     strips, finite_span
-        Strips of the span, and what they do to each other.
+        Strips of the span, and what they do to each other; None for nothing.
     """
     longest = math.tau / max(one.frequency for one in case.harmonics) / STEPS_OF_BEAM
     every = max(1, math.ceil(case.output_interval / longest - 1e-9))
@@ -62,7 +62,9 @@ def forced_beam(
     )
 
 
-def _parameters(case: ForcedCase, strips: SpanStrips, finite_span: FiniteSpan) -> BeamParameters:
+def _parameters(
+    case: ForcedCase, strips: SpanStrips, finite_span: FiniteSpan | None
+) -> BeamParameters:
     """Return the modes at the strips, with a structure whose numbers do not matter."""
     shapes = case.shapes
     assert shapes is not None

@@ -177,8 +177,8 @@ class Adapter:
     def run_forced(
         self, cases: Sequence[ForcedCase], work: Path, progress: Progress
     ) -> list[ForcedResult]:
-        """Move sections one after the other, each in a folder of its own."""
-        return self._in_turn(cases, work, progress, self._forced_section)
+        """Move sections or plates one after the other, each in a folder of its own."""
+        return self._in_turn(cases, work, progress, self._forced)
 
     def _in_turn(
         self,
@@ -201,6 +201,24 @@ class Adapter:
             results.append(run(installation, case, work / f"case{number}", tell))
             done += case.duration
         return results
+
+    def _forced(
+        self, installation: Installation, case: ForcedCase, place: Path, tell: Progress
+    ) -> ForcedResult:
+        run = self._forced_section if case.dimension == "2d" else self._forced_plate
+        return run(installation, case, place, tell)
+
+    def _forced_plate(
+        self, installation: Installation, case: ForcedCase, place: Path, tell: Progress
+    ) -> ForcedResult:
+        from equisection.solvers.openfoam.beam.forced_beam import ForcedPlateRun  # noqa: PLC0415
+        from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
+
+        _require_rectangle(case)
+        mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
+        coupling, ranks = self._settings.coupling, self._ranks
+        return ForcedPlateRun(installation, case, mesh, coupling, place, ranks).run(tell)
 
     def _forced_section(
         self, installation: Installation, case: ForcedCase, place: Path, tell: Progress
@@ -251,7 +269,7 @@ def _mesher() -> str:
     return mesher()
 
 
-def _require_rectangle(case: SteadyCase | UnsteadyCase) -> None:
+def _require_rectangle(case: SteadyCase | UnsteadyCase | ForcedCase) -> None:
     """Refuse a beam of an outline.
 
     Raises

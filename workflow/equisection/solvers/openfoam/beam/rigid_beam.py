@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.cases import ForcedCase, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.steady_result import SteadyResult
@@ -61,7 +61,7 @@ RECORD = RigidFlowRecord(10.0, 20.0, 60.0)
 
 
 def plate_mesh_of(
-    case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = OF_PLATE
+    case: SteadyCase | UnsteadyCase | ForcedCase, refinement: float, spacing: Spacing = OF_PLATE
 ) -> PlateMesh:
     """Return the mesh of a case of the plate.
 
@@ -97,7 +97,7 @@ class PlateFlow:
     """
 
     installation: Installation
-    case: SteadyCase | UnsteadyCase
+    case: SteadyCase | UnsteadyCase | ForcedCase
     mesh: PlateMesh
     coupling: flow.Coupling
     ranks: int
