@@ -34,10 +34,10 @@ from equisection.solvers.openfoam.beam.lumped_points import (
     write_lumped_motion,
 )
 from equisection.solvers.openfoam.beam.pipes import Alive, Pipes, names
-from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow
+from equisection.solvers.openfoam.beam.rigid_beam import BeamCells, PlateFlow
 from equisection.solvers.openfoam.case_folder import emptied, is_ready, mark_ready
 from equisection.solvers.openfoam.free_run import MovingRun
-from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
+from equisection.solvers.openfoam.mesh.outline_beam_mesh import OutlineBeamMesh
 from equisection.solvers.openfoam.process import SILENCE, BlowUpError, run_beside
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
 from equisection.solvers.openfoam.reading.loads import BEYOND_REASON
@@ -54,7 +54,7 @@ _BEFORE = 3
 
 
 @dataclass(frozen=True)
-class ForcedPlateRun(MovingRun[ForcedCase, PlateMesh]):
+class ForcedPlateRun(MovingRun[ForcedCase, BeamCells]):
     """The run of one case of the plate in prescribed motion.
 
     Attributes
@@ -140,7 +140,14 @@ class ForcedPlateRun(MovingRun[ForcedCase, PlateMesh]):
 
     def _deform(self, folder: Path) -> None:
         """Move the mesh of a folder to that of the plate in its mean twist."""
-        deform_mesh(self.installation, folder, self.points, self.position(0.0), self.work / "held")
+        deform_mesh(
+            self.installation,
+            folder,
+            self.points,
+            self.position(0.0),
+            self.work / "held",
+            of_outline=isinstance(self.mesh, OutlineBeamMesh),
+        )
 
     def _go_on(self, start: float, tell: Tell) -> None:
         write_coupled_system(self)
