@@ -31,6 +31,7 @@ from tests.benchmarks import (  # noqa: E402
     outlines,
     plate,
     stability_map,
+    starts,
 )
 from tests.benchmarks.measure import Row  # noqa: E402
 
@@ -49,6 +50,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "outlines": outlines.rows,
     "plate": plate.rows,
     "stability-map": stability_map.rows,
+    "starts": starts.rows,
 }
 
 

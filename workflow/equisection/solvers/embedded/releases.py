@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from typing import Any, TypedDict
 
 import numpy as np
@@ -19,6 +20,11 @@ from equisection.motion.beams import BeamHistories, BeamParameters, Fittings, re
 from equisection.motion.march import Failure
 from equisection.motion.sections import SectionHistories, release_sections
 from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.embedded.equilibrium_start import (
+    WITHOUT,
+    equilibria_of_beams,
+    equilibria_of_sections,
+)
 from equisection.solvers.protocol import Progress
 from equisection.solvers.verdicts import Judge, TipMotion, first_modes, growths_of_tips, monitor_of
 
@@ -48,6 +54,7 @@ def release_judged(
     *,
     progress: Progress | None = None,
     load_factors: Floats | None = None,
+    from_equilibrium: bool = False,
 ) -> list[UnsteadyResult]:
     """Release sections in their flow, each until its own judge has decided.
 
@@ -63,11 +70,18 @@ def release_judged(
         Called with the time that has been reached and the last one (c/V).
     load_factors
         Factors of c_l and c_m of each (:func:`equisection.motion.sections.section_system`).
+    from_equilibrium
+        Start from static equilibrium, where there is one, in the place of the undeformed section.
     """
 
     def tip_of(histories: SectionHistories, lane: int, part: slice) -> TipMotion:
         return _section_tip(histories, sections[lane], lane, part)
 
+    about, is_without = None, np.zeros(len(sections), dtype=bool)
+    if from_equilibrium:
+        about, is_without = _with_rigid(
+            equilibria_of_sections(sections, loads, settings["incidence_rad"], load_factors)
+        )
     histories = release_sections(
         sections,
         loads,
@@ -79,6 +93,7 @@ def release_judged(
         twist=settings["tip_twist"] * np.array([each.twist_recovery for each in sections]),
         heave_rate=settings["tip_heave_rate"]
         * np.array([each.deflection_recovery for each in sections]),
+        about=about,
         monitor=monitor_of(judges, tip_of),
         progress=progress,
     )
@@ -86,17 +101,34 @@ def release_judged(
     tips = [tip_of(histories, lane, slice(end)) for lane, end in enumerate(ends)]
     growths = growths_of_tips(judges, tips)
     return [
-        _section_result(
-            histories,
-            section,
-            lane,
-            settings["incidence_rad"],
-            judge.attributes(tip, _failure(histories.failures, lane), growth),
+        _saying(
+            _section_result(
+                histories,
+                section,
+                lane,
+                settings["incidence_rad"],
+                judge.attributes(tip, _failure(histories.failures, lane), growth),
+            ),
+            bool(is_without[lane]),
         )
         for lane, (section, judge, tip, growth) in enumerate(
             zip(sections, judges, tips, growths, strict=True)
         )
     ]
+
+
+def _with_rigid(equilibria: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return structural states, undeformed where there is no equilibrium, and where that is."""
+    is_without = np.asarray(~np.isfinite(equilibria).all(axis=1), dtype=np.bool_)
+    return np.where(is_without[:, None], 0.0, equilibria), is_without
+
+
+def _saying(result: UnsteadyResult, is_without: bool) -> UnsteadyResult:
+    """Return a result whose verdict says that it has no equilibrium, if it has none."""
+    if not is_without:
+        return result
+    reason = f"{result.verdict['reason']}; {WITHOUT}"
+    return replace(result, verdict={**result.verdict, "reason": reason})
 
 
 def release_all_sections(
@@ -108,7 +140,13 @@ def release_all_sections(
     factors = np.array([(case.lift_factor, case.moment_factor) for case in cases])
     settings = _common_settings(cases[0])
     return release_judged(
-        sections, judges, loads, settings, progress=progress, load_factors=factors
+        sections,
+        judges,
+        loads,
+        settings,
+        progress=progress,
+        load_factors=factors,
+        from_equilibrium=cases[0].start.state == "equilibrium",
     )
 
 
@@ -123,12 +161,19 @@ def release_all_beams(
 
     ``finite_span`` is what the ``strips`` do to each other.
     """
-    parameters = beam_parameters([case.beam for case in cases if case.beam], strips, finite_span)
     judges = [Judge.of(case) for case in cases]
+    modes = [case.beam for case in cases if case.beam]
+    parameters = beam_parameters(modes, strips, finite_span)
+    about, is_without = None, np.zeros(len(cases), dtype=bool)
+    if cases[0].start.state == "equilibrium":
+        alone = [beam_parameters([one], strips, finite_span) for one in modes]
+        rigid = math.radians(cases[0].incidence_deg)
+        about, is_without = _with_rigid(equilibria_of_beams(alone, loads, rigid))
     histories = release_beams(
         parameters,
         loads,
         **_common_settings(cases[0]),
+        about=about,
         monitor=monitor_of(judges, _beam_tip),
         progress=progress,
     )
@@ -136,8 +181,14 @@ def release_all_beams(
     tips = [_beam_tip(histories, lane, slice(end)) for lane, end in enumerate(ends)]
     growths = growths_of_tips(judges, tips)
     return [
-        _beam_result(
-            case, histories, lane, judge.attributes(tip, _failure(histories.failures, lane), growth)
+        _saying(
+            _beam_result(
+                case,
+                histories,
+                lane,
+                judge.attributes(tip, _failure(histories.failures, lane), growth),
+            ),
+            bool(is_without[lane]),
         )
         for lane, (case, judge, tip, growth) in enumerate(
             zip(cases, judges, tips, growths, strict=True)
