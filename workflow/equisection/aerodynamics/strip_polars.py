@@ -14,6 +14,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.polar import is_nil
+from equisection.aerodynamics.span_strips import SpanStrips
 from equisection.errors import ArgumentError
 
 Floats = NDArray[np.float64]
@@ -58,10 +59,10 @@ class StripPolars:
             )
 
     @property
-    def weights(self) -> Floats:
-        """Share of each strip in the span, shape (S,), sum 1."""
+    def strips(self) -> SpanStrips:
+        """Strips around the stations."""
         between = (self.stations[1:] + self.stations[:-1]) / 2.0
-        return np.diff(between, prepend=0.0, append=1.0)
+        return SpanStrips(np.concatenate([[0.0], between, [1.0]]), self.stations)
 
     @property
     def incidence_range(self) -> tuple[float, float]:
