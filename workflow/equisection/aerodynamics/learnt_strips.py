@@ -8,13 +8,13 @@ and a lag x of it, x' = g (a - x) with h = a - x, the loads of every strip are
 
     c_m = c_m,polar(alpha) + B_m . T(a, theta', h) - (pi/64) theta'',
     c_l = c_l,polar(alpha) + B_l . T(a, theta', h) + (pi/2) (theta' - w''),
-    T   = (theta', a theta', h, a h, 1, a, a^2).
+    T   = (theta', a theta', h, a h, a).
 
 The polar is that of the rigid beam at the station of the strip, so that the wake of the finite span
 is in it, at rest. The incidence is taken where the circulation of a thin plate depends on it, and
-the last terms are its apparent mass (Theodorsen, NACA Report 496, 1935). The last three terms of T
-correct the steady loads, which a polar of few incidences leaves open; they are zero unless they are
-asked for. The strips share the coefficients and have their own lags.
+the last terms are its apparent mass (Theodorsen, NACA Report 496, 1935). The last term of T
+corrects the slope of the steady loads, which a polar of few incidences leaves open; it is zero
+unless it is asked for. The strips share the coefficients and have their own lags.
 
 A beam has fewer terms than a section (:mod:`..aerodynamics.learnt_loads`): what is learnt from are
 the loads of two modes, which mix the incidences of all strips.
@@ -33,7 +33,7 @@ Floats = NDArray[np.float64]
 
 #: Place of three quarters of the chord, chords behind mid-chord.
 REAR_POINT = 0.25
-STRIP_TERMS = ("theta'", "a theta'", "h", "a h", "1", "a", "a^2")
+STRIP_TERMS = ("theta'", "a theta'", "h", "a h", "a")
 #: Terms that vanish at rest.
 UNSTEADY_TERMS = 4
 
@@ -51,7 +51,7 @@ class LearntStrips:
     rate
         g, rate of the lags (V/c).
     moment, lift
-        B_m and B_l, shape (7,).
+        B_m and B_l, shape (5,).
     residual_moment, residual_lift
         Standard deviation of what the model leaves of the loads of the first torsion and the first
         bending mode, over that of what polars and apparent mass leave (-).
@@ -92,11 +92,11 @@ class LearntStrips:
             self.polars.slopes(self.incidence_rad + a), (self.lift, self.moment), strict=True
         ):
             by_lag = b[2] + a * b[3]
-            corrected = steady + b[5] + 2.0 * a * b[6]
+            corrected = steady + b[4]
             found.append(np.stack([corrected + by_lag, b[0] + a * b[1], -by_lag]))
         return found[0], found[1]
 
 
 def strip_terms(a: Floats, twist_rate: Floats, h: Floats) -> Floats:
-    """Return T, shape (7, ...), of incidence a (rad), theta' and h (rad)."""
-    return np.stack([twist_rate, a * twist_rate, h, a * h, np.ones_like(a), a, a * a])
+    """Return T, shape (5, ...), of incidence a (rad), theta' and h (rad)."""
+    return np.stack([twist_rate, a * twist_rate, h, a * h, a])

@@ -100,7 +100,7 @@ class _Lesson:
 
     @classmethod
     def of(
-        cls, release: BeamRelease, polars: StripPolars, until: float, free_steady: bool
+        cls, release: BeamRelease, polars: StripPolars, until: float, free_slope: bool
     ) -> _Lesson:
         require_lesson(release.name, release.time)
         s, structure = release.time, release.parameters.structure
@@ -148,7 +148,7 @@ class _Lesson:
             by_moment=by_moment / by_moment.sum(),
             by_lift=by_lift / by_lift.sum(),
             used=used,
-            terms=len(STRIP_TERMS) if free_steady else UNSTEADY_TERMS,
+            terms=len(STRIP_TERMS) if free_slope else UNSTEADY_TERMS,
         )
 
     def fitted(self, rate: float) -> tuple[Floats, Floats, float, float]:
@@ -178,7 +178,7 @@ def learn_strips(
     polars: StripPolars,
     until: float = math.inf,
     *,
-    free_steady: bool = False,
+    free_slope: bool = False,
 ) -> LearntStrips:
     """Learn the loads of the strips of a beam from a release.
 
@@ -190,8 +190,8 @@ def learn_strips(
         Loads of the rigid beam by the same solver on the same mesh, at the strips of the release.
     until
         Part of the record that is used, from the release on (c/V).
-    free_steady
-        True: the steady loads are corrected by a parabola in the incidence, too.
+    free_slope
+        True: the slope of the steady loads is corrected, too.
 
     Raises
     ------
@@ -200,7 +200,7 @@ def learn_strips(
         mid-chord.
     """
     whole = polars.continued
-    lesson = _Lesson.of(release, whole, until, free_steady)
+    lesson = _Lesson.of(release, whole, until, free_slope)
 
     def misfit(rate: float) -> float:
         _, _, moment, lift = lesson.fitted(rate)

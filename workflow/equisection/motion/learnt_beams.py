@@ -21,13 +21,12 @@ from equisection.aerodynamics.learnt_strips import REAR_POINT, LearntStrips
 from equisection.aerodynamics.unsteady_loads import APPARENT_MASS
 from equisection.motion.beam_lesson import require_learnable
 from equisection.motion.beams import BeamParameters
-from equisection.motion.learnt_motion import TIME_STEP
-from equisection.motion.strip_system import mass_with_air
+from equisection.motion.strip_system import diagonal, mass_with_air
 
 Floats = NDArray[np.float64]
 
-#: Largest step times frequency (rad) at which Runge and Kutta's method is stable with a margin.
-_LARGEST_ANGLE = 2.0
+#: Step of the time integration, and interval of histories (c/V).
+BEAM_STEP = 0.1
 _STEPS_OF_NEWTON = 60
 #: Frequency of a bending mode over that of the first torsion mode up to which it swings along.
 SWINGS_ALONG = 1.5
@@ -83,7 +82,18 @@ class LearntBeams:
         inertia, mass, across, back = mass_with_air(structure)
         whole = np.block([[inertia, across], [back, mass]])
         self._inverse = np.linalg.inv(np.broadcast_to(whole, (structure.lanes, *whole.shape[1:])))
-        self._torsion_modes = self._f.shape[0]
+        self._torsion_modes, bending_modes = self._f.shape[0], self._g.shape[0]
+        self._stiffness = diagonal(
+            np.concatenate([structure.torsion_stiffness, structure.bending_stiffness], axis=1)
+        )
+        self._damping = np.zeros_like(self._stiffness)
+        self._damping[:, : self._torsion_modes, : self._torsion_modes] = structure.torsion_damping
+        self._damping[:, self._torsion_modes :, self._torsion_modes :] = structure.bending_damping
+        none = np.zeros((self._torsion_modes + bending_modes, self._f.shape[1]))
+        on_strips = np.concatenate([self._f, np.zeros_like(self._g)])
+        self._to_twist_rate = np.concatenate([none, on_strips])
+        of_bending = np.concatenate([np.zeros_like(self._f), self._g])
+        self._to_incidence = np.concatenate([on_strips, REAR_POINT * on_strips - of_bending])
 
     @property
     def natural_frequencies(self) -> Floats:
@@ -100,75 +110,75 @@ class LearntBeams:
         return np.concatenate([torsion, bending[:, along]], axis=1) / (2.0 * math.pi)
 
     def rates(self, state: Floats) -> Floats:
-        """Return the rates of the states (Theta, W, Theta', W', x), shape (N, n)."""
-        theta, w, theta_1, w_1, lag = self._parts(state)
-        twist_rate = theta_1 @ self._f
-        a = self._incidence(theta, w_1, twist_rate)
-        lift, moment = self.loads.coefficients(a, twist_rate, lag)
-        structure = self.parameters.structure
-        torque = (
-            moment @ self._by_moment
-            - structure.torsion_stiffness * theta
-            - np.einsum("nij,nj->ni", structure.torsion_damping, theta_1)
-        )
-        force = (
-            (lift + APPARENT_MASS * twist_rate) @ self._by_lift
-            - structure.bending_stiffness * w
-            - np.einsum("nij,nj->ni", structure.bending_damping, w_1)
-        )
-        pushed = np.concatenate([torque, force], axis=1)
-        accelerations = np.einsum("nij,nj->ni", self._inverse, pushed)
+        """Return the rates of the states (q, q', x), shape (N, n), with q = (Theta, W)."""
+        modes = self._modes
+        motion, lag = state[:, : 2 * modes], state[:, 2 * modes :]
+        load, a = self._loads(motion, lag)
+        pushed = load[..., None] - self._stiffness @ motion[:, :modes, None]
+        pushed = pushed - self._damping @ motion[:, modes:, None]
         return np.concatenate(
-            [theta_1, w_1, accelerations, self.loads.rate * (a - lag)], axis=1
+            [motion[:, modes:], (self._inverse @ pushed)[..., 0], self.loads.rate * (a - lag)],
+            axis=1,
         )
 
-    def _incidence(self, theta: Floats, w_1: Floats, twist_rate: Floats) -> Floats:
-        return theta @ self._f - w_1 @ self._g + REAR_POINT * twist_rate
+    def _loads(self, motion: Floats, lag: Floats) -> tuple[Floats, Floats]:
+        """Return the loads on the modes (q, q'), shape (N, m), and the incidences a, (N, S)."""
+        twist_rate, a = motion @ self._to_twist_rate, self._incidence_of(motion)
+        lift, moment = self.loads.coefficients(a, twist_rate, lag)
+        lift = lift + APPARENT_MASS * twist_rate
+        return np.concatenate([moment @ self._by_moment, lift @ self._by_lift], axis=1), a
 
-    def _parts(self, state: Floats) -> list[Floats]:
-        torsion, bending = self._torsion_modes, self._g.shape[0]
-        both = torsion + bending
-        return np.split(state, [torsion, both, both + torsion, 2 * both], axis=1)
+    def _incidence_of(self, motion: Floats) -> Floats:
+        return motion @ self._to_incidence
+
+    @property
+    def _modes(self) -> int:
+        return self._stiffness.shape[-1]
 
     @property
     def _size(self) -> int:
-        return 2 * (self._torsion_modes + self._g.shape[0]) + self._f.shape[1]
+        return 2 * self._modes + self._f.shape[1]
 
-    def released(self, duration: float, time_step: float = TIME_STEP) -> LearntSwings:
-        """Release all beams at rest from steady flow (Runge and Kutta, fourth order).
+    def released(self, duration: float, time_step: float = BEAM_STEP) -> LearntSwings:
+        """Release all beams at rest from steady flow.
+
+        Modes and lags go exactly as under loads and incidences that are linear over a step. The
+        loads at its end are extrapolated, computed, and computed again for the motion that
+        follows: second order in the step, and stable however stiff the highest modes are.
 
         Parameters
         ----------
         duration
             Time (c/V).
         time_step
-            Interval of the histories (c/V); steps are parts of it where the modes are stiff.
+            Step, and interval of the histories (c/V).
         """
-        structure = self.parameters.structure
-        lanes, both = structure.lanes, self._torsion_modes + self._g.shape[0]
-        squares = np.concatenate(
-            [
-                structure.torsion_stiffness / structure.torsion_inertia,
-                structure.bending_stiffness / structure.bending_mass,
-            ],
-            axis=1,
-        )
-        parts = math.ceil(time_step * math.sqrt(float(squares.max())) / _LARGEST_ANGLE)
-        count, step = max(round(duration / time_step), 1), time_step / parts
-        state = np.zeros((lanes, self._size))
-        record = np.empty((count + 1, lanes, both))
-        record[0] = 0.0
+        lanes, modes = self.parameters.structure.lanes, self._modes
+        count, strips = max(round(duration / time_step), 1), self._f.shape[1]
+        free, before, after = self._over_a_step(time_step)
+        decay = math.exp(-self.loads.rate * time_step)
+        mean = (1.0 - decay) / (self.loads.rate * time_step)
+        record = np.zeros((count + 1, lanes, modes))
         least, most = np.zeros((2, lanes))
+        motion, lag, a = np.zeros((lanes, 2 * modes, 1)), np.zeros((lanes, strips)), 0.0
+        load = self._loads(motion[..., 0], lag)[0]
+        earlier = load
         with np.errstate(invalid="ignore", over="ignore"):  # a beam that left the polars
             for n in range(count):
-                for _ in range(parts):
-                    state = self._stepped(state, step)
-                record[n + 1] = state[:, :both]
-                theta, _, theta_1, w_1, _ = self._parts(state)
-                a = self._incidence(theta, w_1, theta_1 @ self._f)
+                known, lag_known = free @ motion + before @ load[..., None], decay * lag
+                lag_known = lag_known + (mean - decay) * a
+                reached = 2.0 * load - earlier
+                earlier = load
+                for _ in range(2):
+                    motion = known + after @ reached[..., None]
+                    a = self._incidence_of(motion[..., 0])
+                    lag = lag_known + (1.0 - mean) * a
+                    reached, _ = self._loads(motion[..., 0], lag)
+                load = reached
+                record[n + 1] = motion[:, :modes, 0]
                 least = np.fmin(least, a.min(axis=1))
                 most = np.fmax(most, a.max(axis=1))
-                if not np.isfinite(state).any():
+                if not np.isfinite(load).any():
                     record[n + 2 :] = np.nan
                     break
         time = time_step * np.arange(count + 1, dtype=np.float64)
@@ -181,12 +191,22 @@ class LearntBeams:
             ends=time[np.maximum(valid.sum(axis=0) - 1, 0)],
         )
 
-    def _stepped(self, state: Floats, step: float) -> Floats:
-        first = self.rates(state)
-        second = self.rates(state + 0.5 * step * first)
-        third = self.rates(state + 0.5 * step * second)
-        last = self.rates(state + step * third)
-        return state + step / 6.0 * (first + 2.0 * second + 2.0 * third + last)
+    def _over_a_step(self, step: float) -> tuple[Floats, Floats, Floats]:
+        """Return what state, load at the beginning and load at the end make of (q, q') in a step.
+
+        The matrices have the shapes (N, 2 m, 2 m), (N, 2 m, m) and (N, 2 m, m).
+        """
+        lanes, modes = self.parameters.structure.lanes, self._modes
+        one = np.eye(modes)
+        rates = np.zeros((lanes, 4 * modes, 4 * modes))
+        rates[:, :modes, modes : 2 * modes] = one
+        rates[:, modes : 2 * modes, :modes] = -self._inverse @ self._stiffness
+        rates[:, modes : 2 * modes, modes : 2 * modes] = -self._inverse @ self._damping
+        rates[:, modes : 2 * modes, 2 * modes : 3 * modes] = self._inverse
+        rates[:, 2 * modes : 3 * modes, 3 * modes :] = one / step
+        whole = scipy.linalg.expm(rates * step)[:, : 2 * modes]
+        rise = whole[:, :, 3 * modes :]
+        return whole[:, :, : 2 * modes], whole[:, :, 2 * modes : 3 * modes] - rise, rise
 
     def equilibria(self) -> Floats:
         """Return Theta and W of static equilibrium, shape (N, n_t + n_b).
@@ -194,7 +214,7 @@ class LearntBeams:
         Where Newton's method finds none inside the polars they are NaN.
         """
         structure = self.parameters.structure
-        found = np.full((structure.lanes, self._torsion_modes + self._g.shape[0]), np.nan)
+        found = np.full((structure.lanes, self._modes), np.nan)
         least, most = np.subtract(self.loads.polars.incidence_range, self.loads.incidence_rad)
         none = np.zeros((1, self._f.shape[1]))
         for lane in range(structure.lanes):
@@ -230,24 +250,19 @@ class LearntBeams:
 
     def _matrix(self, lane: int, theta: Floats) -> Floats:
         """Return the matrix of the small motions of a beam about its equilibrium."""
-        structure, size = self.parameters.structure, self._size
-        parts = self._parts(np.eye(size))  # of (Theta, W, Theta', W', x), rows are states
-        twist_rate = parts[2] @ self._f
-        incidence = self._incidence(parts[0], parts[3], twist_rate)
-        by_lift, by_moment = (
-            slopes[0] * incidence + slopes[1] * twist_rate + slopes[2] * parts[4]
+        modes, size = self._modes, self._size
+        unit = np.eye(size)  # of (q, q', x); rows are states
+        motion, lag = unit[:, : 2 * modes], unit[:, 2 * modes :]
+        incidence, twist_rate = motion @ self._to_incidence, motion @ self._to_twist_rate
+        lift, moment = (
+            slopes[0] * incidence + slopes[1] * twist_rate + slopes[2] * lag
             for slopes in self.loads.slopes(theta @ self._f)
         )
-        torque = (
-            by_moment @ self._by_moment
-            - parts[0] * structure.torsion_stiffness[lane]
-            - parts[2] @ structure.torsion_damping[lane].T
-        )
-        force = (
-            (by_lift + APPARENT_MASS * twist_rate) @ self._by_lift
-            - parts[1] * structure.bending_stiffness[lane]
-            - parts[3] @ structure.bending_damping[lane].T
-        )
-        accelerations = np.concatenate([torque, force], axis=1) @ self._inverse[lane].T
-        lags = self.loads.rate * (incidence - parts[4])
-        return np.concatenate([parts[2], parts[3], accelerations, lags], axis=1).T
+        lift = lift + APPARENT_MASS * twist_rate
+        load = np.concatenate([moment @ self._by_moment, lift @ self._by_lift], axis=1)
+        pushed = load - motion[:, :modes] @ self._stiffness[lane].T
+        pushed = pushed - motion[:, modes:] @ self._damping[lane].T
+        lags = self.loads.rate * (incidence - lag)
+        return np.concatenate(
+            [motion[:, modes:], pushed @ self._inverse[lane].T, lags], axis=1
+        ).T
