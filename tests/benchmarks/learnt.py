@@ -53,7 +53,7 @@ def rows() -> Iterator[Row]:
     for name, sweep in (("2d", sections), ("2d-corrected", corrected)):
         yield from _compared(f"{name} from k* 6.44", learnt, sweep, 3.0)
     far = learnt_model(sections[10.0], coarse)
-    again = next_release(far, predicted_onset(over(sections, far)))
+    again = next_release(far.k_star, predicted_onset(over(sections, far)))
     assert again is not None, "a release at k* 10 is too far from the onset"
     second = learnt_model(sections[_nearest(sections, again)], coarse)
     for name, sweep in (("2d", sections), ("2d-corrected", corrected)):
@@ -258,7 +258,7 @@ def _trials(sweep: Sweep, polar: Polar, others: tuple[Sweep, ...]) -> Iterator[b
         for _ in range(2):
             if k_star not in models:
                 models[k_star] = learnt_model(sweep[k_star], polar)
-            again = next_release(models[k_star], predicted_onset(over(sweep, models[k_star])))
+            again = next_release(models[k_star].k_star, predicted_onset(over(sweep, models[k_star])))
             if again is None:
                 break
             k_star = _nearest(sweep, again)

@@ -79,13 +79,14 @@ def strip_polars_at(dataset: xr.Dataset, resolution: str) -> StripPolars:
             "loads along the span, at least 4 are needed to learn a model of its strips "
             "(steady.incidence_deg)"
         )
-    loads = (
+    lift, moment = (
         chosen[name].transpose("incidence_deg", "span").values[there]
         for name in ("cl_section", "cm_section")
     )
     return StripPolars(
         np.radians(chosen["incidence_deg"].values[there]),
         chosen["span"].values.astype(np.float64),
-        *loads,
+        lift,
+        moment,
         label=str(dataset.attrs[f"solver_{resolution}"]),
     )

@@ -83,31 +83,48 @@ class LearntBeams:
         whole = np.block([[inertia, across], [back, mass]])
         self._inverse = np.linalg.inv(np.broadcast_to(whole, (structure.lanes, *whole.shape[1:])))
         self._torsion_modes, bending_modes = self._f.shape[0], self._g.shape[0]
-        self._stiffness = diagonal(
+        self._modes = self._torsion_modes + bending_modes
+        self._stiffness: Floats = diagonal(
             np.concatenate([structure.torsion_stiffness, structure.bending_stiffness], axis=1)
         )
         self._damping = np.zeros_like(self._stiffness)
         self._damping[:, : self._torsion_modes, : self._torsion_modes] = structure.torsion_damping
         self._damping[:, self._torsion_modes :, self._torsion_modes :] = structure.bending_damping
-        none = np.zeros((self._torsion_modes + bending_modes, self._f.shape[1]))
+        none = np.zeros((self._modes, self._f.shape[1]))
         on_strips = np.concatenate([self._f, np.zeros_like(self._g)])
         self._to_twist_rate = np.concatenate([none, on_strips])
         of_bending = np.concatenate([np.zeros_like(self._f), self._g])
         self._to_incidence = np.concatenate([on_strips, REAR_POINT * on_strips - of_bending])
 
     @property
-    def natural_frequencies(self) -> Floats:
-        """Frequencies f c/V of the first torsion mode and the bending modes that swing along.
+    def swings_along(self) -> NDArray[np.intp]:
+        """Places of the bending modes that swing along with the pitch of the first beam.
 
-        These are the first one and those up to :data:`SWINGS_ALONG` of the torsion's frequency, of
-        the first beam; shape (N, 1 + bending modes).
+        These are the first one and those up to :data:`SWINGS_ALONG` of the torsion's frequency.
         """
-        structure = self.parameters.structure
-        torsion = np.sqrt(structure.torsion_stiffness[:, :1] / structure.torsion_inertia[:, :1])
-        bending = np.sqrt(structure.bending_stiffness / structure.bending_mass)
-        along = bending[0] <= SWINGS_ALONG * torsion[0]
+        _, bending = np.split(self._natural[0], [self._torsion_modes])
+        along = bending <= SWINGS_ALONG * self._natural[0, 0]
         along[0] = True
-        return np.concatenate([torsion, bending[:, along]], axis=1) / (2.0 * math.pi)
+        return np.flatnonzero(along)
+
+    @property
+    def natural_frequencies(self) -> Floats:
+        """Frequencies f c/V of the first torsion mode, then of the bending modes that swing along.
+
+        They have the shape (N, 1 + bending modes).
+        """
+        places = np.concatenate([[0], self._torsion_modes + self.swings_along])
+        return np.asarray(self._natural[:, places] / (2.0 * math.pi))
+
+    @property
+    def _natural(self) -> Floats:
+        """Frequencies omega c/V of the modes without imbalance, shape (N, m)."""
+        structure = self.parameters.structure
+        squares = (
+            structure.torsion_stiffness / structure.torsion_inertia,
+            structure.bending_stiffness / structure.bending_mass,
+        )
+        return np.sqrt(np.concatenate(squares, axis=1))
 
     def rates(self, state: Floats) -> Floats:
         """Return the rates of the states (q, q', x), shape (N, n), with q = (Theta, W)."""
@@ -129,15 +146,11 @@ class LearntBeams:
         return np.concatenate([moment @ self._by_moment, lift @ self._by_lift], axis=1), a
 
     def _incidence_of(self, motion: Floats) -> Floats:
-        return motion @ self._to_incidence
-
-    @property
-    def _modes(self) -> int:
-        return self._stiffness.shape[-1]
+        return np.asarray(motion @ self._to_incidence, dtype=np.float64)
 
     @property
     def _size(self) -> int:
-        return 2 * self._modes + self._f.shape[1]
+        return 2 * self._modes + int(self._f.shape[1])
 
     def released(self, duration: float, time_step: float = BEAM_STEP) -> LearntSwings:
         """Release all beams at rest from steady flow.
@@ -160,7 +173,8 @@ class LearntBeams:
         mean = (1.0 - decay) / (self.loads.rate * time_step)
         record = np.zeros((count + 1, lanes, modes))
         least, most = np.zeros((2, lanes))
-        motion, lag, a = np.zeros((lanes, 2 * modes, 1)), np.zeros((lanes, strips)), 0.0
+        motion, lag = np.zeros((lanes, 2 * modes, 1)), np.zeros((lanes, strips))
+        a = np.zeros_like(lag)
         load = self._loads(motion[..., 0], lag)[0]
         earlier = load
         with np.errstate(invalid="ignore", over="ignore"):  # a beam that left the polars
@@ -263,6 +277,4 @@ class LearntBeams:
         pushed = load - motion[:, :modes] @ self._stiffness[lane].T
         pushed = pushed - motion[:, modes:] @ self._damping[lane].T
         lags = self.loads.rate * (incidence - lag)
-        return np.concatenate(
-            [motion[:, modes:], pushed @ self._inverse[lane].T, lags], axis=1
-        ).T
+        return np.concatenate([motion[:, modes:], pushed @ self._inverse[lane].T, lags], axis=1).T
