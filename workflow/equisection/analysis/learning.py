@@ -242,11 +242,29 @@ class Lessons:
             return [Point.at({self.axis: value}) for value in given[1:]]
         model = self.learnt(self.last_release)
         table = self.prediction(model)
-        k_star = next_release(model.k_star, predicted_onset(table))
+        onset = predicted_onset(table)
+        if not math.isfinite(onset.k_star):
+            return self._towards_onset(table)
+        k_star = next_release(model.k_star, onset)
         if k_star is None:
             return []
         nearest = np.interp(k_star, table["k_star"], table[self.axis.name])
         return [Point.at({self.axis: float(f"{nearest:.4g}")})]
+
+    def _towards_onset(self, table: pd.DataFrame) -> list[Point]:
+        """Return the end of the sweep where a model without an onset in reach would have it.
+
+        All stable, that is the end of the softest beam; all unstable, of the stiffest. None where
+        the model was learnt there.
+        """
+        rates = table["growth_rate"].to_numpy()
+        rates = rates[~np.isnan(rates)]
+        if not rates.size or ((rates > 0.0).any() and (rates <= 0.0).any()):
+            return []
+        pick = min if rates[0] <= 0.0 else max
+        end = pick(self.config.sweep.values(), key=self.axis.stability)
+        point = Point.at({self.axis: end})
+        return [] if point == self.last_release.point else [point]
 
     def contradiction(self, onset: PredictedOnset, index: Path) -> JudgedRun | None:
         """Return a run on the wrong side of an interval of the onset, that nearest to it.
