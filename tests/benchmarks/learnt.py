@@ -258,7 +258,9 @@ def _trials(sweep: Sweep, polar: Polar, others: tuple[Sweep, ...]) -> Iterator[b
         for _ in range(2):
             if k_star not in models:
                 models[k_star] = learnt_model(sweep[k_star], polar)
-            again = next_release(models[k_star].k_star, predicted_onset(over(sweep, models[k_star])))
+            again = next_release(
+                models[k_star].k_star, predicted_onset(over(sweep, models[k_star]))
+            )
             if again is None:
                 break
             k_star = _nearest(sweep, again)
