@@ -114,7 +114,7 @@ def test_known_loads_predict_the_releases_of_other_beams(release):
     found = predicted_beams(model, k_star, beams(k_star))
     np.testing.assert_allclose(found["growth_rate"], true["growth_rate"], atol=0.001)
     np.testing.assert_allclose(found["frequency_strouhal"], true["frequency_strouhal"], rtol=0.005)
-    assert (found["growth_high"] - found["growth_low"] >= 0.008 - 1e-12).all()
+    assert (found["growth_high"] - found["growth_low"] >= 0.01 - 1e-12).all()
     assert model.words == "model learnt from a known model at k* = 6.44, on strips"
 
 

@@ -30,9 +30,9 @@ from equisection.motion.beam_lesson import BeamRelease, learn_strips
 from equisection.motion.beams import BeamParameters
 from equisection.motion.learnt_beams import LearntBeams
 
-#: Smallest band of the growth rate of a beam (V/c): what models of the kept plates by OpenFOAM miss
-#: of the growth at k* 10 to 14 (rms, ``python -m tests.benchmarks learnt``).
-SMALLEST_BAND_OF_BEAM = 0.004
+#: Smallest band of the growth rate of a beam (V/c): models of the kept plates by OpenFOAM miss the
+#: growth at k* 10 to 14 by so much (rms, ``python -m tests.benchmarks learnt``).
+SMALLEST_BAND_OF_BEAM = 0.005
 
 
 @dataclass(frozen=True, eq=False)
