@@ -20,7 +20,9 @@ import pandas as pd
 import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.strip_polars import StripPolars
+from equisection.analysis.learnt_cycles import LimitCycles, cycles_of
 from equisection.analysis.onset import is_unstable
 from equisection.analysis.recorded_beam import on_strips, release_of, strip_polars_at
 from equisection.analysis.reduced_beam import ReducedBeam, learnt_beam, predicted_beams
@@ -65,6 +67,7 @@ class JudgedRun:
     point: Point
     unstable: bool | None
     file: Path
+    amplitude_deg: float = math.nan
 
 
 def runs_of(index: Path) -> list[JudgedRun]:
@@ -74,6 +77,7 @@ def runs_of(index: Path) -> list[JudgedRun]:
             Point.named(name),
             is_unstable(str(found["regime"]), float(found["twist_amplitude_deg"]), THRESHOLD_DEG),
             result_file(index, name),
+            float(found["twist_amplitude_deg"]),
         )
         for name, found in read_index(index).items()
     ]
@@ -178,6 +182,21 @@ class Lessons:
         table["extrapolated"] = [value is True for value in table["extrapolated"]]
         return table
 
+    def limit_cycles(self) -> LimitCycles | None:
+        """Return the limit cycles of a section's sweep, by the release that grows farthest.
+
+        None for the beam, whose model has too few terms for large amplitudes.
+        """
+        if self._is_beam:
+            return None
+        runs = [run for index in (*self.releases, *self.confirming) for run in runs_of(index)]
+        growing = [run for run in runs if run.unstable]
+        history = None
+        if growing:
+            run = max(growing, key=lambda each: np.nan_to_num(each.amplitude_deg))
+            history = self._history(run)
+        return cycles_of(self._grid[1], history, self.polar)
+
     def _predicted(self, model: Learnt, cases: Sequence[UnsteadyCase]) -> pd.DataFrame:
         """Return growth and frequency of cases with a section or beam to move."""
         k_star = [case.k_star for case in cases]
@@ -188,14 +207,13 @@ class Lessons:
 
     def learnt(self, run: JudgedRun) -> Learnt:
         """Return the model that is learnt from a run."""
-        case = self._case_of(run)
-        data = read_dataset(run.file)
         found: Learnt
-        if case.section is not None:
-            found = learnt_model(history_of(run.file, data, case, case.section), self.polar)
-        else:
-            release = release_of(run.file, data, case, self.strip_polars.strips)
+        if self._is_beam:
+            case, strips = self._case_of(run), self.strip_polars.strips
+            release = release_of(run.file, read_dataset(run.file), case, strips)
             found = learnt_beam(release, self.strip_polars)
+        else:
+            found = learnt_model(self._history(run), self.polar)
         if found.missing_angles:
             _LOG.warning(
                 "the polar at resolution '%s' has no points at %s deg, where the release %s moves, "
@@ -205,6 +223,12 @@ class Lessons:
                 run.point.name,
             )
         return found
+
+    def _history(self, run: JudgedRun) -> ReferenceHistory:
+        """Return the history of a run, with the section that moved."""
+        case = self._case_of(run)
+        assert case.section is not None, "a case of a section"
+        return history_of(run.file, read_dataset(run.file), case, case.section)
 
     def _case_of(self, run: JudgedRun) -> UnsteadyCase:
         """Return the case of a run, with the section or beam that moved."""

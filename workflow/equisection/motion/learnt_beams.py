@@ -82,8 +82,8 @@ class LearntBeams:
         inertia, mass, across, back = mass_with_air(structure)
         whole = np.block([[inertia, across], [back, mass]])
         self._inverse = np.linalg.inv(np.broadcast_to(whole, (structure.lanes, *whole.shape[1:])))
-        self._torsion_modes, bending_modes = self._f.shape[0], self._g.shape[0]
-        self._modes = self._torsion_modes + bending_modes
+        self._torsion_modes, bending_modes = int(self._f.shape[0]), int(self._g.shape[0])
+        self._modes = int(self._torsion_modes + bending_modes)
         self._stiffness: Floats = diagonal(
             np.concatenate([structure.torsion_stiffness, structure.bending_stiffness], axis=1)
         )
