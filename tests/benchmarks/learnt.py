@@ -175,7 +175,7 @@ def _beam() -> Iterator[Row]:
         )
         found = [growth.rate for growth in rates.values()]
         yield Row(f"beam, {waves} waves: onset", f"k* {onset_of(list(rates), found):.2f}")
-    for k_star in (12.0, 14.0):
+    for k_star in (10.0, 12.0, 14.0):
         for waves in (2, 3):
             parts = [_growth_of_beam(beams[k_star], waves, part) for part in PARTS_OF_LONG]
             yield Row(

@@ -224,7 +224,7 @@ def test_one_release_of_the_plate_by_openfoam_predicts_its_growth():
     found = predicted_beams(model, [one.k_star for one in kept], parameters, windows)
     errors = found["growth_rate"] - recorded
     assert math.sqrt(float(np.mean(errors**2))) < 0.002
-    # growth of the last, at k* 10, is 0.0001 V/c: the band of the model holds it
+    # growth of the last, at k* 10, is nearly nothing: the band of the model holds it
     assert (found["growth_low"] < recorded).all()
     assert found["growth_low"].iloc[-1] < 0.0 < found["growth_high"].iloc[-1]
     assert math.isnan(predicted_onset(found).k_star)  # above k* 10
