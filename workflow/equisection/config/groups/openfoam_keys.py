@@ -36,6 +36,10 @@ OVERSET: MeshMotion = "overset"
 Mesher = Literal["blocks", "outline"]
 BLOCKS: Mesher = "blocks"
 OUTLINE: Mesher = "outline"
+#: Model of the turbulence.
+Turbulence = Literal["k-omega-sst", "laminar"]
+SST: Turbulence = "k-omega-sst"
+LAMINAR: Turbulence = "laminar"
 #: Meshes that there are around an outline.
 OUTLINE_MESHES = ("coarse", "medium", "fine")
 #: Environment variable of the command before each program.
@@ -47,7 +51,7 @@ _DROPPED = re.compile(r"""[\s'"]""")
 
 
 class OpenFoam(SolverKeys):
-    """OpenFOAM: k-omega SST, walls resolved; the section on one core, the plate on several."""
+    """OpenFOAM: walls resolved; the section on one core, the plate on several."""
 
     meshes: Annotated[dict[Name, MeshName], Field(min_length=1)] = Field(
         {"coarse": "coarse", "medium": "medium", "fine": "fine"},
@@ -80,6 +84,12 @@ class OpenFoam(SolverKeys):
         30.0,
         description="Distance of the far field (chords), to every side, of a section in free air "
         "(`flow.channel: null`), which needs the mesh of outlines.",
+    )
+    turbulence: Turbulence = Field(
+        SST,
+        description="Model of the turbulence: `k-omega-sst`, whose boundary layer is turbulent "
+        "from the leading edge on, or `laminar`, none, for a section at a Reynolds number of some "
+        "hundreds to thousands.",
     )
     prefix: str = Field(
         "",
@@ -175,6 +185,32 @@ def _no_beam_in_free_air(
             channel,
             "allowed with solver 'openfoam' is a channel for the beam: leave out the model 3d, and "
             "give steady.beam_polar or beam.outline",
+        )
+
+
+@check("solver", "openfoam.turbulence", "sweep.models", "steady.beam_polar", "beam.outline")
+def _laminar_section(
+    solver: str, turbulence: str, models: tuple[str, ...], beam_polar: str, outline: object
+) -> Iterator[Problem]:
+    """Refuse a laminar beam: its flow is set up turbulent alone."""
+    if solver != "openfoam" or turbulence != LAMINAR:
+        return
+    if "3d" in models or (not beam_polar and outline is None):
+        yield Problem(
+            "openfoam.turbulence",
+            turbulence,
+            f"allowed is {SST} with a beam in the flow: leave out the model 3d, and give "
+            "steady.beam_polar or beam.outline",
+        )
+
+
+@check("openfoam.turbulence", "openfoam.mesh_motion")
+def _laminar_morphs(turbulence: str, motion: str) -> Iterator[Problem]:
+    if turbulence == LAMINAR and motion == OVERSET:
+        yield Problem(
+            "openfoam.turbulence",
+            turbulence,
+            f"allowed is {SST} with openfoam.mesh_motion: overset",
         )
 
 
