@@ -106,6 +106,13 @@ def test_flow_has_the_viscosity_of_its_reynolds_number(tmp_path: Path) -> None:
     assert {path.name for path in (tmp_path / "0").iterdir()} == {"U", "p", "k", "omega", "nut"}
 
 
+def test_laminar_flow_has_no_model_of_the_turbulence(tmp_path: Path) -> None:
+    write_flow(tmp_path, 100.0, turbulence="laminar")
+    said = (tmp_path / "constant" / "turbulenceProperties").read_text()
+    assert "simulationType laminar;" in said
+    assert "kOmegaSST" not in said
+
+
 def test_stream_has_one_per_cent_of_turbulence_and_ten_times_the_viscosity(tmp_path: Path) -> None:
     """k = 3/2 (I V)^2, nu_t = 10 nu, omega = k/nu_t; V = c = 1."""
     write_flow(tmp_path, 1e5)

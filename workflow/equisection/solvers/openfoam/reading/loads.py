@@ -80,11 +80,11 @@ class Loads:
     def growth(self, floor: float = FLOOR) -> float:
         """Return the growth of the lift's fluctuation from the first half to the second.
 
-        A root mean square below a hundredth of ``floor`` in the second half has none.
+        A root mean square below a thousandth of ``floor`` in the second half has none.
         """
         half = self.time.size // 2
         before, after = float(self.lift[:half].std()), float(self.lift[half:].std())
-        if after < 0.01 * floor:
+        if after < 1e-3 * floor:
             return 0.0
         return after / before - 1.0 if before > 0 else np.inf
 
