@@ -15,6 +15,7 @@ from typing import Any
 from equisection.cases import Geometry, Medium
 from equisection.config.groups.openfoam_keys import LAMINAR, SST
 from equisection.files import write_text
+from equisection.solvers.openfoam.case_folder import OF_TURBULENCE
 from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
 
 #: Turbulence of the stream: rms velocity over speed, and eddy viscosity over viscosity.
@@ -64,6 +65,8 @@ def write_flow(
             {"type": "nutLowReWallFunction", "value": "uniform 0"},
         ),
     ):
+        if turbulence == LAMINAR and name in OF_TURBULENCE:
+            continue
         entries = {
             "dimensions": dimensions,
             "internalField": value,
