@@ -10,7 +10,6 @@ from equisection.validation.known_values import KnownValue, Source
 
 _KEPT = Path(__file__).parents[3] / "results" / "reference"
 _TRIPPED, _LAMINAR = "naca0012/steady/2d/coarse", "naca0012-laminar/steady/2d/coarse"
-_SQUARE = "square-cylinder/steady/2d/coarse_a0"
 
 _LADSON = Source(
     "published",
@@ -23,16 +22,9 @@ _LOCKARD = Source(
     "Lockard, Luo, Milder and Singer, Journal of Statistical Physics 107, 2002, by CFL3D (0.1741) "
     "and PowerFLOW (0.1717)",
 )
-_SOHANKAR = Source(
-    "published",
-    "Sohankar, Norberg and Davidson, International Journal for Numerical Methods in Fluids 26, "
-    "1998, their finest grid, 5 % of blockage, read in a transcript of their tables III and IV; "
-    "their three grids have C_D from 1.460 to 1.478 and C_L' from 0.139 to 0.156",
-)
 _SYMMETRY = Source("independent", "symmetry of section and flow")
 
 _AIRFOIL, _SLOW = "NACA 0012 by OpenFOAM, Re 3.4e5", "NACA 0012 by OpenFOAM, Re 500, laminar"
-_CYLINDER = "Square cylinder by OpenFOAM, Re 100, laminar"
 
 
 def kept_load(name: str, coefficient: str) -> float:
@@ -65,9 +57,8 @@ def _negative_over_positive(name: str) -> float:
 
 
 def outline_values() -> list[KnownValue]:
-    """Return known loads of an airfoil and of a square cylinder."""
+    """Return known loads of an airfoil."""
     coarse = "coarse mesh, of some 1e4 cells"
-    square = partial(kept_load, _SQUARE)
     return [
         KnownValue(
             _AIRFOIL,
@@ -102,22 +93,5 @@ def outline_values() -> list[KnownValue]:
                 "difference of the two codes, 1.4 %",
             )
             for code, known in (("CFL3D", 0.1741), ("PowerFLOW", 0.1717))
-        ),
-        *(
-            KnownValue(
-                _CYLINDER,
-                quantity,
-                "-",
-                known,
-                _SOHANKAR,
-                partial(square, coefficient),
-                tolerance,
-                "spread of the grids of the source",
-            )
-            for quantity, known, coefficient, tolerance in (
-                ("mean drag", 1.478, "cd", 0.02),
-                ("Strouhal number", 0.146, "strouhal", 0.02),
-                ("rms of the lift", 0.153, "cl_rms", 0.1),
-            )
         ),
     ]
