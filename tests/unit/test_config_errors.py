@@ -100,6 +100,18 @@ MALFORMED = [
         "'paper'",
         "allowed is consistent where beam.elastic_axis and beam.mass_axis differ",
     ),
+    (
+        {"solver": "openfoam", "openfoam": {"turbulence": "laminar"}},
+        "openfoam.turbulence",
+        "'laminar'",
+        "allowed is k-omega-sst with a beam in the flow: leave out the model 3d",
+    ),
+    (
+        {"openfoam": {"turbulence": "laminar", "mesh_motion": "overset"}},
+        "openfoam.turbulence",
+        "'laminar'",
+        "allowed is k-omega-sst with openfoam.mesh_motion: overset",
+    ),
     ({"embedded": {"moment_axis": 25}}, "embedded.moment_axis", "25", "from 0 to 1, or null"),
     # numbers
     ({"beam": {"chord": -0.1}}, "beam.chord", "-0.1", "a number above 0"),

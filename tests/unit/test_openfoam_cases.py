@@ -3,6 +3,7 @@
 import hashlib
 import math
 import re
+import shutil
 import subprocess
 import sys
 from dataclasses import replace
@@ -22,6 +23,7 @@ from equisection.figures.catalogue import figures
 from equisection.solvers.openfoam import adapter
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.case_folder import (
+    copy_flow,
     drop_broken_states,
     drop_histories_after,
 )
@@ -104,6 +106,27 @@ def test_flow_has_the_viscosity_of_its_reynolds_number(tmp_path: Path) -> None:
     write_flow(tmp_path, 1e5)
     assert "nu 1e-05;" in (tmp_path / "constant" / "transportProperties").read_text()
     assert {path.name for path in (tmp_path / "0").iterdir()} == {"U", "p", "k", "omega", "nut"}
+
+
+def test_laminar_flow_has_no_model_of_the_turbulence(tmp_path: Path) -> None:
+    write_flow(tmp_path, 100.0, turbulence="laminar")
+    said = (tmp_path / "constant" / "turbulenceProperties").read_text()
+    assert "simulationType laminar;" in said
+    assert "kOmegaSST" not in said
+    assert {path.name for path in (tmp_path / "0").iterdir()} == {"U", "p"}
+
+
+def test_unsteady_run_starts_from_the_fields_of_its_flow(tmp_path: Path) -> None:
+    """A laminar flow has no fields of the turbulence; of a turbulent one none may be missing."""
+    for turbulence in ("laminar", "k-omega-sst"):
+        source = tmp_path / turbulence
+        write_flow(source, 100.0, turbulence=turbulence)
+        shutil.copytree(source / "0", source / "300")
+        (source / "300" / "phi").write_text("")
+        copy_flow(source, tmp_path / "target")
+    (source / "300" / "k").unlink()
+    with pytest.raises(FileNotFoundError):
+        copy_flow(source, tmp_path / "target")
 
 
 def test_stream_has_one_per_cent_of_turbulence_and_ten_times_the_viscosity(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Rigid flows followed from outside: what counts does not depend on when an end was noticed."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,8 @@ from equisection.solvers.openfoam import rigid_flow
 from equisection.solvers.openfoam.process import Watch
 from equisection.solvers.openfoam.reading.loads import Loads
 from equisection.solvers.openfoam.rigid_flow import (
+    EVEN,
+    FLOOR_OF_OUTLINE,
     ITERATIONS_TO_LOOK,
     MOST,
     RigidFlowRecord,
@@ -81,6 +84,25 @@ def test_mean_is_of_the_first_record_whose_halves_agree(
     assert record.time[-1] == pytest.approx(80.0)
     assert record.drift() <= rigid_flow.KNOWN
     assert "mean of unsteady over 70 c/V" in method_of_mean(record)
+
+
+def test_vortices_that_build_up_do_not_count_as_known(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    """The wake of a bluff body sheds late: at first its means agree, and are not those to come."""
+    time = 0.02 * np.arange(1.0, 5501)
+    amplitude = 1.0 / (1.0 + np.exp(-0.2 * (time - 70.0)))
+    vortices = 0.2 * amplitude * np.sin(2 * np.pi * 0.15 * time)
+    whole = Loads(time, np.full_like(time, 1.5), vortices, 0.1 * vortices)
+    means = replace(RECORD, floor=FLOOR_OF_OUTLINE)
+    by_means = follow_unsteady(tmp_path, means, nothing, polled(monkeypatch, whole, 3.3))
+    assert by_means.time[-1] == pytest.approx(50.0)
+    even = replace(means, evenness=EVEN)
+    record = follow_unsteady(tmp_path, even, nothing, polled(monkeypatch, whole, 3.3))
+    assert record.time[-1] == pytest.approx(RECORD.end)
+    steady = Loads(time, whole.drag, 0.0 * time, 0.0 * time)
+    record = follow_unsteady(tmp_path, even, nothing, polled(monkeypatch, steady, 3.3))
+    assert record.time[-1] == pytest.approx(50.0)
 
 
 def test_record_goes_on_to_the_longest(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

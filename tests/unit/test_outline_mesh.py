@@ -325,6 +325,14 @@ def test_symmetry_of_a_file_is_seen_in_its_points(tmp_path: Path) -> None:
             check_outline(config, tmp_path)
 
 
+def test_laminar_flow_is_another_case_of_the_section() -> None:
+    plain = Adapter.from_config(load_config(WING), "coarse").settings("2d")
+    laminar = load_config({**WING, "openfoam": {"turbulence": "laminar"}})
+    solver = Adapter.from_config(laminar, "coarse")
+    assert solver.settings("2d") == {**plain, "turbulence": "laminar"}
+    assert "turbulence" not in solver.settings("3d")
+
+
 def test_beam_of_an_outline_is_not_taken_for_a_rectangle(tmp_path: Path) -> None:
     geometry = GEOMETRY.model_copy(update={"outline": SHAPES["airfoil"].as_pairs()})
     case = STEADY.model_copy(update={"geometry": geometry, "dimension": "3d"})

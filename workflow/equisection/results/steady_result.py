@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.results.fluctuation import Fluctuation
 from equisection.results.plate_surface import PlateSurface
 from equisection.results.spent import Spent
 from equisection.results.surface import SectionSurface
@@ -41,6 +42,8 @@ class SteadyResult:
         Flow near the tip, where the solver has it.
     spent
         Time that the case took, where the solver knows it better than its job.
+    fluctuation
+        Fluctuation of the loads about their means, where these are those of an unsteady flow.
     """
 
     drag: float
@@ -54,6 +57,7 @@ class SteadyResult:
     surface: SectionSurface | PlateSurface | None = None
     tip_flow: TipFlow | None = None
     spent: Spent | None = None
+    fluctuation: Fluctuation | None = None
 
     @classmethod
     def without_value(cls, reason: str) -> SteadyResult:
@@ -97,6 +101,8 @@ class SteadyResult:
                 self.section_moment,
                 {"units": "1", "long_name": "sectional moment coefficient about mid-chord"},
             )
+        if self.fluctuation is not None:
+            data |= self.fluctuation.variables()
         if self.surface is not None:
             data |= self.surface.variables()  # type: ignore[arg-type]
         attributes = {"method": self.method, "failure": self.failure}

@@ -36,6 +36,10 @@ OVERSET: MeshMotion = "overset"
 Mesher = Literal["blocks", "outline"]
 BLOCKS: Mesher = "blocks"
 OUTLINE: Mesher = "outline"
+#: Model of the turbulence.
+Turbulence = Literal["k-omega-sst", "laminar"]
+SST: Turbulence = "k-omega-sst"
+LAMINAR: Turbulence = "laminar"
 #: Meshes that there are around an outline.
 OUTLINE_MESHES = ("coarse", "medium", "fine")
 #: Environment variable of the command before each program.
@@ -47,7 +51,7 @@ _DROPPED = re.compile(r"""[\s'"]""")
 
 
 class OpenFoam(SolverKeys):
-    """OpenFOAM: k-omega SST, walls resolved; the section on one core, the plate on several."""
+    """OpenFOAM: walls resolved; the section on one core, the plate on several."""
 
     meshes: Annotated[dict[Name, MeshName], Field(min_length=1)] = Field(
         {"coarse": "coarse", "medium": "medium", "fine": "fine"},
@@ -81,6 +85,12 @@ class OpenFoam(SolverKeys):
         30.0,
         description="Distance of the far field (chords), to every side, of section and beam in "
         "free air (`flow.channel: null`), which needs the mesh of outlines.",
+    )
+    turbulence: Turbulence = Field(
+        SST,
+        description="Model of the turbulence: `k-omega-sst`, whose boundary layer is turbulent "
+        "from the leading edge on, or `laminar`, none, for a section at a Reynolds number of some "
+        "hundreds to thousands.",
     )
     prefix: str = Field(
         "",
@@ -166,6 +176,32 @@ def _needs_a_channel(
             "allowed is a channel with solver 'openfoam', which meshes it; in free air give "
             "openfoam.mesher: outline, or a wide channel, for instance flow.channel: "
             "{height_chords: 20, tip_gap_chords: 10}",
+        )
+
+
+@check("solver", "openfoam.turbulence", "sweep.models", "steady.beam_polar", "beam.outline")
+def _laminar_section(
+    solver: str, turbulence: str, models: tuple[str, ...], beam_polar: str, outline: object
+) -> Iterator[Problem]:
+    """Refuse a laminar beam: its flow is set up turbulent alone."""
+    if solver != "openfoam" or turbulence != LAMINAR:
+        return
+    if "3d" in models or (not beam_polar and (outline is None or _needs_beam(models))):
+        yield Problem(
+            "openfoam.turbulence",
+            turbulence,
+            f"allowed is {SST} with a beam in the flow: leave out the model 3d, and give "
+            "steady.beam_polar",
+        )
+
+
+@check("openfoam.turbulence", "openfoam.mesh_motion")
+def _laminar_morphs(turbulence: str, motion: str) -> Iterator[Problem]:
+    if turbulence == LAMINAR and motion == OVERSET:
+        yield Problem(
+            "openfoam.turbulence",
+            turbulence,
+            f"allowed is {SST} with openfoam.mesh_motion: overset",
         )
 
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from equisection.cases import ForcedCase, SteadyCase, UnsteadyCase
 from equisection.config import Config
-from equisection.config.groups.openfoam_keys import BLOCKS, MORPH
+from equisection.config.groups.openfoam_keys import BLOCKS, LAMINAR, MORPH
 from equisection.errors import SolverError
 from equisection.results.forced_result import ForcedResult
 from equisection.results.plate_grid import PlateGrid
@@ -61,6 +61,7 @@ class Adapter:
             section.mesh_motion,
             "" if config.beam.outline is None and section.mesher == BLOCKS else _mesher(),
             section.far_field_chords if config.flow.channel is None else 0.0,
+            section.turbulence,
         )
         return cls(settings, Allocation(section.ranks))
 
@@ -93,7 +94,8 @@ class Adapter:
             mesh += f" around the outline ({settings.mesher})"
         if settings.mesh_motion != MORPH:
             mesh += ", the free section on overset meshes"
-        return f"OpenFOAM {find().version()}, k-omega SST, {mesh}"
+        model = "laminar" if settings.turbulence == LAMINAR else "k-omega SST"
+        return f"OpenFOAM {find().version()}, {model}, {mesh}"
 
     @property
     def similar_cells(self) -> int | None:
@@ -119,7 +121,9 @@ class Adapter:
         """Return the mesh of a rigid section, with its Courant number at a time step (c/V)."""
         from equisection.solvers.openfoam.reading.meshed_section import section_mesh  # noqa: PLC0415
 
-        return section_mesh(find(), case, self._mesh(case), time_step, work)
+        mesh = self._mesh(case)
+        turbulence = self._settings.turbulence
+        return section_mesh(find(), case, mesh, time_step, work, turbulence=turbulence)
 
     def plate_grid(self, case: SteadyCase, work: Path) -> PlateGrid:
         """Return the mesh of a rigid plate."""
@@ -151,8 +155,16 @@ class Adapter:
     ) -> SteadyResult:
         from equisection.solvers.openfoam.section.rigid_section import rigid_loads  # noqa: PLC0415
 
-        mesh = self._mesh(case)
-        loads = rigid_loads(installation, case, mesh, place, tell, coupling=self._settings.coupling)
+        settings = self._settings
+        loads = rigid_loads(
+            installation,
+            case,
+            self._mesh(case),
+            place,
+            tell,
+            coupling=settings.coupling,
+            turbulence=settings.turbulence,
+        )
         return _result(loads)
 
     def _rigid_plate(
@@ -247,8 +259,11 @@ class Adapter:
     ) -> ForcedResult:
         from equisection.solvers.openfoam.section.forced_section import ForcedRun  # noqa: PLC0415
 
-        mesh, coupling = self._mesh(case), self._settings.coupling
-        return ForcedRun(installation, case, mesh, coupling, place).run(tell)
+        mesh, settings = self._mesh(case), self._settings
+        run = ForcedRun(
+            installation, case, mesh, settings.coupling, place, turbulence=settings.turbulence
+        )
+        return run.run(tell)
 
     def _released(
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
@@ -265,7 +280,10 @@ class Adapter:
         _require_own_loads(case)  # before the steady flow, which takes long
         mesh = self._mesh(case)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
-        run = kind(installation, case, mesh, self._settings.coupling, place)
+        settings = self._settings
+        run = kind(
+            installation, case, mesh, settings.coupling, place, turbulence=settings.turbulence
+        )
         _ = run.axes  # refuses what it does not have, the same
         return run.run(tell)
 
@@ -318,4 +336,5 @@ def _result(loads: RigidLoads) -> SteadyResult:
         _NOTHING,
         loads.method,
         surface=loads.surface,
+        fluctuation=loads.fluctuation,
     )

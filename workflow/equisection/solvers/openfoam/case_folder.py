@@ -11,8 +11,8 @@ from equisection.files import write_text
 _READY = "set-up-is-whole"
 #: Every file of OpenFOAM's ends with a line of these.
 _END = b"// *****"
-#: Fields that an unsteady run starts from.
-_FIELDS = ("U", "p", "k", "omega", "nut", "phi")
+#: Fields that an unsteady run starts from, and those that a laminar one does not have.
+_FIELDS, OF_TURBULENCE = ("U", "p", "k", "omega", "nut", "phi"), ("k", "omega", "nut")
 
 
 def is_ready(folder: Path) -> bool:
@@ -72,7 +72,15 @@ def drop_histories_after(folder: Path, time: float) -> None:
 
 def _is_whole(state: Path) -> bool:
     files = [path for path in state.rglob("*") if path.is_file()]
-    return {*_FIELDS, "time"} <= {path.name for path in files} and all(map(_has_end, files))
+    wanted = {*_fields(state.parent), "time"}
+    return wanted <= {path.name for path in files} and all(map(_has_end, files))
+
+
+def _fields(folder: Path) -> list[str]:
+    """Return the fields of a run, by those that it set out with."""
+    return [
+        name for name in _FIELDS if name not in OF_TURBULENCE or (folder / "0" / name).is_file()
+    ]
 
 
 def _has_end(path: Path) -> bool:
@@ -86,5 +94,5 @@ def copy_flow(source: Path, target: Path) -> None:
     shutil.copytree(source / "constant", target / "constant", dirs_exist_ok=True)
     shutil.copytree(source / "0", target / "0", dirs_exist_ok=True)
     last = states(source)[-1]
-    for name in _FIELDS:
+    for name in _fields(source):
         shutil.copyfile(last / name, target / "0" / name)

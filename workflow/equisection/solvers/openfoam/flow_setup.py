@@ -1,8 +1,8 @@
 """The flow without dimensions: fields at the start, turbulence model, numerical schemes.
 
-Incompressible Reynolds-averaged equations with the k-omega SST model, walls resolved. Boundary
-and initial values are those of a uniform stream of speed 1 with a turbulence of
-:data:`TURBULENCE_INTENSITY` and :data:`VISCOSITY_RATIO`.
+Incompressible Reynolds-averaged equations with the k-omega SST model, or laminar ones, walls
+resolved. Boundary and initial values are those of a uniform stream of speed 1 with a turbulence of
+:data:`TURBULENCE_INTENSITY` and :data:`VISCOSITY_RATIO`, which a laminar flow does not read.
 """
 
 from __future__ import annotations
@@ -13,7 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from equisection.cases import Geometry, Medium
+from equisection.config.groups.openfoam_keys import LAMINAR, SST
 from equisection.files import write_text
+from equisection.solvers.openfoam.case_folder import OF_TURBULENCE
 from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
 
 #: Turbulence of the stream: rms velocity over speed, and eddy viscosity over viscosity.
@@ -29,20 +31,19 @@ def reynolds_number(geometry: Geometry, medium: Medium) -> float:
 IN_THE_PLANE: Mapping[str, str] = {"sides": "empty"}
 
 
-def write_flow(folder: Path, reynolds: float, sides: Mapping[str, str] = IN_THE_PLANE) -> None:
+def write_flow(
+    folder: Path,
+    reynolds: float,
+    sides: Mapping[str, str] = IN_THE_PLANE,
+    turbulence: str = SST,
+) -> None:
     """Write ``constant`` and the fields at time 0; ``sides`` are patches and types along z."""
     viscosity = 1.0 / reynolds
     energy = 1.5 * TURBULENCE_INTENSITY**2
     eddy_viscosity = VISCOSITY_RATIO * viscosity
     for name, entries in (
         ("transportProperties", {"transportModel": "Newtonian", "nu": viscosity}),
-        (
-            "turbulenceProperties",
-            {
-                "simulationType": "RAS",
-                "RAS": {"RASModel": "kOmegaSST", "turbulence": True, "printCoeffs": False},
-            },
-        ),
+        ("turbulenceProperties", _LAMINAR if turbulence == LAMINAR else _REYNOLDS_AVERAGED),
     ):
         write_text(folder / "constant" / name, dictionary(name, entries))
     for name, kind, dimensions, value, on_plate in (
@@ -64,6 +65,8 @@ def write_flow(folder: Path, reynolds: float, sides: Mapping[str, str] = IN_THE_
             {"type": "nutLowReWallFunction", "value": "uniform 0"},
         ),
     ):
+        if turbulence == LAMINAR and name in OF_TURBULENCE:
+            continue
         entries = {
             "dimensions": dimensions,
             "internalField": value,
@@ -72,6 +75,11 @@ def write_flow(folder: Path, reynolds: float, sides: Mapping[str, str] = IN_THE_
         write_text(folder / "0" / name, dictionary(name, entries, kind))
 
 
+_REYNOLDS_AVERAGED = {
+    "simulationType": "RAS",
+    "RAS": {"RASModel": "kOmegaSST", "turbulence": True, "printCoeffs": False},
+}
+_LAMINAR = {"simulationType": "laminar"}
 #: A wall that moves with the mesh; where the mesh stands still its velocity stays 0, so that one
 #: and the same field serves a steady run and the unsteady one that starts from it.
 _NO_SLIP = {"type": "movingWallVelocity", "value": "uniform (0 0 0)"}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Generic, TypeVar
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.cases import ForcedCase, UnsteadyCase
+from equisection.config.groups.openfoam_keys import SST
 from equisection.results.loads_zigzag import warning_of_zigzag
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.installation import Installation
@@ -74,6 +75,8 @@ class MovingRun(Generic[CaseT, MeshT]):
         Coupling of flow, loads and motion in a time step.
     work
         Folder that holds its folders.
+    turbulence
+        Model of the turbulence, of a section.
     """
 
     installation: Installation
@@ -81,6 +84,7 @@ class MovingRun(Generic[CaseT, MeshT]):
     mesh: MeshT
     coupling: flow.Coupling
     work: Path
+    turbulence: str = field(default=SST, kw_only=True)
 
     @property
     def folder(self) -> Path:

@@ -2,7 +2,8 @@
 
 The steady solver has converged when all loads stay within :data:`CONVERGED` of their means over
 the last :data:`WINDOW` iterations. Where it does not, the flow goes on unsteadily from there until
-the means of both halves of the record agree within :data:`KNOWN`.
+the means of both halves of the record agree within :data:`KNOWN`; around an outline its fluctuation
+has to have stopped growing too (:data:`EVEN`).
 
 A solver is followed from outside, by its log, and ends a little after it was told to. The loads
 that are used end at a look, at a given number of iterations or a given time, so that a result does
@@ -11,6 +12,7 @@ not depend on the time at which the end was noticed.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -38,6 +40,9 @@ ITERATIONS_TO_LOOK = 50
 #: Time step of a rigid unsteady run (c/V), and the relative difference of the means of its halves
 #: at which they count as known.
 STEP, KNOWN = 0.02, 0.01
+#: Growth of the fluctuation from one half of the record to the other, on the mesh of an outline,
+#: from which on vortices still build up: bluff bodies shed them, and their loads follow late.
+EVEN = 0.1
 
 #: Called with what is done and what there is to do at most.
 Tell = Callable[[float, float], None]
@@ -47,18 +52,24 @@ Tell = Callable[[float, float], None]
 class RigidFlowRecord:
     """Time left out, and shortest and longest record, of a rigid unsteady run (c/V).
 
-    A mean counts as ``floor`` at least where the difference of two halves is judged.
+    A mean counts as ``floor`` at least where the difference of two halves is judged. Their
+    fluctuation may grow by ``evenness`` from one half to the other.
     """
 
     discarded: float
     shortest: float
     longest: float
     floor: float = FLOOR
+    evenness: float = math.inf
 
     @property
     def end(self) -> float:
         """The latest end of the run."""
         return self.discarded + self.longest
+
+    def is_known(self, loads: Loads) -> bool:
+        """Tell whether the means of loads, without the time left out, are known."""
+        return loads.drift(self.floor) <= KNOWN and loads.growth(self.floor) <= self.evenness
 
 
 def has_converged(loads: Loads) -> bool:
@@ -141,7 +152,7 @@ def follow_unsteady(
         require_reasonable(loads, folder)
         return first_known(
             loads,
-            lambda part: part.since(record.discarded).drift(record.floor) <= KNOWN,
+            lambda part: record.is_known(part.since(record.discarded)),
             shortest,
             LOOKS_EVERY,
         )

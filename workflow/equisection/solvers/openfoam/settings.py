@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from equisection.config.groups.openfoam_keys import MORPH, ON_CELLS_OF_PLATE
+from equisection.config.groups.openfoam_keys import MORPH, ON_CELLS_OF_PLATE, SST
 from equisection.solvers.openfoam.flow_setup import Coupling
 
 
@@ -27,6 +27,8 @@ class Settings:
         Mesher of outlines with its version; empty for the mesh of blocks.
     far_field
         Distance of the far field (chords) in free air; 0 in a channel.
+    turbulence
+        Model of the turbulence.
     """
 
     mesh: str
@@ -35,6 +37,7 @@ class Settings:
     mesh_motion: str = MORPH
     mesher: str = ""
     far_field: float = 0.0
+    turbulence: str = SST
 
     @property
     def coupling(self) -> Coupling:
@@ -49,7 +52,7 @@ class Settings:
         if dimension == "2d":
             return self
         mesh = self.mesh.removeprefix(ON_CELLS_OF_PLATE)
-        return replace(self, mesh=mesh, mesh_motion=MORPH)
+        return replace(self, mesh=mesh, mesh_motion=MORPH, turbulence=SST)
 
     def of_case(self) -> dict[str, Any]:
         """Return the settings as a case holds them, without those at their defaults.

@@ -77,6 +77,17 @@ class Loads:
             for values in (self.drag, self.lift, self.moment)
         )
 
+    def growth(self, floor: float = FLOOR) -> float:
+        """Return the growth of the lift's fluctuation from the first half to the second.
+
+        A root mean square below a thousandth of ``floor`` in the second half has none.
+        """
+        half = self.time.size // 2
+        before, after = float(self.lift[:half].std()), float(self.lift[half:].std())
+        if after < 1e-3 * floor:
+            return 0.0
+        return after / before - 1.0 if before > 0 else np.inf
+
 
 def has_loads(folder: Path) -> bool:
     """Tell whether a case has written loads; their file is opened after the first step."""

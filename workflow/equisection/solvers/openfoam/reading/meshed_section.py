@@ -10,6 +10,7 @@ from foamlib import FoamFieldFile
 from numpy.typing import NDArray
 
 from equisection.cases import SteadyCase
+from equisection.config.groups.openfoam_keys import SST
 from equisection.errors import SolverError
 from equisection.results.section_mesh import SectionMesh
 from equisection.solvers.openfoam.case_folder import states
@@ -33,7 +34,13 @@ Floats = NDArray[np.float64]
 
 
 def section_mesh(
-    installation: Installation, case: SteadyCase, mesh: SectionCells, time_step: float, work: Path
+    installation: Installation,
+    case: SteadyCase,
+    mesh: SectionCells,
+    time_step: float,
+    work: Path,
+    *,
+    turbulence: str = SST,
 ) -> SectionMesh:
     """Return the mesh of a case, and the Courant number of its steady flow at a time step (c/V).
 
@@ -45,7 +52,9 @@ def section_mesh(
     SolverError
         A program failed, or the mesh is not sound.
     """
-    folder, loads, converged = run_steady(installation, case, mesh, work, _nothing)
+    folder, loads, converged = run_steady(
+        installation, case, mesh, work, _nothing, turbulence=turbulence
+    )
     run_program(
         installation, "postProcess", folder, arguments=("-func", "CourantNo", "-latestTime")
     )

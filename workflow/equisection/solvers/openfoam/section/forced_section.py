@@ -103,7 +103,12 @@ class ForcedRun(MovingRun[ForcedCase, SectionCells]):
     def _set_up(self, tell: Tell) -> None:
         """Make the folder of the moving run from the rigid steady flow, converged or not."""
         source, _, converged = run_steady(
-            self.installation, self.case, self.mesh, self.work, self.before_release(tell)
+            self.installation,
+            self.case,
+            self.mesh,
+            self.work,
+            self.before_release(tell),
+            turbulence=self.turbulence,
         )
         if not converged:
             logger.info("the steady flow does not converge; the motion sets in from its last state")

@@ -78,7 +78,9 @@ class SectionRun(FreeRun[SectionCells]):
 
     def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
         """Make the rigid steady flow, as :func:`~.section_rigid.run_steady` does."""
-        return run_steady(self.installation, self.case, self.mesh, self.work, tell)
+        return run_steady(
+            self.installation, self.case, self.mesh, self.work, tell, turbulence=self.turbulence
+        )
 
     def write_motion(self, folder: Path) -> None:
         """Write the dictionaries that move section and mesh."""

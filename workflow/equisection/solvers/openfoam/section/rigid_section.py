@@ -13,7 +13,9 @@ from pathlib import Path
 
 from equisection.beam.outline import outline_of, rectangle
 from equisection.cases import ForcedCase, Geometry, SteadyCase, UnsteadyCase
+from equisection.config.groups.openfoam_keys import SST
 from equisection.errors import SolverError
+from equisection.results.fluctuation import Fluctuation
 from equisection.results.surface import SectionSurface
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.case_folder import copy_flow, emptied
@@ -34,6 +36,7 @@ from equisection.solvers.openfoam.reading.section_surface import (
     surface_of_steady,
 )
 from equisection.solvers.openfoam.rigid_flow import (
+    EVEN,
     FLOOR_OF_OUTLINE,
     MOST,
     STEP,
@@ -64,13 +67,17 @@ SAMPLED = 5
 
 @dataclass(frozen=True)
 class RigidLoads:
-    """Loads of the rigid section, their origin, and the surface data that they are the sum of."""
+    """Loads of the rigid section, their origin, and the surface data that they are the sum of.
+
+    The means of an unsteady flow have its fluctuation with them.
+    """
 
     drag: float
     lift: float
     moment: float
     method: str
     surface: SectionSurface
+    fluctuation: Fluctuation | None = None
 
 
 def mesh_of(
@@ -144,6 +151,8 @@ def run_steady(
     mesh: SectionCells,
     work: Path,
     tell: Tell,
+    *,
+    turbulence: str = SST,
 ) -> tuple[Path, Loads, bool]:
     """Make the mesh and run the steady solver until it has converged, or for long enough.
 
@@ -158,7 +167,8 @@ def run_steady(
         A program failed, or the mesh is not sound.
     """
     folder = emptied(work / "steady")
-    flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium))
+    reynolds = flow.reynolds_number(case.geometry, case.medium)
+    flow.write_flow(folder, reynolds, turbulence=turbulence)
     write_system(
         folder,
         control("simpleFoam", MOST, 1, MOST),
@@ -239,6 +249,7 @@ def rigid_loads(
     tell: Tell,
     *,
     coupling: flow.Coupling,
+    turbulence: str = SST,
 ) -> RigidLoads:
     """Return the loads of a rigid section.
 
@@ -256,13 +267,17 @@ def rigid_loads(
         Called with the progress.
     coupling
         Coupling in a time step, where the flow goes on unsteadily.
+    turbulence
+        Model of the turbulence.
 
     Raises
     ------
     SolverError
         A program failed.
     """
-    folder, steady, converged = run_steady(installation, case, mesh, work, tell)
+    folder, steady, converged = run_steady(
+        installation, case, mesh, work, tell, turbulence=turbulence
+    )
     if converged:
         return steady_mean(installation, folder, steady, mesh)
     logger.info("%g deg: the steady solver does not converge", case.incidence_deg)
@@ -307,7 +322,8 @@ def unsteady_mean(
     folder = emptied(work / "unsteady")
     copy_flow(source, folder)
     write_at_rest(folder)
-    wanted = replace(RECORD, floor=FLOOR_OF_OUTLINE) if isinstance(mesh, OutlineMesh) else RECORD
+    is_outline = isinstance(mesh, OutlineMesh)
+    wanted = replace(RECORD, floor=FLOOR_OF_OUTLINE, evenness=EVEN) if is_outline else RECORD
     entries = control("pimpleFoam", wanted.end, STEP, wanted.end)
     entries["functions"] |= averaging(wanted.discarded, SAMPLED)
     write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution(coupling))
@@ -316,4 +332,6 @@ def unsteady_mean(
     )
     drag, lift, moment = record.means()
     surface = surface_of_mean(folder, mesh)
-    return RigidLoads(drag, lift, moment, method_of_mean(record, wanted.floor), surface)
+    method = method_of_mean(record, wanted.floor)
+    found = Fluctuation.of(record.time, record.drag, record.lift, record.moment)
+    return RigidLoads(drag, lift, moment, method, surface, found)
