@@ -242,7 +242,7 @@ def test_moment_and_twist_that_contradict_the_section_are_refused(sweep):
         ({"twist": np.degrees(history.twist)}, "degrees taken for radians"),
         ({"moment_coefficient": about_quarter}, r"moment_axis: 0\.25"),
     ):
-        with pytest.raises(ResultFileError, match=f"does not follow .* {mistake}"):
+        with pytest.raises(ResultFileError, match=f"does not follow .*{mistake}"):
             learn(replace(history, **changed), POLAR)
 
 

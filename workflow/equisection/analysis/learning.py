@@ -270,26 +270,31 @@ class Lessons:
         )
 
     def confirming_points(self, course: Course) -> list[Point]:
-        """Return the points around the interval of an onset that are to be run.
+        """Return the points at which an onset is to be checked, without those that have been run.
 
-        Half of them are on each side: at the ends of the interval, and half of its width beyond.
-        None is one that has been run.
+        They are given, or half of them are on either side of the interval: at its ends, and half of
+        its width beyond.
         """
-        onset, number = course.onset, self.config.rom.confirm // 2
+        values = self._confirming_values(course)
+        points = {Point.at({self.axis: float(f"{value:.4g}")}) for value in values}
+        done = {run.point for index in self._run_so_far for run in runs_of(index)}
+        return sorted(points - done, key=lambda point: point.order)
+
+    def _confirming_values(self, course: Course) -> Sequence[float]:
+        """Return values on the axis at which runs check an onset."""
+        onset, asked = course.onset, self.config.rom.confirm
+        if isinstance(asked, tuple):
+            return asked
         if not onset.known:
             return []
         width = onset.high - onset.low
         wanted = [
             end + side * 0.5 * width * step
-            for step in range(number)
+            for step in range(asked // 2)
             for side, end in ((-1.0, onset.low), (1.0, onset.high))
         ]
         k_star, values = course.table["k_star"], course.table[self.axis.name]
-        points = {
-            Point.at({self.axis: float(f"{np.interp(one, k_star, values):.4g}")}) for one in wanted
-        }
-        done = {run.point for index in self._run_so_far for run in runs_of(index)}
-        return sorted(points - done, key=lambda point: point.order)
+        return [float(np.interp(one, k_star, values)) for one in wanted]
 
     @property
     def _run_so_far(self) -> list[Path]:

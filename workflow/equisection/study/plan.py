@@ -242,7 +242,7 @@ def planned_cases(config: Config) -> Iterator[PlannedCases]:
             yield PlannedCases(STEADY, dimension, dimension, resolution, names)
     refined = refinement_rounds(config) * config.sweep.onset_points
     if learns(config):
-        refined = 1 + 2 * config.rom.confirm
+        refined = config.rom.most_runs
     for name in config.sweep.models:
         dimension = model(name, config.reduction).dimension
         of_sweep = tuple(sweep_cases(config, name))
