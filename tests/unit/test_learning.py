@@ -113,7 +113,7 @@ def test_words_never_pass_a_model_for_runs():
             {"sweep": {"onset": "model", "models": ["2d-corrected"]}, "beam": {"mass_axis": 0.6}},
             "sweep.models",
         ),
-        ({"sweep": {"onset": "model", "models": ["2d"]}, "compute": False}, "sweep.onset"),
+        ({"rom": {"confirm": [8.0, 8.0]}}, "rom.confirm"),
     ],
 )
 def test_what_cannot_be_learnt_is_refused(changes, message):

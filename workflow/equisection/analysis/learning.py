@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -33,8 +33,9 @@ from equisection.analysis.reduced_model import (
     predicted_onset,
 )
 from equisection.beam.section import Section
+from equisection.cases import UnsteadyCase
 from equisection.config import Config
-from equisection.errors import ResultFileError
+from equisection.errors import EquisectionError, ResultFileError
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.recorded_history import history_of
@@ -42,7 +43,7 @@ from equisection.solvers.registry import solver_from_config
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
 from equisection.study.assemble import case_at
-from equisection.study.axes import K_STAR, Axis, Point, onset_axis, varied
+from equisection.study.axes import INCIDENCE, K_STAR, Axis, Point, onset_axis, varied
 
 #: Values over the sweep and its reach at which a model predicts, beside those of the sweep.
 PREDICTED = 41
@@ -91,6 +92,8 @@ class Lessons:
         Indices of the releases, in the order of their rounds.
     confirming
         Indices of the runs that confirm the onset, in the order of their rounds.
+    incidence_deg
+        Rigid incidence (deg) of the model, in a study that varies it; None in another.
     """
 
     config: Config
@@ -98,6 +101,7 @@ class Lessons:
     data: Mapping[str, xr.Dataset]
     releases: Sequence[Path]
     confirming: Sequence[Path] = ()
+    incidence_deg: float | None = None
 
     @classmethod
     def read(cls, config: Config, name: str, files: Mapping[str, str | Sequence[str]]) -> Lessons:
@@ -112,6 +116,24 @@ class Lessons:
         )
         return cls(config, name, data, releases, confirming)
 
+    def at_each_incidence(self) -> list[Lessons]:
+        """Return the lessons at each incidence of the study, which are apart."""
+        angles = varied(self.config).get(INCIDENCE, (None,))
+        return [replace(self, incidence_deg=angle) for angle in angles]
+
+    def point(self, value: float) -> Point:
+        """Return the point of the study at a value on the axis of the onset."""
+        fixed = {} if self.incidence_deg is None else {INCIDENCE: self.incidence_deg}
+        return Point.at({self.axis: value, **fixed})
+
+    def _runs(self, index: Path) -> list[JudgedRun]:
+        """Return the runs of an index at the incidence of the model."""
+        angle = self.incidence_deg
+        found = runs_of(index)
+        return [
+            run for run in found if angle is None or INCIDENCE.same(run.point[INCIDENCE], angle)
+        ]
+
     @property
     def axis(self) -> Axis:
         """Axis along which the onset is looked for."""
@@ -122,6 +144,15 @@ class Lessons:
         """Steady polar of the section."""
         return polar_at(self.data["polar_2d"], self.config.steady.resolution)
 
+    def cases_at(self, values: Iterable[float]) -> list[UnsteadyCase]:
+        """Return the cases of the model at values on the axis, whose sections are predicted."""
+        model = plan.model(self.name, self.config.reduction)
+        solver = solver_from_config(self.config, self.config.steady.resolution)
+        # a history of a model has no interval that could be too long for the stiffest beam
+        unsteady = self.config.unsteady.model_copy(update={"output_interval": 1e-3})
+        config = self.config.model_copy(update={"unsteady": unsteady})
+        return [case_at(config, model, self.point(value), self.data, solver) for value in values]
+
     @cached_property
     def _grid(self) -> tuple[list[float], list[float], list[Section | None], list[bool]]:
         """Values, k*, sections and divergence of the beams that are predicted, by rising k*."""
@@ -131,15 +162,7 @@ class Lessons:
         highest = min(highest, plan.highest_of_sweep(self.config))
         spaced = np.geomspace(lowest, highest, PREDICTED)
         values = sorted({*given, *(float(f"{value:.4g}") for value in spaced)})
-        model = plan.model(self.name, self.config.reduction)
-        solver = solver_from_config(self.config, self.config.steady.resolution)
-        # a history of a model has no interval that could be too long for the stiffest beam
-        unsteady = self.config.unsteady.model_copy(update={"output_interval": 1e-3})
-        config = self.config.model_copy(update={"unsteady": unsteady})
-        cases = [
-            case_at(config, model, Point.at({self.axis: value}), self.data, solver)
-            for value in values
-        ]
+        cases = self.cases_at(values)
         ordered = sorted(zip(values, cases, strict=True), key=lambda pair: pair[1].k_star)
         return (
             [value for value, _ in ordered],
@@ -156,10 +179,12 @@ class Lessons:
         """
         values, k_star, sections, diverges = self._grid
         there = [place for place, section in enumerate(sections) if section is not None]
+        start = self.config.unsteady.start
         found = predicted(
             model,
             [k_star[place] for place in there],
             [section for section in sections if section is not None],
+            start=(math.radians(start.twist_deg), start.heave_rate),
         ).set_index(pd.Index(there))
         table = pd.DataFrame({self.axis.name: values, "k_star": k_star})
         table[list(COLUMNS)] = found[list(COLUMNS)]
@@ -199,7 +224,7 @@ class Lessons:
         ResultFileError
             It failed.
         """
-        runs = [run for index in self.releases for run in runs_of(index)]
+        runs = [run for index in self.releases for run in self._runs(index)]
         if not runs or runs[-1].unstable is None:
             name = runs[-1].point.name if runs else "none"
             raise ResultFileError(
@@ -214,14 +239,14 @@ class Lessons:
             return []
         given = self.config.rom.learn_from
         if given != "auto":
-            return [Point.at({self.axis: value}) for value in given[1:]]
+            return [self.point(value) for value in given[1:]]
         model = self.learnt(self.last_release)
         table = self.prediction(model)
         k_star = next_release(model, predicted_onset(table))
         if k_star is None:
             return []
         nearest = np.interp(k_star, table["k_star"], table[self.axis.name])
-        return [Point.at({self.axis: float(f"{nearest:.4g}")})]
+        return [self.point(float(f"{nearest:.4g}"))]
 
     def contradiction(self, onset: PredictedOnset, index: Path) -> JudgedRun | None:
         """Return a run on the wrong side of an interval of the onset, that nearest to it.
@@ -230,7 +255,7 @@ class Lessons:
         A run inside contradicts nothing, nor does any where an end is not known.
         """
         wrong = []
-        for run in runs_of(index):
+        for run in self._runs(index):
             k_star = self._k_star_of(run.point)
             if (run.unstable is True and k_star >= onset.high * (1.0 - SAME_END)) or (
                 run.unstable is False and k_star <= onset.low * (1.0 + SAME_END)
@@ -258,7 +283,7 @@ class Lessons:
             model = self.learnt(contradicted)
             table = self.prediction(model)
             onset = predicted_onset(table)
-        checked = [run for index in self.confirming for run in runs_of(index)]
+        checked = [run for index in self.confirming for run in self._runs(index)]
         at_odds = [self.contradiction(onset, index) for index in self.confirming]
         return Course(
             model,
@@ -276,8 +301,8 @@ class Lessons:
         its width beyond.
         """
         values = self._confirming_values(course)
-        points = {Point.at({self.axis: float(f"{value:.4g}")}) for value in values}
-        done = {run.point for index in self._run_so_far for run in runs_of(index)}
+        points = {self.point(float(f"{value:.4g}")) for value in values}
+        done = {run.point for index in self._run_so_far for run in self._runs(index)}
         return sorted(points - done, key=lambda point: point.order)
 
     def _confirming_values(self, course: Course) -> Sequence[float]:
@@ -311,6 +336,62 @@ class Lessons:
         return self.confirming_points(course)
 
 
+def points_of_round(lessons: Lessons, batch: str) -> list[Point]:
+    """Return the points that a round of learning runs, at all incidences of the study.
+
+    Where an incidence of several has nothing to learn from, the others go on.
+    """
+    each = lessons.at_each_incidence()
+    found: list[Point] = []
+    for one in each:
+        try:
+            found += one.next_points(batch)
+        except EquisectionError as error:
+            if len(each) == 1:
+                raise
+            _LOG.warning("%s at %g deg: %s", one.name, one.incidence_deg, error)
+    return found
+
+
+def datasets_of(lessons: Lessons) -> list[xr.Dataset]:
+    """Return the models that are learnt at all incidences, in the order of ``plan.learnt_names``.
+
+    Where an incidence of several has nothing to learn from, its data set has the ``refusal`` alone.
+    """
+    each = lessons.at_each_incidence()
+    found = []
+    for one in each:
+        try:
+            course = one.course()
+        except EquisectionError as error:
+            if len(each) == 1:
+                raise
+            _LOG.warning("%s at %g deg: %s", one.name, one.incidence_deg, error)
+            found.append(_refused(one, str(error)))
+            continue
+        (_LOG.warning if course.at_odds else _LOG.info)(
+            "%s, %s: %s", one.name, course.words, course.confirmation
+        )
+        found.append(dataset_of(course, one.name, one.axis))
+    return found
+
+
+def _refused(lessons: Lessons, reason: str) -> xr.Dataset:
+    """Return what is written where there is no model."""
+    unknown = dict.fromkeys((f"onset_k_star{end}" for end in ("", "_low", "_high")), math.nan)
+    return xr.Dataset(
+        attrs={
+            "model": lessons.name,
+            "axis": lessons.axis.name,
+            "incidence_deg": lessons.incidence_deg,
+            "words": f"no model: {reason}",
+            "refusal": reason,
+            "confirmation": "",
+            **unknown,
+        }
+    )
+
+
 @dataclass(frozen=True)
 class Course:
     """A learnt model and what it says after the runs so far.
@@ -337,6 +418,12 @@ class Course:
     checked: int
     contradicted: bool
     at_odds: str
+
+    @property
+    def words(self) -> str:
+        """Return what the model is, with its incidence."""
+        angle = math.degrees(self.model.loads.incidence_rad)
+        return f"{self.model.words}, incidence {angle:.6g} deg"
 
     @property
     def confirmation(self) -> str:
@@ -416,8 +503,8 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
             "learnt_from": model.learnt_from,
             "learnt_from_k_star": model.k_star,
             "source": model.source,
-            "words": model.words,
-            "incidence_deg": math.degrees(loads.incidence_rad),
+            "words": course.words,
+            "incidence_deg": round(math.degrees(loads.incidence_rad), 9),
             "seen_least_deg": math.degrees(loads.seen[0]),
             "seen_most_deg": math.degrees(loads.seen[1]),
             "missing_angles": " ".join(f"{angle:g}" for angle in model.missing_angles),
@@ -430,18 +517,18 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
     )
 
 
-def onsets_of(learnt: Sequence[xr.Dataset]) -> pd.DataFrame:
-    """Return the onsets of learnt models, ``rom/<model>/model.nc``, as columns of the onsets."""
-    return pd.DataFrame(
-        [
-            {
-                "model": data.attrs["model"],
-                "k_star_learnt": float(data.attrs["onset_k_star"]),
-                "k_star_learnt_low": float(data.attrs["onset_k_star_low"]),
-                "k_star_learnt_high": float(data.attrs["onset_k_star_high"]),
-                "learnt": data.attrs["words"],
-                "confirmation": data.attrs["confirmation"],
-            }
-            for data in learnt
-        ]
-    )
+def onsets_of(learnt: Sequence[xr.Dataset], *, over_incidence: bool = False) -> pd.DataFrame:
+    """Return the onsets of learnt models, ``rom/<model>/model*.nc``, as columns of the onsets.
+
+    The incidence is one of them in a study that varies it.
+    """
+    rows = []
+    for data in learnt:
+        row: dict[str, object] = {"model": data.attrs["model"]}
+        if over_incidence:
+            row[INCIDENCE.name] = float(data.attrs["incidence_deg"])
+        for end in ("", "_low", "_high"):
+            row[f"k_star_learnt{end}"] = float(data.attrs[f"onset_k_star{end}"])
+        row |= {"learnt": data.attrs["words"], "confirmation": data.attrs["confirmation"]}
+        rows.append(row)
+    return pd.DataFrame(rows)

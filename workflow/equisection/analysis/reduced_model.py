@@ -136,6 +136,7 @@ def predicted(
     k_star: Sequence[float],
     sections: Sequence[Section],
     windows: Sequence[tuple[float, float]] | None = None,
+    start: tuple[float, float] = (0.0, 0.0),
 ) -> pd.DataFrame:
     """Return growth and frequency of a release at each k*.
 
@@ -150,6 +151,8 @@ def predicted(
     windows
         Part of each release (c/V) that growth is read from; by default that of
         :func:`equisection.verdict.growth.growth_window` of 100 c/V.
+    start
+        Twist (rad) and heave rate (over V) of the tip from which it is released.
 
     Returns
     -------
@@ -159,7 +162,7 @@ def predicted(
         polar before growth can be read has NaN numbers and an infinite growth rate.
         ``extrapolated`` tells that the release goes to an incidence that the model has not seen.
     """
-    rows = [_Released.of(loads, sections, windows) for loads in (model.loads, *model.refits)]
+    rows = [_Released.of(loads, sections, windows, start) for loads in (model.loads, *model.refits)]
     rates = np.array([row.rates for row in rows])
     frequencies = np.array([row.frequencies for row in rows])
     band = np.maximum(_spread(rates), SMALLEST_BAND)
@@ -203,13 +206,14 @@ class _Released:
         loads: LearntLoads,
         sections: Sequence[Section],
         windows: Sequence[tuple[float, float]] | None,
+        start: tuple[float, float],
     ) -> _Released:
         natural = np.array([natural_frequencies(section) for section in sections])
         if windows is None:
             spans = np.array([growth_window(DURATION, pitch) for pitch, _ in natural])
         else:
             spans = np.array(windows, dtype=float)
-        histories = LearntSections(sections, loads).released(float(spans[:, 1].max()))
+        histories = LearntSections(sections, loads).released(float(spans[:, 1].max()), start=start)
         spans[:, 1] = np.minimum(spans[:, 1], histories.ends)
         growths = growths_of(
             histories.time,

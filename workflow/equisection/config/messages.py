@@ -22,6 +22,8 @@ _TAGS = {
     "list": "array",
     "range": "object",
     "auto": "string",
+    "count": "integer",
+    "count": "integer",
     "known": "string",
     "half-range": "number",
 }

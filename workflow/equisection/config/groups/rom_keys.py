@@ -19,7 +19,7 @@ def _shape_of_releases(value: object) -> str:
 
 
 def _shape_of_runs(value: object) -> str:
-    return "list" if isinstance(value, list | tuple) else "number"
+    return "list" if isinstance(value, list | tuple) else "count"
 
 
 Releases = Annotated[
@@ -30,7 +30,7 @@ Releases = Annotated[
 
 
 Runs = Annotated[
-    Annotated[Literal[0, 2, 4], Tag("number")]
+    Annotated[Literal[0, 2, 4], Tag("count")]
     | Annotated[tuple[Positive, ...], Field(min_length=1), Tag("list")],
     Discriminator(_shape_of_runs),
 ]
