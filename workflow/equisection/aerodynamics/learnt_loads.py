@@ -46,6 +46,8 @@ TERMS = ("theta'", "a theta'", "h", "a h", "h^2", "a^2 h", "a h^2", "h^3")
 RIDGE = 1e-4
 #: End (c/V) of the part of a record whose motion is weighed against its loads.
 CHECKED_UNTIL = 50.0
+#: Smallest swing of the incidence in the last third of a record, over that in its first third (-).
+SMALLEST_SWING = 0.02
 _RECORDS = ("time", "twist", "deflection", "lift_coefficient", "moment_coefficient")
 _LIFT_WEIGHT = 0.3
 _RATES = (0.05, 4.0)
@@ -186,6 +188,7 @@ class Lesson:
         lift = history.lift_coefficient - polar.lift_coefficient(alpha)
         moment = history.moment_coefficient - polar.moment_coefficient(alpha)
         used = (s >= LEARN_FROM) & (s <= until * (1.0 + 1e-9)) & np.isfinite(moment)
+        _require_swing(history, a[used])
         return cls(
             step=history.time_step,
             a=a,
@@ -287,6 +290,19 @@ def require_lesson(history: ReferenceHistory) -> None:
         raise ResultFileError(
             f"{history.name}: samples are {step:.3g} c/V apart; at most {LONGEST_INTERVAL:g} are "
             "allowed in a record to learn from (unsteady.output_interval)"
+        )
+
+
+def _require_swing(history: ReferenceHistory, a: Floats) -> None:
+    """Refuse a motion that settles before it has said anything of its growth."""
+    first, _, last = (part - part.mean() for part in np.array_split(a, 3))
+    early, late = float(np.ptp(first)), float(np.ptp(last))
+    if early == 0.0 or late < SMALLEST_SWING * early:
+        raise ResultFileError(
+            f"{history.name}: the motion has settled: the incidence swings by "
+            f"{math.degrees(late):.2g} deg at the end of what is learnt from, "
+            f"{math.degrees(early):.2g} deg at its begin ({100 * SMALLEST_SWING:g} % or more are "
+            "wanted); learn from a softer beam (rom.learn_from), or with less damping"
         )
 
 

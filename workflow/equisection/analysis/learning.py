@@ -36,7 +36,8 @@ from equisection.beam.section import Section
 from equisection.cases import UnsteadyCase
 from equisection.config import Config
 from equisection.errors import EquisectionError, ResultFileError
-from equisection.results.netcdf import read_dataset
+from equisection.results.loads_zigzag import loads_zigzag, warning_of_zigzag
+from equisection.results.netcdf import read_attributes, read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.recorded_history import history_of
 from equisection.solvers.registry import solver_from_config
@@ -274,13 +275,13 @@ class Lessons:
 
     def course(self) -> Course:
         """Return the model after all that has been run, with what it predicts and what it says."""
-        model = self.learnt(self.last_release)
+        model, learnt_from = self.learnt(self.last_release), self.last_release
         table = self.prediction(model)
         onset = predicted_onset(table)
         wrong = [self.contradiction(onset, index) for index in self.confirming[:1]]
         contradicted = wrong[0] if wrong else None
         if contradicted is not None:
-            model = self.learnt(contradicted)
+            model, learnt_from = self.learnt(contradicted), contradicted
             table = self.prediction(model)
             onset = predicted_onset(table)
         checked = [run for index in self.confirming for run in self._runs(index)]
@@ -292,6 +293,7 @@ class Lessons:
             checked=len(checked),
             contradicted=contradicted is not None,
             at_odds=next((run.point.name for run in at_odds if run is not None), ""),
+            zigzag=_zigzag_of(learnt_from),
         )
 
     def confirming_points(self, course: Course) -> list[Point]:
@@ -336,6 +338,12 @@ class Lessons:
         return self.confirming_points(course)
 
 
+def _zigzag_of(run: JudgedRun) -> str:
+    """Return what is wrong with the loads of a run that zigzag from step to step."""
+    found = loads_zigzag(run.file, read_attributes(run.file))
+    return warning_of_zigzag(found.get("loads_zigzag", math.nan))
+
+
 def points_of_round(lessons: Lessons, batch: str) -> list[Point]:
     """Return the points that a round of learning runs, at all incidences of the study.
 
@@ -369,8 +377,11 @@ def datasets_of(lessons: Lessons) -> list[xr.Dataset]:
             _LOG.warning("%s at %g deg: %s", one.name, one.incidence_deg, error)
             found.append(_refused(one, str(error)))
             continue
-        (_LOG.warning if course.at_odds else _LOG.info)(
-            "%s, %s: %s", one.name, course.words, course.confirmation
+        (_LOG.warning if course.at_odds or course.reservations else _LOG.info)(
+            "%s, %s: %s",
+            one.name,
+            course.words,
+            "; ".join(filter(None, (course.confirmation, course.reservations))),
         )
         found.append(dataset_of(course, one.name, one.axis))
     return found
@@ -387,6 +398,7 @@ def _refused(lessons: Lessons, reason: str) -> xr.Dataset:
             "words": f"no model: {reason}",
             "refusal": reason,
             "confirmation": "",
+            "reservations": "",
             **unknown,
         }
     )
@@ -410,6 +422,8 @@ class Course:
         Whether the first ones contradicted, so that it was learnt anew.
     at_odds
         Name of a run that it still contradicts; empty if there is none.
+    zigzag
+        Warning of the loads of the release, if they zigzag from step to step.
     """
 
     model: ReducedModel
@@ -418,6 +432,37 @@ class Course:
     checked: int
     contradicted: bool
     at_odds: str
+    zigzag: str = ""
+
+    @property
+    def reservations(self) -> str:
+        """Return in words what speaks against the model; empty where nothing does."""
+        found = [self.zigzag] if self.zigzag else []
+        again = next_release(self.model, self.onset)
+        if again is not None:
+            part = self.model.k_star / self.onset.k_star
+            found.append(
+                f"learnt at {part:.2g} times the k* of its onset, too far from it: add "
+                f"{again:g} to rom.learn_from"
+            )
+        if self.model.missing_angles:
+            angles = ", ".join(f"{angle:g}" for angle in self.model.missing_angles)
+            found.append(f"the polar has no points at {angles} deg: steady.incidence_deg")
+        if self.extrapolates:
+            low, high = np.degrees(self.model.loads.seen)
+            found.append(
+                f"the release at the onset leaves the incidences that were seen, {low:.3g} to "
+                f"{high:.3g} deg"
+            )
+        return "; ".join(found)
+
+    @property
+    def extrapolates(self) -> bool:
+        """Tell whether the release at the onset goes to an incidence that was not learnt from."""
+        if not math.isfinite(self.onset.k_star):
+            return False
+        near = np.abs(np.log(self.table["k_star"] / self.onset.k_star)).argmin()
+        return bool(self.table["extrapolated"].iloc[near])
 
     @property
     def words(self) -> str:
@@ -512,6 +557,7 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
             "onset_k_star_low": course.onset.low,
             "onset_k_star_high": course.onset.high,
             "confirmation": course.confirmation,
+            "reservations": course.reservations,
             "at_odds": course.at_odds,
         },
     )
@@ -529,6 +575,7 @@ def onsets_of(learnt: Sequence[xr.Dataset], *, over_incidence: bool = False) -> 
             row[INCIDENCE.name] = float(data.attrs["incidence_deg"])
         for end in ("", "_low", "_high"):
             row[f"k_star_learnt{end}"] = float(data.attrs[f"onset_k_star{end}"])
-        row |= {"learnt": data.attrs["words"], "confirmation": data.attrs["confirmation"]}
+        row["learnt"] = data.attrs["words"]
+        row |= {name: data.attrs[name] for name in ("confirmation", "reservations")}
         rows.append(row)
     return pd.DataFrame(rows)

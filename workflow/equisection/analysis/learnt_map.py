@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -29,9 +29,10 @@ from equisection.analysis.learning import Lessons
 from equisection.analysis.learnt_file import model_of
 from equisection.analysis.reduced_model import SMALLEST_BAND, ReducedModel, natural_frequencies
 from equisection.beam.section import Section
+from equisection.cases import UnsteadyCase
 from equisection.errors import EquisectionError
 from equisection.motion.learnt_motion import LearntSections
-from equisection.motion.map_dataset import MEANING, described
+from equisection.motion.map_dataset import described
 from equisection.motion.mechanism import Instabilities, influence_of, instabilities
 from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes, no_modes
 from equisection.motion.sections import section_system
@@ -113,6 +114,7 @@ class LearntLine:
     data: xr.Dataset
     given: AsGiven
     speeds: Floats
+    _cases: dict[float, UnsteadyCase] = field(default_factory=dict, init=False, repr=False)
 
     @property
     def refusal(self) -> str:
@@ -131,10 +133,15 @@ class LearntLine:
 
     def sections(self, speeds: Floats) -> tuple[list[Section | None], list[bool]]:
         """Return the sections at speeds (m/s), None where there is none, and where it diverges."""
-        axis = self.lessons.axis
-        values = speeds if axis is SPEED else self.given.k_star_at(speeds)
-        cases = self.lessons.cases_at(map(float, values))
-        return [case.section for case in cases], [case.diverges for case in cases]
+        new = np.array(
+            [speed for speed in dict.fromkeys(map(float, speeds)) if speed not in self._cases]
+        )
+        if new.size:
+            values = new if self.lessons.axis is SPEED else self.given.k_star_at(new)
+            cases = self.lessons.cases_at(map(float, values))
+            self._cases.update(zip(map(float, new), cases, strict=True))
+        found = [self._cases[float(speed)] for speed in speeds]
+        return [case.section for case in found], [case.diverges for case in found]
 
     def spectrum(self, speeds: Floats, fit: int = 0) -> Spectrum:
         """Return the small motions by one of the fits; NaN where there is no equilibrium."""
@@ -285,7 +292,7 @@ def _row(line: LearntLine, chord: float) -> dict[str, object]:
         "basis": MODEL,
         "learnt": line.data.attrs["words"],
         "in_time": line.data.attrs["confirmation"],
-        "note": line.refusal,
+        "note": line.refusal or line.data.attrs["reservations"],
     }
     if line.refusal:
         return row
@@ -295,7 +302,9 @@ def _row(line: LearntLine, chord: float) -> dict[str, object]:
     small, small_low, small_high = line.small
     row |= {"speed_small": small, "speed_small_low": small_low, "speed_small_high": small_high}
     if not math.isfinite(speed):
-        return row | _without_onset(line)
+        without = _without_onset(line)
+        _add(row, str(without.pop("note")))
+        return row | without
     row["extrapolated"] = _extrapolated(line, float(learnt["k_star"]))
     row |= _equilibrium(line, speed)
     unstable = small_high if math.isfinite(small_high) else small
@@ -312,8 +321,12 @@ def _row(line: LearntLine, chord: float) -> dict[str, object]:
             row["mechanism"] = "flutter"
     else:
         row["mechanism"] = "flutter"
-        row["note"] = "no small motion grows up to the highest speed: the release alone does"
+        _add(row, "no small motion grows up to the highest speed: the release alone does")
     return row
+
+
+def _add(row: dict[str, object], note: str) -> None:
+    row["note"] = "; ".join(filter(None, (str(row["note"]), note)))
 
 
 def _without_onset(line: LearntLine) -> dict[str, object]:
@@ -413,10 +426,10 @@ def map_of_learnt(
     further = {name: joined[name] for name in OF_MODEL}
     dataset = described(joined.drop_vars(list(OF_MODEL)))
     for name, (units, long_name) in OF_MODEL.items():
-        values = further[name]
-        if values.dtype.kind not in "fiu":
-            values = values.astype(object)
-        dataset[name] = values.assign_attrs(units=units, long_name=long_name, missing_allowed="1")
+        values = further[name].values
+        is_text = values.dtype.kind not in "fiu"
+        attrs = {"units": units, "long_name": long_name, "missing_allowed": "1"}
+        dataset[name] = (further[name].dims, values.astype(object) if is_text else values, attrs)
     return dataset.assign_attrs(
         equilibrium="on the branch that comes from rest",
         polar=polar,
@@ -553,7 +566,3 @@ def _divergence(line: LearntLine) -> float:
     _, diverges = line.sections(line.speeds)
     lost = np.isnan(line.spectrum(line.speeds).states[:, 0]) | np.array(diverges, dtype=bool)
     return float(line.speeds[lost][0]) if lost.any() else math.nan
-
-
-#: All variables of the map with their units and meaning.
-MEANING_OF_LEARNT = {**MEANING, **OF_MODEL}

@@ -23,7 +23,6 @@ _TAGS = {
     "range": "object",
     "auto": "string",
     "count": "integer",
-    "count": "integer",
     "known": "string",
     "half-range": "number",
 }

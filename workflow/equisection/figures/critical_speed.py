@@ -36,9 +36,15 @@ def draw(stability_map: xr.Dataset, design_speed: float | None) -> Figure:
     figure = Figure(figsize=(PAGE_WIDTH, 3.6))
     axes = figure.subplots()
     seen = set()
+    by_model = stability_map.attrs["basis"] == "model"
     for one, look in models_of(stability_map):
         angle, speed = one["incidence_deg"].values, one["critical_speed"].values
-        axes.plot(angle, speed, color=look.colour, linestyle=look.line, label=look.label)
+        if by_model:  # nothing is known between the incidences that were learnt at
+            ends = np.abs([speed - one[f"speed_{end}"].values for end in ("low", "high")])
+            axes.errorbar(angle, speed, ends, color=look.colour, fmt="none", capsize=2.0)
+            axes.plot([], [], color=look.colour, label=look.label)
+        else:
+            axes.plot(angle, speed, color=look.colour, linestyle=look.line, label=look.label)
         for mechanism, marker in MARKERS_OF_MECHANISMS.items():
             here = (one["critical_mechanism"].values == mechanism) & np.isfinite(speed)
             seen |= {mechanism} if here.any() else set()
