@@ -81,7 +81,7 @@ class KnownSections:
 
 def file_of(loads: LearntLoads, onset: PredictedOnset | None = None) -> xr.Dataset:
     learnt = model(loads)
-    speeds = np.linspace(24.0, 40.0, 9)
+    speeds = np.linspace(19.0, 43.0, 9)
     table = predicted(learnt, GIVEN.k_star_at(speeds), sections_at(speeds))
     table.insert(0, "speed", speeds)
     table = table.sort_values("k_star", ignore_index=True)

@@ -248,7 +248,9 @@ def test_moment_and_twist_that_contradict_the_section_are_refused(sweep):
 
 def test_motion_that_has_settled_says_nothing():
     """Heavy dampers end the motion within a few periods: nothing is left to learn from."""
-    damped = SECTION.model_copy(update={"torsional_damping": 6.0, "flexural_damping": 60.0})
+    damped = SECTION.scaled(20.0).model_copy(
+        update={"torsional_damping": 30.0, "flexural_damping": 60.0}
+    )
     history = released(damped, KNOWN)
     with pytest.raises(ResultFileError, match="known: the motion has settled"):
         learn(history, POLAR)

@@ -154,6 +154,7 @@ def test_dry_run_of_one_release_plans_a_model_in_the_place_of_the_sweep(
     further: dict[str, Any], clone: Project
 ) -> None:
     """Kept results alone, without a solver: no job of a single case, and a map over incidences."""
+    (clone.folder / "results" / "reference").mkdir(parents=True, exist_ok=True)
     files = ("config/openfoam.yaml", "config/paper/one_release.yaml")
     changes = [f"sweep={{{key}: {value}}}" for key, value in further.items()]
     command = ("--dry-run", "--configfile", *files, *(["--config", *changes] if changes else []))

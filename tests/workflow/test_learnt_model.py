@@ -1,4 +1,4 @@
-"""`sweep.onset: model` at two incidences: learns onsets from releases, which runs bear out or not."""
+"""`sweep.onset: model` over incidences: onsets learnt from releases, and runs that check them."""
 
 import json
 

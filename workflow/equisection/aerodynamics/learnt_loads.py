@@ -177,7 +177,6 @@ class Lesson:
             The history cannot be learnt from.
         """
         require_lesson(history)
-        require_consistent(history, polar)
         s, axis = history.time, history.section.axis_behind_mid_chord
         twist = scipy.interpolate.make_interp_spline(s, history.twist, 5)
         heave = scipy.interpolate.make_interp_spline(
@@ -188,7 +187,8 @@ class Lesson:
         lift = history.lift_coefficient - polar.lift_coefficient(alpha)
         moment = history.moment_coefficient - polar.moment_coefficient(alpha)
         used = (s >= LEARN_FROM) & (s <= until * (1.0 + 1e-9)) & np.isfinite(moment)
-        _require_swing(history, a[used])
+        _require_swing(history, a[used])  # what has settled is noise, and balances with nothing
+        require_consistent(history, polar)
         return cls(
             step=history.time_step,
             a=a,
