@@ -1,4 +1,4 @@
-"""Learn the model of the loads of a section from its releases, and what it predicts."""
+"""Learn the model of the loads of a section or beam from its releases, and what it predicts."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -238,9 +238,15 @@ def learnt_from(model, batches):
         "confirming": [
             f"{RESULTS}/unsteady/{model}/{batch}.json" for batch in batches[2:]
         ],
-        "polar_2d": f"{RESULTS}/steady/polar_2d.nc",
+        **polar_of_learnt(model),
         **structure_of(model),
     }
+
+
+def polar_of_learnt(name):
+    """Return the polar that a learnt model has as its steady part, by its name."""
+    polar = f"polar_{plan.model(name, CONFIG.reduction).dimension}"
+    return {polar: f"{RESULTS}/steady/{polar}.nc"}
 
 
 def learnt_before_round(wildcards):

@@ -43,7 +43,7 @@ def draw(
     onsets: pd.DataFrame,
     learnt: Sequence[xr.Dataset] = (),
 ) -> Figure:
-    """Draw growth rates (left) and frequencies (right).
+    """Draw growth rates (left) and frequencies, and limit cycles where learnt models have them.
 
     Parameters
     ----------
@@ -56,10 +56,15 @@ def draw(
     learnt
         Models learnt from releases, ``rom/<model>/model.nc``, drawn without marks and with bands.
     """
+    with_cycles = [data for data in learnt if data.attrs.get("limit_cycles")]
     figure = Figure(figsize=(PAGE_WIDTH, 3.4))
-    panels = figure.subplots(1, 2)
+    panels = figure.subplots(1, 3 if with_cycles else 2)
     along = onset_axis_among(summary.columns)
-    for axes, place, (name, (title, label)) in zip(panels, "ab", _QUANTITIES.items(), strict=True):
+    if with_cycles:
+        _limit_cycles(panels[2], with_cycles, summary, along)
+    for axes, place, (name, (title, label)) in zip(
+        panels[:2], "ab", _QUANTITIES.items(), strict=True
+    ):
         axes.set(xlabel=along.label, ylabel=label)
         letter(axes, place, title)
         _over_study(axes, summary, linear, name, along)
@@ -83,10 +88,39 @@ def draw(
         f"band, and bar from end to end of the onset: {data.attrs['model']}, {data.attrs['words']}"
         for data in learnt
     ]
+    learnt_words += [
+        f"(c): {data.attrs['model']}, {data.attrs['limit_cycles']}" for data in with_cycles
+    ]
     add_provenance(
         figure, *sources, *learnt_words, "linear: thin plate in free air, Theodorsen, p-k method"
     )
     return figure
+
+
+def _limit_cycles(
+    axes: Axes, learnt: Sequence[xr.Dataset], summary: pd.DataFrame, along: Axis
+) -> None:
+    """Draw the limit cycles of learnt models, dotted beyond what they have seen, and of runs."""
+    axes.set(xlabel=along.label, ylabel="amplitude of the limit cycle (deg)")
+    letter(axes, "c", "limit cycle")
+    for data in learnt:
+        look = LOOKS[str(data.attrs["model"])]
+        at, size = data[along.name].values, data["limit_cycle_deg"].values
+        beyond = data["limit_cycle_extrapolated"].values == 1
+        axes.plot(at, np.where(beyond, np.nan, size), color=look.colour, linewidth=0.8)
+        axes.plot(at, np.where(beyond, size, np.nan), color=look.colour, linewidth=0.8, ls=":")
+        runs = summary[
+            (summary["model"] == data.attrs["model"]) & (summary["regime"] == "limit-cycle")
+        ]
+        axes.plot(
+            runs[along.name],
+            runs["twist_amplitude_deg"],
+            color=look.colour,
+            linestyle="",
+            marker=look.marker,
+        )
+    axes.set_ylim(bottom=0.0)
+    add_other_axis(axes, along, as_given(summary))
 
 
 def _by_learnt_models(
@@ -112,7 +146,7 @@ def _by_learnt_models(
 
 def _interval_of_onset(axes: Axes, data: xr.Dataset, along: str, colour: str) -> None:
     """Draw the interval of the onset of a learnt model on the line of no growth."""
-    at = [float(data.attrs[f"onset_k_star{end}"]) for end in ("_low", "_high")]
+    at = [float(data.attrs.get(f"onset_k_star{end}", np.nan)) for end in ("_low", "_high")]
     if not np.isfinite(at).all():
         return
     order = np.argsort(data["k_star"].values)

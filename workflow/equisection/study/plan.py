@@ -77,10 +77,12 @@ def learns(config: Config) -> bool:
 
 
 def learner(config: Config, name: str) -> str:
-    """Return the model whose releases a model of the section is learnt from: one for all sections.
+    """Return the model whose releases a model is learnt from: one for all sections, or the beam.
 
     The loads under a motion are those of the same flow, whatever the section's mass and springs.
     """
+    if model(name, config.reduction).dimension == "3d":
+        return name
     sections = [
         one for one in config.sweep.models if model(one, config.reduction).dimension == "2d"
     ]

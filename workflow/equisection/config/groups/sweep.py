@@ -80,7 +80,7 @@ class Sweep(KeyGroup):
         description="`refine` runs further values inside the bracket of the onset of each model "
         "until it is narrower than `onset_tolerance`; where all values are stable, or all "
         "unstable, it looks beyond their end first. `model` runs the releases of "
-        "`rom` in their place, and learns a model that predicts the others (sections alone).",
+        "`rom` in their place, and learns a model that predicts the others.",
     )
     onset_tolerance: Positive = Field(
         0.02, description="Width of the onset's bracket, relative to its unstable side (-)."
@@ -197,15 +197,17 @@ def _two_to_refine(
             )
 
 
-@check("sweep.models", "sweep.onset")
-def _sections_to_learn(models: tuple[str, ...], onset: str) -> Iterator[Problem]:
-    beams = [name for name in models if name.startswith("3d")]
-    if onset == "model" and beams:
+@check("sweep.models", "sweep.onset", "sweep.incidence_deg")
+def _map_of_sections(
+    models: tuple[str, ...], onset: str, incidence_deg: tuple[float, ...]
+) -> Iterator[Problem]:
+    if onset == "model" and incidence_deg and "3d" in models:
         yield Problem(
             "sweep.models",
             list(models),
-            f"allowed with sweep.onset 'model' are models of the section, without {beams[0]}: a "
-            "model of the loads is learnt from a section alone",
+            "allowed with sweep.onset 'model' and sweep.incidence_deg are models of the section: "
+            "the map of learnt models has no beams; leave 3d out, or run it at one incidence "
+            "(flow.incidence_deg)",
         )
 
 

@@ -124,9 +124,9 @@ def release_all_beams(
 
 
 def beam_parameters(
-    modes: list[BeamModes], strips: SpanStrips, finite_span: FiniteSpan
+    modes: list[BeamModes], strips: SpanStrips, finite_span: FiniteSpan | None
 ) -> BeamParameters:
-    """Return the modes of some beams at the strips, with what these do to each other."""
+    """Return the modes of some beams at strips, with what these do to each other, if anything."""
     return BeamParameters.from_modes(
         span=np.array(modes[0].span),
         torsion_shapes=np.array(modes[0].torsion_shape),
