@@ -112,7 +112,7 @@ def _by_learnt_models(
 
 def _interval_of_onset(axes: Axes, data: xr.Dataset, along: str, colour: str) -> None:
     """Draw the interval of the onset of a learnt model on the line of no growth."""
-    at = [float(data.attrs[f"onset_k_star{end}"]) for end in ("_low", "_high")]
+    at = [float(data.attrs.get(f"onset_k_star{end}", np.nan)) for end in ("_low", "_high")]
     if not np.isfinite(at).all():
         return
     order = np.argsort(data["k_star"].values)
