@@ -75,6 +75,9 @@ COLUMNS = (
     "twist_share",
     "coupling_share",
     "margin",
+    "speed_from",
+    "speed_to",
+    "interval_of",
     "basis",
     "learnt",
     "extrapolated",
@@ -278,6 +281,11 @@ def stability_of_learnt(
     table = pd.DataFrame(rows)
     design = math.nan if design_speed is None else design_speed
     table["margin"] = table["speed_low"] / design
+    known = table["speed"].notna()  # of a model its own interval is all that is known
+    table["speed_from"], table["speed_to"] = (
+        table[name].where(known) for name in ("speed_low", "speed_high")
+    )
+    table["interval_of"] = ["refits of the model" if one else "" for one in known]
     return table[list(COLUMNS)]
 
 
