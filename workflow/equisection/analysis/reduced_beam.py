@@ -139,7 +139,7 @@ def released_beams(
     """Return releases of beams with learnt loads (:func:`predicted_beams` has the parameters).
 
     Growth is that of the first torsion mode, fitted together with the bending modes that swing
-    along: on the paper's plate the second one is near the pitch, and without it their beat is taken
+    along: a second bending mode may be near the pitch, and without it their beat is taken
     for growth.
     """
     beams = LearntBeams(parameters, loads)
