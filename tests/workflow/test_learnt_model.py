@@ -42,7 +42,7 @@ def test_model_says_what_it_was_learnt_from(learnt: tuple[Project, str]) -> None
 
 def test_limit_cycles_end_at_the_onset(learnt: tuple[Project, str]) -> None:
     """Well above the onset's k* a release decays, and below it swings."""
-    found = read_dataset(learnt[0].results / "rom" / "2d" / "model.nc")
+    found = read_dataset(learnt[0].results / "rom" / "2d" / "model_a2.5.nc")
     assert found.attrs["limit_cycles"].startswith("limit cycle by a model learnt from all ")
     k_star, size = found["k_star"].values, found["limit_cycle_deg"].values
     assert (size[k_star > 1.5 * found.attrs["onset_k_star"]] < 0.2).all()
