@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from equisection.analysis.learning import Lessons
+from equisection.analysis.learning import Lessons, points_of_round
 from equisection.config import load_config
 from equisection.run.script import logged
 from equisection.study import plan
@@ -10,7 +10,7 @@ from equisection.study import plan
 
 def main(lessons: Lessons, batch: str, output: Path) -> None:
     """Write the points of a round of learning."""
-    plan.write_refinement(output, lessons.next_points(batch))
+    plan.write_refinement(output, points_of_round(lessons, batch))
 
 
 if __name__ == "__main__":

@@ -1,26 +1,18 @@
 """Learn the model of the loads of a section or beam from its releases, and what it predicts."""
 
-import logging
+from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.analysis.learning import Lessons, dataset_of
-from equisection.analysis.learnt_cycles import with_cycles
+from equisection.analysis.learning import Lessons, datasets_of
 from equisection.config import load_config
 from equisection.results.netcdf import write_dataset
 from equisection.run.script import logged
 
 
-def main(lessons: Lessons, output: Path) -> None:
-    """Write the model, and tell whether runs bear it out."""
-    course = lessons.course()
-    log = logging.getLogger(__name__)
-    (log.warning if course.at_odds else log.info)(
-        "%s, %s: %s", lessons.name, course.model.words, course.confirmation
-    )
-    dataset, cycles = dataset_of(course, lessons.name, lessons.axis), lessons.limit_cycles()
-    if cycles is not None:
-        dataset = with_cycles(dataset, cycles, lessons.axis)
-    write_dataset(output, dataset)
+def main(lessons: Lessons, outputs: Sequence[Path]) -> None:
+    """Write the model at each incidence, and tell whether runs bear it out."""
+    for output, data in zip(outputs, datasets_of(lessons), strict=True):
+        write_dataset(output, data)
 
 
 if __name__ == "__main__":
@@ -31,5 +23,5 @@ if __name__ == "__main__":
                 snakemake.wildcards.model,
                 dict(snakemake.input.items()),
             ),
-            Path(snakemake.output[0]),
+            [Path(path) for path in snakemake.output],
         )

@@ -70,7 +70,9 @@ def main(
     if learnt:
         from equisection.analysis.learning import onsets_of  # noqa: PLC0415
 
-        table = table.merge(onsets_of([read_dataset(path) for path in learnt]), how="outer")
+        found = [read_dataset(path) for path in learnt]
+        over_incidence = INCIDENCE.name in table
+        table = table.merge(onsets_of(found, over_incidence=over_incidence), how="outer")
     _write(table, output)
 
 

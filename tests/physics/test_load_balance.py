@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from tests.conftest import ROOT
 
+from equisection.aerodynamics.load_balance import MOST_UNEXPLAINED, load_balance
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.beam.section import Section
 from equisection.errors import ArgumentError
-from equisection.motion.load_balance import MOST_UNEXPLAINED, load_balance
 from equisection.results.recorded_history import read_reference_history
 
 KEPT = ROOT / "results/reference/paper-plate-openfoam/unsteady"

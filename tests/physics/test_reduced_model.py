@@ -51,7 +51,7 @@ def released(section: Section, loads: LearntLoads, duration: float = 50.0) -> Re
     rates = [np.gradient(x, time, edge_order=2) for x in (w, theta)]
     accelerations = [np.gradient(x, time, edge_order=2) for x in rates]
     # the loads that this motion follows from, by the section's own equations
-    forces = section.mass_matrix @ accelerations
+    forces = section.mass_matrix @ accelerations + section.damping_matrix @ rates
     forces += section.stiffness_matrix @ np.array([w, theta])
     lift, about_axis = forces
     keep = slice(None, None, fine)
@@ -237,15 +237,23 @@ def test_records_that_say_nothing_are_refused_by_name(sweep):
 
 def test_moment_and_twist_that_contradict_the_section_are_refused(sweep):
     history = sweep["2d"][6.44]
-    for wrong in (
-        replace(history, twist=np.degrees(history.twist)),
-        replace(
-            history,
-            moment_coefficient=history.moment_coefficient - 0.25 * history.lift_coefficient,
-        ),
+    about_quarter = history.moment_coefficient - 0.25 * history.lift_coefficient
+    for changed, mistake in (
+        ({"twist": np.degrees(history.twist)}, "degrees taken for radians"),
+        ({"moment_coefficient": about_quarter}, r"moment_axis: 0\.25"),
     ):
-        with pytest.raises(ResultFileError, match="does not follow from the recorded moment"):
-            learn(wrong, POLAR)
+        with pytest.raises(ResultFileError, match=f"does not follow .*{mistake}"):
+            learn(replace(history, **changed), POLAR)
+
+
+def test_motion_that_has_settled_says_nothing():
+    """Heavy dampers end the motion within a few periods: nothing is left to learn from."""
+    damped = SECTION.scaled(20.0).model_copy(
+        update={"torsional_damping": 30.0, "flexural_damping": 60.0}
+    )
+    history = released(damped, KNOWN)
+    with pytest.raises(ResultFileError, match="known: the motion has settled"):
+        learn(history, POLAR)
 
 
 def test_thin_polar_names_the_angles_that_are_missing():

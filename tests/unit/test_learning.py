@@ -8,10 +8,16 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from equisection.analysis.learning import Course, Lessons
+from equisection.analysis.learning import (
+    Course,
+    Lessons,
+    datasets_of,
+    onsets_of,
+    points_of_round,
+)
 from equisection.analysis.reduced_model import PredictedOnset
 from equisection.config import load_config
-from equisection.errors import ConfigError
+from equisection.errors import ConfigError, ResultFileError
 from equisection.study import plan
 from equisection.study.axes import K_STAR, Point
 
@@ -73,6 +79,53 @@ def test_all_sections_are_learnt_from_the_uncorrected_one():
     assert plan.learner(alone, "2d-corrected") == "2d-corrected"
 
 
+def test_each_incidence_has_a_release_and_a_model_of_its_own():
+    config = config_of(incidence_deg=[4.0, 2.5])
+    assert plan.sweep_cases(config, "2d") == ["a2.5_k8", "a4_k8"]
+    assert plan.learnt_names(config) == ["model_a2.5", "model_a4"]
+    assert plan.learnt_names(config_of()) == ["model"]
+    # one map, that of the models, whatever the solver
+    assert plan.has_learnt_map(config)
+    assert not plan.has_learnt_map(config_of())
+    each = Lessons(config, "2d", {}, []).at_each_incidence()
+    assert [one.incidence_deg for one in each] == [2.5, 4.0]
+    assert each[1].point(7.0).name == "a4_k7"
+
+
+def test_run_at_another_incidence_contradicts_nothing(tmp_path):
+    index = index_of(tmp_path, "2d", {"a2.5_k9": "growing", "a4_k9": "settled"})
+    each = Lessons(config_of(incidence_deg=[2.5, 4.0]), "2d", {}, []).at_each_incidence()
+    onset = PredictedOnset(8.0, 7.5, 8.5)
+    found = [one.contradiction(onset, index) for one in each]
+    assert found[0] is not None
+    assert found[0].point.name == "a2.5_k9"
+    assert found[1] is None
+
+
+def test_incidence_without_a_release_is_named_and_the_others_go_on(tmp_path, caplog):
+    (tmp_path / "1").mkdir()
+    one = index_of(tmp_path / "1", "2d", {"a2.5_k8": "failed", "a4_k8": "failed"})
+    lessons = Lessons(config_of(incidence_deg=[2.5, 4.0]), "2d", {}, [one])
+    assert points_of_round(lessons, "round2") == []
+    assert caplog.text.count("the release to learn from failed") == 2
+    refused = datasets_of(lessons)
+    assert [data.attrs["incidence_deg"] for data in refused] == [2.5, 4.0]
+    onsets = onsets_of(refused, over_incidence=True)
+    assert onsets["learnt"].str.startswith("no model: ").all()
+    assert onsets["k_star_learnt"].isna().all()
+    with pytest.raises(ResultFileError, match="the release to learn from failed"):
+        datasets_of(Lessons(config_of(), "2d", {}, [index_of(tmp_path, "2d", {"k8": "failed"})]))
+
+
+def test_runs_that_confirm_may_be_given():
+    config = load_config(
+        {"sweep": {"onset": "model", "models": ["2d"]}, "rom": {"confirm": [7.5, 10.0]}}
+    )
+    lessons = Lessons(config, "2d", {}, [])
+    unknown = course(onset=PredictedOnset(8.0, math.nan, 8.5))
+    assert [point[K_STAR] for point in lessons.confirming_points(unknown)] == [7.5, 10.0]
+
+
 def test_beam_is_learnt_from_its_own_release():
     config = config_of(models=["2d", "2d-corrected", "3d"])
     assert [plan.learner(config, name) for name in config.sweep.models] == ["2d", "2d", "3d"]
@@ -128,6 +181,10 @@ def test_words_never_pass_a_model_for_runs():
         ({"rom": {"learn_from": [5.0, 6.0, 7.0]}}, "rom.learn_from"),
         ({"rom": {"confirm": 3}}, "rom.confirm"),
         (
+            {"sweep": {"onset": "model", "models": ["2d", "3d"], "incidence_deg": [2, 4]}},
+            "the map of learnt models has no beams",
+        ),
+        (
             {
                 "sweep": {"onset": "model", "models": ["3d"]},
                 "steady": {"beam_polar": "config/polars/paper_plate_3d.csv"},
@@ -142,7 +199,7 @@ def test_words_never_pass_a_model_for_runs():
             {"sweep": {"onset": "model", "models": ["2d-corrected"]}, "beam": {"mass_axis": 0.6}},
             "sweep.models",
         ),
-        ({"sweep": {"onset": "model", "models": ["2d"]}, "compute": False}, "sweep.onset"),
+        ({"rom": {"confirm": [8.0, 8.0]}}, "rom.confirm"),
     ],
 )
 def test_what_cannot_be_learnt_is_refused(changes, message):

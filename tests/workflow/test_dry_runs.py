@@ -149,6 +149,25 @@ def test_dry_run_of_a_shipped_config_plans_the_jobs_that_it_asks_for(
     assert created <= {".snakemake", ".cache"}
 
 
+@pytest.mark.parametrize("further", [{}, {"incidence_deg": [2.5, 5.0]}], ids=["one", "two"])
+def test_dry_run_of_one_release_plans_a_model_in_the_place_of_the_sweep(
+    further: dict[str, Any], clone: Project
+) -> None:
+    """Kept results alone, without a solver: no job of a single case, and a map over incidences."""
+    (clone.folder / "results" / "reference").mkdir(parents=True, exist_ok=True)
+    files = ("config/openfoam.yaml", "config/paper/one_release.yaml")
+    changes = [f"sweep={{{key}: {value}}}" for key, value in further.items()]
+    command = ("--dry-run", "--configfile", *files, *(["--config", *changes] if changes else []))
+    ended = clone.attempt(*command, environment=without_anything_but_python(clone))
+    assert ended.returncode == 0, ended.stdout
+    planned = jobs_planned(ended.stdout)
+    assert planned["learnt_model"] == 2
+    assert planned["refine_onset"] == 2 * 3
+    assert planned["unsteady_case"] == 0
+    assert planned["stability_map"] == planned["figures_of_map"] == bool(further)
+    assert planned["growth_rate"] == (not further)
+
+
 @pytest.fixture(scope="module")
 def without_the_paper(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """A clone from which everything that knows the paper is gone."""

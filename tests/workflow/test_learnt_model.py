@@ -1,7 +1,8 @@
-"""`sweep.onset: model` learns the onset from a release, and runs bear it out or contradict."""
+"""`sweep.onset: model` over incidences: onsets learnt from releases, and runs that check them."""
 
 import json
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -9,18 +10,21 @@ from equisection.results.netcdf import read_dataset
 from tests.workflow.project import Project, has_nothing_to_do, jobs_run, small
 
 SWEEP = [4.0, 8.0, 16.0]
+INCIDENCES = [2.5, 4.0]
 
 
 @pytest.fixture(scope="module")
 def learnt(tmp_path_factory: pytest.TempPathFactory) -> tuple[Project, str]:
     """Return a project whose onset was learnt, and what the run said."""
     config = small(
-        sweep={"models": ["2d", "2d-corrected"], "k_star": SWEEP, "onset": "model"},
-        steady={"incidence_deg": [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 7.0, 10.0]},
+        sweep={"models": ["2d", "2d-corrected"], "k_star": SWEEP, "onset": "model"}
+        | {"incidence_deg": INCIDENCES},
+        steady={"incidence_deg": [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 10.0]},
     )
     project = Project.fresh(tmp_path_factory.mktemp("learnt") / "project", config)
     return project, project.run(
-        project.target("comparison/critical_speed.csv"), project.target("figures/growth-rate.png")
+        project.target("comparison/critical_speed.csv"),
+        project.target("figures/critical-speed.png"),
     )
 
 
@@ -30,14 +34,15 @@ def test_corrected_section_has_no_release_of_its_own(learnt: tuple[Project, str]
 
 
 def test_model_says_what_it_was_learnt_from(learnt: tuple[Project, str]) -> None:
-    found = read_dataset(learnt[0].results / "rom" / "2d-corrected" / "model.nc").attrs
+    found = read_dataset(learnt[0].results / "rom" / "2d-corrected" / "model_a4.nc").attrs
     assert found["words"].startswith("model learnt from embedded solver")
+    assert found["words"].endswith("incidence 4 deg")
     assert found["onset_k_star_low"] < found["onset_k_star"] < found["onset_k_star_high"]
 
 
 def test_limit_cycles_end_at_the_onset(learnt: tuple[Project, str]) -> None:
     """Well above the onset's k* a release decays, and below it swings."""
-    found = read_dataset(learnt[0].results / "rom" / "2d" / "model.nc")
+    found = read_dataset(learnt[0].results / "rom" / "2d" / "model_a2.5.nc")
     assert found.attrs["limit_cycles"].startswith("limit cycle by a model learnt from all ")
     k_star, size = found["k_star"].values, found["limit_cycle_deg"].values
     assert (size[k_star > 1.5 * found.attrs["onset_k_star"]] < 0.2).all()
@@ -50,14 +55,16 @@ def test_onset_is_within_a_tenth_of_the_embedded_sweep(learnt: tuple[Project, st
 
     The second model, learnt from a run that contradicted, is nearer than the first one.
     """
-    onset = pd.read_csv(learnt[0].results / "comparison" / "onset.csv").set_index("model")
-    assert onset.loc["2d", "k_star_learnt"] == pytest.approx(7.9, rel=0.1)
+    onset = pd.read_csv(learnt[0].results / "comparison" / "onset.csv")
+    onset = onset.set_index(["model", "incidence_deg"])
+    assert onset.loc[("2d", 2.5), "k_star_learnt"] == pytest.approx(7.9, rel=0.1)
 
 
 def test_runs_contradict_where_they_are_on_the_wrong_side(learnt: tuple[Project, str]) -> None:
     """What the table says of each model agrees with its runs."""
     onset = pd.read_csv(learnt[0].results / "comparison" / "onset.csv")
-    assert list(onset["model"]) == ["2d", "2d-corrected"]
+    pairs = [(model, angle) for model in ("2d", "2d-corrected") for angle in INCIDENCES]
+    assert list(onset[["model", "incidence_deg"]].itertuples(index=False, name=None)) == pairs
     for row in onset.to_dict("records"):
         wrong = (
             row["k_star_unstable"] >= 0.999 * row["k_star_learnt_high"]
@@ -71,16 +78,39 @@ def test_contradiction_is_learnt_from(learnt: tuple[Project, str]) -> None:
     folder = learnt[0].results
     first = json.loads((folder / "comparison" / "refine" / "2d_round2.json").read_text())["cases"]
     then = json.loads((folder / "comparison" / "refine" / "2d_round3.json").read_text())["cases"]
+    then = [name for name in then if name.startswith("a2.5_")]
     assert 1 <= len(then) <= 2  # an end that was run is not run again
-    learnt_from = read_dataset(folder / "rom" / "2d" / "model.nc").attrs["learnt_from"]
+    learnt_from = read_dataset(folder / "rom" / "2d" / "model_a2.5.nc").attrs["learnt_from"]
     assert learnt_from.removeprefix("2d/") in first
 
 
 def test_speeds_of_the_model_never_pass_for_those_of_runs(learnt: tuple[Project, str]) -> None:
     table = pd.read_csv(learnt[0].results / "comparison" / "critical_speed.csv")
     assert set(table["basis"]) == {"time", "model", "eigenvalue"}
-    of_model = table[(table["model"] == "2d") & (table["basis"] == "model")].iloc[0]
-    assert of_model["speed_low"] < of_model["speed"] < of_model["speed_high"]
+    of_model = table[table["basis"] == "model"]
+    assert (of_model["speed_low"] < of_model["speed"]).all()
+    assert (of_model["speed"] < of_model["speed_high"]).all()
+
+
+def test_map_has_a_line_for_each_model_and_incidence(learnt: tuple[Project, str]) -> None:
+    """Speeds are those of the models; bands of the growth of releases cross zero in between."""
+    folder = learnt[0].results / "comparison"
+    table, speeds = (
+        pd.read_csv(folder / f"{name}.csv") for name in ("stability", "critical_speed")
+    )
+    of_model = speeds[speeds["basis"] == "model"]
+    assert set(table["basis"]) == {"model"}
+    assert table["incidence_deg"].tolist() == INCIDENCES * 2
+    assert table["speed"].tolist() == pytest.approx(of_model["speed"].tolist())
+    assert table["learnt"].str.contains("incidence 4 deg").tolist() == [False, True] * 2
+    # eigenvalues of the embedded solver at the same incidences, where small motions cease to decay
+    exact = speeds[(speeds["basis"] == "eigenvalue") & (speeds["model"] == "2d")]
+    small = table.loc[table["model"] == "2d", "speed_small"]
+    assert small.tolist() == pytest.approx(exact["speed"].tolist(), rel=0.12)
+    growth = read_dataset(folder / "stability_map.nc")["growth_rate"]
+    assert growth.dims == ("model", "incidence_deg", "speed")
+    rises = np.diff(np.sign(growth.values), axis=-1)
+    assert (rises.max(axis=-1) == 2).all()  # decays at the lowest speed, grows at the highest
 
 
 def test_few_cases_are_run_in_the_place_of_the_sweep(learnt: tuple[Project, str]) -> None:
@@ -88,8 +118,9 @@ def test_few_cases_are_run_in_the_place_of_the_sweep(learnt: tuple[Project, str]
     rounds = sorted((project.results / "comparison" / "refine").glob("2d-corrected_*.json"))
     chosen = [json.loads(path.read_text())["cases"] for path in rounds]
     assert chosen[0] == []
-    assert len(chosen[1]) == 2
-    assert len(list((project.results / "unsteady" / "2d-corrected").glob("k*.nc"))) <= 4
+    assert len(chosen[1]) == 2 * len(INCIDENCES)
+    made = list((project.results / "unsteady" / "2d-corrected").glob("a*.nc"))
+    assert len(made) <= 4 * len(INCIDENCES)
     assert jobs_run(said)["learnt_model"] == 2
 
 

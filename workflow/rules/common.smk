@@ -292,7 +292,11 @@ def learnt_models():
     """Return the models that were learnt, if any."""
     if not plan.learns(CONFIG):
         return []
-    return [f"{RESULTS}/rom/{model}/model.nc" for model in CONFIG.sweep.models]
+    return [
+        f"{RESULTS}/rom/{model}/{name}.nc"
+        for model in CONFIG.sweep.models
+        for name in plan.learnt_names(CONFIG)
+    ]
 
 
 def placed(paths):
@@ -392,15 +396,15 @@ def sections_against_beam():
 
 
 def stability_table_of_map():
-    """Return the table of the map of stability, if the run has one."""
-    if not plan.has_stability_map(CONFIG):
+    """Return the table of the map of stability by eigenvalues, if the run has one."""
+    if not plan.has_stability_map(CONFIG) or plan.has_learnt_map(CONFIG):
         return []
     return [f"{RESULTS}/comparison/stability.csv"]
 
 
 def in_use_of_map():
     """Return the tables of the models at the design speed, if the run has one."""
-    if not plan.has_stability_map(CONFIG) or CONFIG.flow.design_speed is None:
+    if not stability_table_of_map() or CONFIG.flow.design_speed is None:
         return {}
     return {
         name: f"{RESULTS}/comparison/{name}.csv" for name in ("in_use", "reactions")
@@ -420,6 +424,11 @@ def map_files():
     """Return the map of stability with its tables, if the run has one."""
     if not plan.has_stability_map(CONFIG):
         return []
+    if plan.has_learnt_map(CONFIG):
+        return [
+            f"{RESULTS}/comparison/stability_map.nc",
+            f"{RESULTS}/comparison/stability.csv",
+        ]
     return [
         f"{RESULTS}/comparison/stability_map.nc",
         *stability_table_of_map(),

@@ -139,7 +139,40 @@ rule onset:
         "../../scripts/onset.py"
 
 
-if plan.has_stability_map(CONFIG):
+if plan.has_learnt_map(CONFIG):
+
+    rule stability_map:
+        """Stability over incidence and speed of models that were learnt from releases."""
+        input:
+            **structure_of_map(),
+            polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+            learnt=learnt_models(),
+        output:
+            stability_map=f"{RESULTS}/comparison/stability_map.nc",
+            stability=report(
+                f"{RESULTS}/comparison/stability.csv",
+                caption="../report/stability.rst",
+                category="Tables",
+                labels={
+                    "table": "stability",
+                    "shows": "critical speed over incidence",
+                },
+            ),
+        log:
+            f"{LOGS}/stability_map.log",
+        priority: FIRST
+        localrule: True
+        conda:
+            ENVIRONMENT
+        params:
+            code=code("learnt_map", "solvers"),
+            config=RESOLVED,
+        message:
+            "stability over incidence and speed, by learnt models"
+        script:
+            "../../scripts/learnt_map.py"
+
+elif plan.has_stability_map(CONFIG):
 
     rule stability_map:
         """Stability over incidence and speed, its critical speeds, and the design speed."""

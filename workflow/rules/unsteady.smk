@@ -154,7 +154,11 @@ if plan.learns(CONFIG):
         input:
             unpack(learnt_in_all),
         output:
-            f"{RESULTS}/rom/{{model}}/model.nc",
+            expand(
+                f"{RESULTS}/rom/{{model}}/{{name}}.nc",
+                name=plan.learnt_names(CONFIG),
+                allow_missing=True,
+            ),
         log:
             f"{LOGS}/learnt_model_{{model}}.log",
         localrule: True

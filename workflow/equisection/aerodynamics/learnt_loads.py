@@ -23,16 +23,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 from numpy.typing import NDArray
 
+from equisection.aerodynamics.load_balance import load_balance
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.unsteady_loads import APPARENT_INERTIA, APPARENT_MASS
-from equisection.errors import ResultFileError
+from equisection.errors import ArgumentError, ResultFileError
 
 Floats = NDArray[np.float64]
 
@@ -44,10 +45,11 @@ SHORTEST_RECORD = 35.0
 LONGEST_INTERVAL = 0.25
 TERMS = ("theta'", "a theta'", "h", "a h", "h^2", "a^2 h", "a h^2", "h^3")
 RIDGE = 1e-4
-#: Largest part of a load's variation that the section's own equation may leave (-).
-LARGEST_CONTRADICTION = 0.3
-#: End (c/V) of the part that is checked by it; what has settled later is noise.
+#: End (c/V) of the part of a record whose motion is weighed against its loads.
 CHECKED_UNTIL = 50.0
+#: Smallest swing of the incidence in the last third of a record, over that in its first third (-).
+SMALLEST_SWING = 0.02
+_RECORDS = ("time", "twist", "deflection", "lift_coefficient", "moment_coefficient")
 #: Weight of what the lift leaves, to that of the moment, in the search for the rate (-).
 LIFT_WEIGHT = 0.3
 _RATES = (0.05, 4.0)
@@ -177,7 +179,6 @@ class Lesson:
             The history cannot be learnt from.
         """
         require_lesson(history.name, history.time)
-        require_consistent(history, polar)
         s, axis = history.time, history.section.axis_behind_mid_chord
         twist = scipy.interpolate.make_interp_spline(s, history.twist, 5)
         heave = scipy.interpolate.make_interp_spline(
@@ -188,6 +189,8 @@ class Lesson:
         lift = history.lift_coefficient - polar.lift_coefficient(alpha)
         moment = history.moment_coefficient - polar.moment_coefficient(alpha)
         used = (s >= LEARN_FROM) & (s <= until * (1.0 + 1e-9)) & np.isfinite(moment)
+        _require_swing(history, a[used])  # what has settled is noise, and balances with nothing
+        require_consistent(history, polar)
         return cls(
             step=history.time_step,
             a=a,
@@ -307,44 +310,45 @@ def require_lesson(name: str, time: Floats) -> None:
         )
 
 
+def _require_swing(history: ReferenceHistory, a: Floats) -> None:
+    """Refuse a motion that settles before it has said anything of its growth."""
+    first, _, last = (part - part.mean() for part in np.array_split(a, 3))
+    early, late = float(np.ptp(first)), float(np.ptp(last))
+    if early == 0.0 or late < SMALLEST_SWING * early:
+        raise ResultFileError(
+            f"{history.name}: the motion has settled: the incidence swings by "
+            f"{math.degrees(late):.2g} deg at the end of what is learnt from, "
+            f"{math.degrees(early):.2g} deg at its begin ({100 * SMALLEST_SWING:g} % or more are "
+            "wanted); learn from a softer beam (rom.learn_from), or with less damping"
+        )
+
+
 def require_consistent(history: ReferenceHistory, polar: Polar) -> None:
     """Refuse a history whose motion does not follow from its loads and the section.
 
-    The loads that the section's equations (:mod:`equisection.beam.section`) need for the recorded
-    motion are compared with the recorded ones. Degrees taken for radians, a moment about another
-    point, or properties of another section show here.
+    Degrees taken for radians, a moment about another point, or properties of another section show
+    in the balance of motion and loads (:mod:`equisection.aerodynamics.load_balance`). What has
+    settled after :data:`CHECKED_UNTIL` is noise, and is not weighed.
 
     Raises
     ------
     ResultFileError
-        The equations leave more than :data:`LARGEST_CONTRADICTION` of a load's variation.
+        The balance leaves more of a load unexplained than is allowed.
     """
-    s, section = history.time, history.section
-    splines = [
-        scipy.interpolate.make_interp_spline(s, values, 5)
-        for values in (history.deflection, history.twist)
-    ]
-    motion = [np.array([spline(s, order) for spline in splines]) for order in range(3)]
-    needed = (
-        section.mass_matrix @ motion[2]
-        + section.damping_matrix @ motion[1]
-        + section.stiffness_matrix @ motion[0]
-    )
-    axis = section.axis_behind_mid_chord
-    alpha = history.incidence_rad + motion[0][1] - motion[1][0] - axis * motion[1][1]
-    force = history.lift_coefficient + (polar.normal_rise(alpha) if axis else 0.0)
-    recorded = np.array([history.lift_coefficient, history.moment_coefficient + axis * force])
-    inside = (s >= LEARN_FROM) & (s <= min(s[-1] - 1.0, CHECKED_UNTIL)) & np.isfinite(recorded[1])
-    left = (needed - recorded)[:, inside].std(axis=1)
-    parts = left / np.maximum(recorded[:, inside].std(axis=1), 1e-300)
-    for name, part, hint in (
-        ("moment", parts[1], "a moment about mid-chord, nose up, and a twist in rad"),
-        ("lift", parts[0], "a lift upwards, and a deflection in chords"),
-    ):
-        if not part <= LARGEST_CONTRADICTION:
-            raise ResultFileError(
-                f"{history.name}: the recorded motion does not follow from the recorded {name}: "
-                f"the section's equation leaves {100 * part:.3g} % of its variation "
-                f"({100 * LARGEST_CONTRADICTION:g} % is allowed); wanted is {hint}, of the section "
-                "that moved"
-            )
+    checked = (history.time >= LEARN_FROM) & (history.time <= CHECKED_UNTIL)
+    part = replace(history, **{name: getattr(history, name)[checked] for name in _RECORDS})
+    axis = history.section.axis_behind_mid_chord
+    moment = part.moment_coefficient
+    if axis:
+        heave = np.gradient(part.deflection + axis * part.twist, part.time_step)
+        normal = polar.normal_rise(history.incidence_rad + part.twist - heave)
+        moment = moment + axis * (part.lift_coefficient + normal)
+    try:
+        balance = load_balance(part, moment)
+    except ArgumentError as error:
+        raise ResultFileError(f"{history.name}: {error}") from error
+    if not balance.is_explained:
+        raise ResultFileError(
+            f"{history.name}: the recorded motion does not follow from the recorded loads: "
+            f"{balance.text}"
+        )

@@ -133,8 +133,8 @@ def from_learnt(learnt: Iterable[xr.Dataset], *, given: AsGiven, chord: float) -
     Parameters
     ----------
     learnt
-        ``rom/<model>/model.nc`` of each model. ``speed_low`` and ``speed_high`` are the ends of the
-        interval of the onset.
+        ``rom/<model>/model*.nc`` of each model and incidence. ``speed_low`` and ``speed_high`` are
+        the ends of the interval of the onset.
     given
         The beam as given.
     chord
@@ -146,11 +146,11 @@ def from_learnt(learnt: Iterable[xr.Dataset], *, given: AsGiven, chord: float) -
             float(data.attrs[f"onset_k_star{end}"]) for end in ("", "_low", "_high")
         )
         speed = given.speed_at(k_star)
-        known = data["frequency_strouhal"].notnull().values
         strouhal = math.nan
-        if math.isfinite(k_star) and known.any():
+        if math.isfinite(k_star):
+            known = data["frequency_strouhal"].notnull().values
             at = [data[name].values[known] for name in ("k_star", "frequency_strouhal")]
-            strouhal = float(np.interp(k_star, *at))
+            strouhal = float(np.interp(k_star, *at)) if known.any() else math.nan
         rows.append(
             {
                 "model": data.attrs["model"],

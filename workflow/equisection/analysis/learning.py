@@ -10,8 +10,8 @@ from __future__ import annotations
 
 import logging
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -22,7 +22,7 @@ import xarray as xr
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.strip_polars import StripPolars
-from equisection.analysis.learnt_cycles import LimitCycles, cycles_of
+from equisection.analysis.learnt_cycles import LimitCycles, cycles_of, with_cycles
 from equisection.analysis.onset import is_unstable
 from equisection.analysis.recorded_beam import on_strips, release_of, strip_polars_at
 from equisection.analysis.reduced_beam import ReducedBeam, learnt_beam, predicted_beams
@@ -37,8 +37,9 @@ from equisection.analysis.reduced_model import (
 )
 from equisection.cases import UnsteadyCase
 from equisection.config import Config
-from equisection.errors import ResultFileError
-from equisection.results.netcdf import read_dataset
+from equisection.errors import EquisectionError, ResultFileError
+from equisection.results.loads_zigzag import loads_zigzag, warning_of_zigzag
+from equisection.results.netcdf import read_attributes, read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.recorded_history import history_of
 from equisection.results.unsteady_result import Regime
@@ -46,7 +47,7 @@ from equisection.solvers.registry import solver_from_config
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
 from equisection.study.assemble import case_at
-from equisection.study.axes import K_STAR, Axis, Point, onset_axis, varied
+from equisection.study.axes import INCIDENCE, K_STAR, Axis, Point, onset_axis, varied
 
 #: Model of the loads of a section, or of those of the strips of a beam.
 Learnt = ReducedModel | ReducedBeam
@@ -103,6 +104,8 @@ class Lessons:
         Indices of the releases, in the order of their rounds.
     confirming
         Indices of the runs that confirm the onset, in the order of their rounds.
+    incidence_deg
+        Rigid incidence (deg) of the model, in a study that varies it; None in another.
     """
 
     config: Config
@@ -110,6 +113,7 @@ class Lessons:
     data: Mapping[str, xr.Dataset]
     releases: Sequence[Path]
     confirming: Sequence[Path] = ()
+    incidence_deg: float | None = None
 
     @classmethod
     def read(cls, config: Config, name: str, files: Mapping[str, str | Sequence[str]]) -> Lessons:
@@ -123,6 +127,24 @@ class Lessons:
             [Path(path) for path in files.get(kind, ())] for kind in ("releases", "confirming")
         )
         return cls(config, name, data, releases, confirming)
+
+    def at_each_incidence(self) -> list[Lessons]:
+        """Return the lessons at each incidence of the study, which are apart."""
+        angles = varied(self.config).get(INCIDENCE, (None,))
+        return [replace(self, incidence_deg=angle) for angle in angles]
+
+    def point(self, value: float) -> Point:
+        """Return the point of the study at a value on the axis of the onset."""
+        fixed = {} if self.incidence_deg is None else {INCIDENCE: self.incidence_deg}
+        return Point.at({self.axis: value, **fixed})
+
+    def _runs(self, index: Path) -> list[JudgedRun]:
+        """Return the runs of an index at the incidence of the model."""
+        angle = self.incidence_deg
+        found = runs_of(index)
+        return [
+            run for run in found if angle is None or INCIDENCE.same(run.point[INCIDENCE], angle)
+        ]
 
     @property
     def axis(self) -> Axis:
@@ -142,6 +164,15 @@ class Lessons:
         """Steady polar of the section."""
         return polar_at(self.data["polar_2d"], self.config.steady.resolution)
 
+    def cases_at(self, values: Iterable[float]) -> list[UnsteadyCase]:
+        """Return the cases of the model at values on the axis, whose sections are predicted."""
+        model = plan.model(self.name, self.config.reduction)
+        solver = solver_from_config(self.config, self.config.steady.resolution)
+        # a history of a model has no interval that could be too long for the stiffest beam
+        unsteady = self.config.unsteady.model_copy(update={"output_interval": 1e-3})
+        config = self.config.model_copy(update={"unsteady": unsteady})
+        return [case_at(config, model, self.point(value), self.data, solver) for value in values]
+
     @cached_property
     def strip_polars(self) -> StripPolars:
         """Steady loads of the beam along the span."""
@@ -157,14 +188,7 @@ class Lessons:
         count = PREDICTED_BEAMS if self._is_beam else PREDICTED
         spaced = np.geomspace(lowest, highest, count)
         values = sorted({*given, *(float(f"{value:.4g}") for value in spaced)})
-        solver = solver_from_config(self.config, self.config.steady.resolution)
-        # a history of a model has no interval that could be too long for the stiffest beam
-        unsteady = self.config.unsteady.model_copy(update={"output_interval": 1e-3})
-        config = self.config.model_copy(update={"unsteady": unsteady})
-        cases = [
-            case_at(config, self._model, Point.at({self.axis: value}), self.data, solver)
-            for value in values
-        ]
+        cases = self.cases_at(values)
         ordered = sorted(zip(values, cases, strict=True), key=lambda pair: pair[1].k_star)
         return [value for value, _ in ordered], [case for _, case in ordered]
 
@@ -192,7 +216,8 @@ class Lessons:
         """
         if self._is_beam:
             return None
-        runs = [run for index in (*self.releases, *self.confirming) for run in runs_of(index)]
+        indices = (*self.releases, *self.confirming)
+        runs = [run for index in indices for run in self._runs(index)]
         growing = [run for run in runs if run.unstable]
         history = None
         if growing:
@@ -206,7 +231,10 @@ class Lessons:
         if isinstance(model, ReducedBeam):
             beams = on_strips([case.beam for case in cases if case.beam], model.loads.polars.strips)
             return predicted_beams(model, k_star, beams)
-        return predicted(model, k_star, [case.section for case in cases if case.section])
+        start = self.config.unsteady.start
+        sections = [case.section for case in cases if case.section]
+        of_start = (math.radians(start.twist_deg), start.heave_rate)
+        return predicted(model, k_star, sections, start=of_start)
 
     def learnt(self, run: JudgedRun) -> Learnt:
         """Return the model that is learnt from a run."""
@@ -251,7 +279,7 @@ class Lessons:
         ResultFileError
             It failed.
         """
-        runs = [run for index in self.releases for run in runs_of(index)]
+        runs = [run for index in self.releases for run in self._runs(index)]
         if not runs or runs[-1].failed:
             name = runs[-1].point.name if runs else "none"
             raise ResultFileError(
@@ -266,7 +294,7 @@ class Lessons:
             return []
         given = self.config.rom.learn_from
         if given != "auto":
-            return [Point.at({self.axis: value}) for value in given[1:]]
+            return [self.point(value) for value in given[1:]]
         model = self.learnt(self.last_release)
         table = self.prediction(model)
         onset = predicted_onset(table)
@@ -276,7 +304,7 @@ class Lessons:
         if k_star is None:
             return []
         nearest = np.interp(k_star, table["k_star"], table[self.axis.name])
-        return [Point.at({self.axis: float(f"{nearest:.4g}")})]
+        return [self.point(float(f"{nearest:.4g}"))]
 
     def _towards_onset(self, table: pd.DataFrame) -> list[Point]:
         """Return the end of the sweep where a model without an onset in reach would have it.
@@ -290,7 +318,7 @@ class Lessons:
             return []
         pick = min if rates[0] <= 0.0 else max
         end = pick(self.config.sweep.values(), key=self.axis.stability)
-        point = Point.at({self.axis: end})
+        point = self.point(end)
         return [] if point == self.last_release.point else [point]
 
     def contradiction(self, onset: PredictedOnset, index: Path) -> JudgedRun | None:
@@ -300,7 +328,7 @@ class Lessons:
         A run inside contradicts nothing, nor does any where an end is not known.
         """
         wrong = []
-        for run in runs_of(index):
+        for run in self._runs(index):
             k_star = self._k_star_of(run.point)
             if (run.unstable is True and k_star >= onset.high * (1.0 - SAME_END)) or (
                 run.unstable is False and k_star <= onset.low * (1.0 + SAME_END)
@@ -318,16 +346,16 @@ class Lessons:
 
     def course(self) -> Course:
         """Return the model after all that has been run, with what it predicts and what it says."""
-        model = self.learnt(self.last_release)
+        model, learnt_from = self.learnt(self.last_release), self.last_release
         table = self.prediction(model)
         onset = predicted_onset(table)
         wrong = [self.contradiction(onset, index) for index in self.confirming[:1]]
         contradicted = wrong[0] if wrong else None
         if contradicted is not None:
-            model = self.learnt(contradicted)
+            model, learnt_from = self.learnt(contradicted), contradicted
             table = self.prediction(model)
             onset = predicted_onset(table)
-        checked = [run for index in self.confirming for run in runs_of(index)]
+        checked = [run for index in self.confirming for run in self._runs(index)]
         at_odds = [self.contradiction(onset, index) for index in self.confirming]
         return Course(
             model,
@@ -336,29 +364,35 @@ class Lessons:
             checked=len(checked),
             contradicted=contradicted is not None,
             at_odds=next((run.point.name for run in at_odds if run is not None), ""),
+            zigzag=_zigzag_of(learnt_from),
         )
 
     def confirming_points(self, course: Course) -> list[Point]:
-        """Return the points around the interval of an onset that are to be run.
+        """Return the points at which an onset is to be checked, without those that have been run.
 
-        Half of them are on each side: at the ends of the interval, and half of its width beyond.
-        None is one that has been run.
+        They are given, or half of them are on either side of the interval: at its ends, and half of
+        its width beyond.
         """
-        onset, number = course.onset, self.config.rom.confirm // 2
+        values = self._confirming_values(course)
+        points = {self.point(float(f"{value:.4g}")) for value in values}
+        done = {run.point for index in self._run_so_far for run in self._runs(index)}
+        return sorted(points - done, key=lambda point: point.order)
+
+    def _confirming_values(self, course: Course) -> Sequence[float]:
+        """Return values on the axis at which runs check an onset."""
+        onset, asked = course.onset, self.config.rom.confirm
+        if isinstance(asked, tuple):
+            return asked
         if not onset.known:
             return []
         width = onset.high - onset.low
         wanted = [
             end + side * 0.5 * width * step
-            for step in range(number)
+            for step in range(asked // 2)
             for side, end in ((-1.0, onset.low), (1.0, onset.high))
         ]
         k_star, values = course.table["k_star"], course.table[self.axis.name]
-        points = {
-            Point.at({self.axis: float(f"{np.interp(one, k_star, values):.4g}")}) for one in wanted
-        }
-        done = {run.point for index in self._run_so_far for run in runs_of(index)}
-        return sorted(points - done, key=lambda point: point.order)
+        return [float(np.interp(one, k_star, values)) for one in wanted]
 
     @property
     def _run_so_far(self) -> list[Path]:
@@ -373,6 +407,73 @@ class Lessons:
         if batch == plan.LEARNING_ROUNDS[2] and not course.contradicted:
             return []
         return self.confirming_points(course)
+
+
+def _zigzag_of(run: JudgedRun) -> str:
+    """Return what is wrong with the loads of a run that zigzag from step to step."""
+    found = loads_zigzag(run.file, read_attributes(run.file))
+    return warning_of_zigzag(found.get("loads_zigzag", math.nan))
+
+
+def points_of_round(lessons: Lessons, batch: str) -> list[Point]:
+    """Return the points that a round of learning runs, at all incidences of the study.
+
+    Where an incidence of several has nothing to learn from, the others go on.
+    """
+    each = lessons.at_each_incidence()
+    found: list[Point] = []
+    for one in each:
+        try:
+            found += one.next_points(batch)
+        except EquisectionError as error:
+            if len(each) == 1:
+                raise
+            _LOG.warning("%s at %g deg: %s", one.name, one.incidence_deg, error)
+    return found
+
+
+def datasets_of(lessons: Lessons) -> list[xr.Dataset]:
+    """Return the models that are learnt at all incidences, in the order of ``plan.learnt_names``.
+
+    Where an incidence of several has nothing to learn from, its data set has the ``refusal`` alone.
+    """
+    each = lessons.at_each_incidence()
+    found = []
+    for one in each:
+        try:
+            course = one.course()
+        except EquisectionError as error:
+            if len(each) == 1:
+                raise
+            _LOG.warning("%s at %g deg: %s", one.name, one.incidence_deg, error)
+            found.append(_refused(one, str(error)))
+            continue
+        (_LOG.warning if course.at_odds or course.reservations else _LOG.info)(
+            "%s, %s: %s",
+            one.name,
+            course.words,
+            "; ".join(filter(None, (course.confirmation, course.reservations))),
+        )
+        data, cycles = dataset_of(course, one.name, one.axis), one.limit_cycles()
+        found.append(data if cycles is None else with_cycles(data, cycles, one.axis))
+    return found
+
+
+def _refused(lessons: Lessons, reason: str) -> xr.Dataset:
+    """Return what is written where there is no model."""
+    unknown = dict.fromkeys((f"onset_k_star{end}" for end in ("", "_low", "_high")), math.nan)
+    return xr.Dataset(
+        attrs={
+            "model": lessons.name,
+            "axis": lessons.axis.name,
+            "incidence_deg": lessons.incidence_deg,
+            "words": f"no model: {reason}",
+            "refusal": reason,
+            "confirmation": "",
+            "reservations": "",
+            **unknown,
+        }
+    )
 
 
 @dataclass(frozen=True)
@@ -393,6 +494,8 @@ class Course:
         Whether the first ones contradicted, so that it was learnt anew.
     at_odds
         Name of a run that it still contradicts; empty if there is none.
+    zigzag
+        Warning of the loads of the release, if they zigzag from step to step.
     """
 
     model: Learnt
@@ -401,6 +504,43 @@ class Course:
     checked: int
     contradicted: bool
     at_odds: str
+    zigzag: str = ""
+
+    @property
+    def reservations(self) -> str:
+        """Return in words what speaks against the model; empty where nothing does."""
+        found = [self.zigzag] if self.zigzag else []
+        again = next_release(self.model.k_star, self.onset)
+        if again is not None:
+            part = self.model.k_star / self.onset.k_star
+            found.append(
+                f"learnt at {part:.2g} times the k* of its onset, too far from it: add "
+                f"{again:g} to rom.learn_from"
+            )
+        if self.model.missing_angles:
+            angles = ", ".join(f"{angle:g}" for angle in self.model.missing_angles)
+            found.append(f"the polar has no points at {angles} deg: steady.incidence_deg")
+        if self.extrapolates:
+            low, high = np.degrees(self.model.loads.seen)
+            found.append(
+                f"the release at the onset leaves the incidences that were seen, {low:.3g} to "
+                f"{high:.3g} deg"
+            )
+        return "; ".join(found)
+
+    @property
+    def extrapolates(self) -> bool:
+        """Tell whether the release at the onset goes to an incidence that was not learnt from."""
+        if not math.isfinite(self.onset.k_star):
+            return False
+        near = np.abs(np.log(self.table["k_star"] / self.onset.k_star)).argmin()
+        return bool(self.table["extrapolated"].iloc[near])
+
+    @property
+    def words(self) -> str:
+        """Return what the model is, with its incidence."""
+        angle = math.degrees(self.model.loads.incidence_rad)
+        return f"{self.model.words}, incidence {angle:.6g} deg"
 
     @property
     def confirmation(self) -> str:
@@ -481,8 +621,8 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
             "learnt_from": model.learnt_from,
             "learnt_from_k_star": model.k_star,
             "source": model.source,
-            "words": model.words,
-            "incidence_deg": math.degrees(loads.incidence_rad),
+            "words": course.words,
+            "incidence_deg": round(math.degrees(loads.incidence_rad), 9),
             "seen_least_deg": math.degrees(loads.seen[0]),
             "seen_most_deg": math.degrees(loads.seen[1]),
             "missing_angles": " ".join(f"{angle:g}" for angle in model.missing_angles),
@@ -490,23 +630,25 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
             "onset_k_star_low": course.onset.low,
             "onset_k_star_high": course.onset.high,
             "confirmation": course.confirmation,
+            "reservations": course.reservations,
             "at_odds": course.at_odds,
         },
     )
 
 
-def onsets_of(learnt: Sequence[xr.Dataset]) -> pd.DataFrame:
-    """Return the onsets of learnt models, ``rom/<model>/model.nc``, as columns of the onsets."""
-    return pd.DataFrame(
-        [
-            {
-                "model": data.attrs["model"],
-                "k_star_learnt": float(data.attrs["onset_k_star"]),
-                "k_star_learnt_low": float(data.attrs["onset_k_star_low"]),
-                "k_star_learnt_high": float(data.attrs["onset_k_star_high"]),
-                "learnt": data.attrs["words"],
-                "confirmation": data.attrs["confirmation"],
-            }
-            for data in learnt
-        ]
-    )
+def onsets_of(learnt: Sequence[xr.Dataset], *, over_incidence: bool = False) -> pd.DataFrame:
+    """Return the onsets of learnt models, ``rom/<model>/model*.nc``, as columns of the onsets.
+
+    The incidence is one of them in a study that varies it.
+    """
+    rows = []
+    for data in learnt:
+        row: dict[str, object] = {"model": data.attrs["model"]}
+        if over_incidence:
+            row[INCIDENCE.name] = float(data.attrs["incidence_deg"])
+        for end in ("", "_low", "_high"):
+            row[f"k_star_learnt{end}"] = float(data.attrs[f"onset_k_star{end}"])
+        row["learnt"] = data.attrs["words"]
+        row |= {name: data.attrs[name] for name in ("confirmation", "reservations")}
+        rows.append(row)
+    return pd.DataFrame(rows)

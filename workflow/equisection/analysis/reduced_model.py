@@ -154,6 +154,7 @@ def predicted(
     k_star: Sequence[float],
     sections: Sequence[Section],
     windows: Sequence[tuple[float, float]] | None = None,
+    start: tuple[float, float] = (0.0, 0.0),
 ) -> pd.DataFrame:
     """Return growth and frequency of a release at each k*.
 
@@ -168,6 +169,8 @@ def predicted(
     windows
         Part of each release (c/V) that growth is read from; by default that of
         :func:`equisection.verdict.growth.growth_window` of 100 c/V.
+    start
+        Twist (rad) and heave rate (over V) of the tip from which it is released.
 
     Returns
     -------
@@ -177,7 +180,7 @@ def predicted(
         polar before growth can be read has NaN numbers and an infinite growth rate.
         ``extrapolated`` tells that the release goes to an incidence that the model has not seen.
     """
-    rows = [released(loads, sections, windows) for loads in (model.loads, *model.refits)]
+    rows = [released(loads, sections, windows, start) for loads in (model.loads, *model.refits)]
     return prediction_of(k_star, rows, model.loads.seen, SMALLEST_BAND)
 
 
@@ -281,11 +284,12 @@ def released(
     loads: LearntLoads,
     sections: Sequence[Section],
     windows: Sequence[tuple[float, float]] | None,
+    start: tuple[float, float] = (0.0, 0.0),
 ) -> PredictedReleases:
     """Return releases of sections with learnt loads (:func:`predicted` has the parameters)."""
     natural = np.array([natural_frequencies(section) for section in sections])
     spans = windows_of(natural, windows)
-    histories = LearntSections(sections, loads).released(float(spans[:, 1].max()))
+    histories = LearntSections(sections, loads).released(float(spans[:, 1].max()), start=start)
     records = np.array([histories.twist.T, histories.deflection.T])
     return with_growth(histories, records, histories.twist, natural, spans)
 

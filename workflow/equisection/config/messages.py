@@ -22,6 +22,7 @@ _TAGS = {
     "list": "array",
     "range": "object",
     "auto": "string",
+    "count": "integer",
     "known": "string",
     "half-range": "number",
 }

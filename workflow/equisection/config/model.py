@@ -141,8 +141,8 @@ def _results_from_somewhere(compute: bool, reuse: str) -> Iterator[Problem]:
 
 @check("compute", "sweep.onset")
 def _refined_by_runs(compute: bool, onset: str) -> Iterator[Problem]:
-    if not compute and onset != "sweep":
-        yield Problem("sweep.onset", onset, "allowed is 'sweep' where compute is false")
+    if not compute and onset == "refine":
+        yield Problem("sweep.onset", onset, "allowed is 'sweep' or 'model' where compute is false")
 
 
 @check("sweep.onset", "sweep.models", "beam.elastic_axis", "beam.mass_axis")

@@ -146,7 +146,11 @@ def learnt_models(run: RunFiles) -> list[str]:
     """Return the models that were learnt from releases, if the onset is found by them."""
     if not plan.learns(run.config):
         return []
-    return [f"{run.folder}/rom/{model}/model.nc" for model in run.config.sweep.models]
+    return [
+        f"{run.folder}/rom/{model}/{name}.nc"
+        for model in run.config.sweep.models
+        for name in plan.learnt_names(run.config)
+    ]
 
 
 def grid_study(run: RunFiles) -> list[str]:

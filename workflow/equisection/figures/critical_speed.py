@@ -53,6 +53,8 @@ def draw(stability_map: xr.Dataset, stability: pd.DataFrame, design_speed: float
         Speed (m/s) to mark; None for none.
     """
     models = list(models_of(stability_map))
+    # of models that were learnt at these incidences alone nothing is known in between
+    joined = stability_map.attrs["basis"] != "model"
     rows = -(-len(models) // _ACROSS)
     figure = Figure(figsize=(PAGE_WIDTH, 1.2 + 2.5 * rows))
     across = min(len(models), _ACROSS)
@@ -60,11 +62,11 @@ def draw(stability_map: xr.Dataset, stability: pd.DataFrame, design_speed: float
     top = _top(stability, design_speed)
     seen: set[str] = set()
     for number, (axes, (one, look)) in enumerate(zip(panels.flat, models, strict=False)):
-        for other, _ in models:
+        for other, _ in models if joined else ():
             axes.plot(other["incidence_deg"], other["critical_speed"], color=LIGHT_GREY, zorder=1)
         ends = _ends(stability, one)
-        seen |= _interval(axes, one["incidence_deg"].values, ends, top, design_speed)
-        seen |= _speeds(axes, one, look)
+        seen |= _interval(axes, one["incidence_deg"].values, ends, top, design_speed, joined=joined)
+        seen |= _speeds(axes, one, look, joined=joined)
         mark_design_speed(axes, design_speed, upright=False)
         letter(axes, "abcdefgh"[number], look.label)
     for axes in panels.flat[len(models) :]:
@@ -74,7 +76,7 @@ def draw(stability_map: xr.Dataset, stability: pd.DataFrame, design_speed: float
     for axes in panels[-1]:
         axes.set_xlabel("incidence (deg)")
     panels[0, 0].set_ylim(0.0, top)
-    _legend(figure, seen, design_speed)
+    _legend(figure, seen, design_speed, joined=joined)
     say_origin(figure, stability_map)
     return figure
 
@@ -93,7 +95,13 @@ def _ends(stability: pd.DataFrame, one: xr.Dataset) -> Floats:
 
 
 def _interval(
-    axes: Axes, angle: Floats, ends: Floats, top: float, design_speed: float | None
+    axes: Axes,
+    angle: Floats,
+    ends: Floats,
+    top: float,
+    design_speed: float | None,
+    *,
+    joined: bool,
 ) -> set[str]:
     """Shade the interval, and hatch what of it is below the design speed."""
     low, high = ends
@@ -101,7 +109,8 @@ def _interval(
     if not known.any():
         return set()
     drawn = np.minimum(high, top)
-    axes.fill_between(angle, low, drawn, color=LIGHT_GREY, alpha=0.6, linewidth=0.0)
+    if joined:
+        axes.fill_between(angle, low, drawn, color=LIGHT_GREY, alpha=0.6, linewidth=0.0)
     axes.vlines(angle[known], low[known], drawn[known], color=GREY, linewidth=0.9)
     seen = {_INTERVAL}
     opened = np.isinf(high)
@@ -109,26 +118,28 @@ def _interval(
         axes.plot(angle[opened], np.full(opened.sum(), 0.985 * top), "^", color=GREY, markersize=5)
         seen.add(_OPEN)
     if design_speed is not None and (low < design_speed).any():
-        axes.fill_between(
-            angle,
-            np.minimum(low, design_speed),
-            np.minimum(drawn, design_speed),
-            facecolor="none",
-            edgecolor=ORANGE,
-            hatch="/////",
-            linewidth=0.0,
-        )
+        if joined:
+            axes.fill_between(
+                angle,
+                np.minimum(low, design_speed),
+                np.minimum(drawn, design_speed),
+                facecolor="none",
+                edgecolor=ORANGE,
+                hatch="/////",
+                linewidth=0.0,
+            )
         under = low < design_speed
         axes.vlines(angle[under], low[under], design_speed, color=ORANGE, linewidth=2.0)
         seen.add(_BELOW_DESIGN)
     return seen
 
 
-def _speeds(axes: Axes, one: xr.Dataset, look: Look) -> set[str]:
+def _speeds(axes: Axes, one: xr.Dataset, look: Look, *, joined: bool) -> set[str]:
     """Draw the critical speeds of a model with the markers of their mechanisms."""
     seen = set()
     angle, speed = one["incidence_deg"].values, one["critical_speed"].values
-    axes.plot(angle, speed, color=look.colour, linestyle=look.line)
+    if joined:
+        axes.plot(angle, speed, color=look.colour, linestyle=look.line)
     for mechanism, marker in MARKERS_OF_MECHANISMS.items():
         here = (one["critical_mechanism"].values == mechanism) & np.isfinite(speed)
         seen |= {mechanism} if here.any() else set()
@@ -138,7 +149,7 @@ def _speeds(axes: Axes, one: xr.Dataset, look: Look) -> set[str]:
     return seen | ({_STABLE} if none.any() else set())
 
 
-def _legend(figure: Figure, seen: set[str], design_speed: float | None) -> None:
+def _legend(figure: Figure, seen: set[str], design_speed: float | None, *, joined: bool) -> None:
     """Explain the marks that are in the figure, on lines that have no data."""
     axes = figure.axes[0]
     handles: list[Artist] = []
@@ -159,5 +170,5 @@ def _legend(figure: Figure, seen: set[str], design_speed: float | None) -> None:
     if _OPEN in seen:
         handles += axes.plot([], [], "^", color=GREY, markersize=5, label=_OPEN)
     others = axes.plot([], [], color=LIGHT_GREY, label="the other models")
-    handles = [*handles, *patches, *(others if len(figure.axes) > 1 else [])]
+    handles = [*handles, *patches, *(others if joined and len(figure.axes) > 1 else [])]
     figure.legend(handles=handles, loc="outside upper center", ncols=4)

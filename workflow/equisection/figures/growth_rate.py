@@ -88,7 +88,10 @@ def draw(
     )
     if set(_ENDS) <= set(summary) and summary[list(_ENDS)].notna().any(axis=None):
         sources += ("bars: 95 % of the fit of twist and deflection; open mark: sign not told",)
-    learnt_words = [f"band: {data.attrs['model']}, {data.attrs['words']}" for data in learnt]
+    learnt_words = [
+        f"band, and bar from end to end of the onset: {data.attrs['model']}, {data.attrs['words']}"
+        for data in learnt
+    ]
     learnt_words += [
         f"(c): {data.attrs['model']}, {data.attrs['limit_cycles']}" for data in with_cycles
     ]
@@ -141,6 +144,18 @@ def _by_learnt_models(
             linewidth=0.8,
             label=f"{look.label}, model learnt at k* = {data.attrs['learnt_from_k_star']:g}",
         )
+        if name == "growth_rate":
+            _interval_of_onset(axes, data, along, look.colour)
+
+
+def _interval_of_onset(axes: Axes, data: xr.Dataset, along: str, colour: str) -> None:
+    """Draw the interval of the onset of a learnt model on the line of no growth."""
+    at = [float(data.attrs.get(f"onset_k_star{end}", np.nan)) for end in ("_low", "_high")]
+    if not np.isfinite(at).all():
+        return
+    order = np.argsort(data["k_star"].values)
+    ends = np.interp(at, data["k_star"].values[order], data[along].values[order])
+    axes.plot(ends, [0.0, 0.0], color=colour, linewidth=3.0, alpha=0.5, solid_capstyle="butt")
 
 
 def _intervals(axes: Axes, runs: pd.DataFrame, along: Axis, look: Look) -> None:

@@ -68,6 +68,16 @@ def mark_design_speed(axes: Axes, speed: float | None, *, upright: bool) -> None
 
 def say_origin(figure: Figure, stability_map: xr.Dataset) -> None:
     """Say what the map is from."""
+    if stability_map.attrs["basis"] == "model":
+        words = [str(one).split(" at k*")[0] for one in np.ravel(stability_map["learnt"].values)]
+        sources = dict.fromkeys(one for one in words if one.startswith("model learnt"))
+        add_provenance(
+            figure,
+            *(f"{one} at each incidence" for one in sources),
+            "bars: interval of the model; growth of small motions about the equilibrium from rest",
+            f"polar {stability_map.attrs['polar']}",
+        )
+        return
     add_provenance(
         figure,
         "eigenvalues about the static equilibrium from rest, embedded solver",

@@ -36,7 +36,7 @@ from equisection.results.section_dataset import oscillation_factors as factors_o
 from equisection.results.unsteady_result import BOUNDED, Regime
 from equisection.solvers.known_error import side_in_words
 from equisection.store.index import result_files
-from equisection.study.axes import Axis, onset_axis_among
+from equisection.study.axes import K_STAR, Axis, onset_axis_among
 from equisection.study.plan import model as model_named
 
 #: Places z/L of twist and deflection at a free tip.
@@ -64,6 +64,10 @@ _EXTENT: dict[str, Any] = {
     "hatch": "/////",
     "linewidth": 0.4,
 }
+
+
+#: Look of the interval of an onset by a learnt model.
+_INTERVAL: dict[str, Any] = {"linewidth": 4.0, "alpha": 0.5, "solid_capstyle": "butt"}
 
 
 @dataclass(frozen=True)
@@ -237,7 +241,26 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     low, high = axes.get_ylim()
     height = high - low
     axes.set_ylim(low - 0.1 * height, high + 0.06 * height)  # room for the letters
+    for look, ends in _learnt_intervals(response):
+        axes.plot(
+            ends, [0.02, 0.02], **_INTERVAL, color=look.colour, transform=axes.get_xaxis_transform()
+        )
     add_other_axis(axes, along, as_given(summary))
+
+
+def _learnt_intervals(response: Response) -> list[tuple[Look, tuple[float, float]]]:
+    """Return the intervals of the onsets of learnt models along the axis, with their looks."""
+    names = [f"k_star_learnt_{end}" for end in ("low", "high")]
+    given = as_given(response.summary)
+    if not set(names) <= set(response.onset) or given is None:
+        return []
+    over_k_star = onset_axis_among(response.summary.columns) is K_STAR
+    found = []
+    for row in response.onset.dropna(subset=names).to_dict("records"):
+        ends = [float(row[name]) for name in names]
+        low, high = ends if over_k_star else map(given.speed_at, ends)
+        found.append((LOOKS[str(row["model"])], (low, high)))
+    return found
 
 
 def place_in_words(place: float) -> str:
@@ -353,6 +376,10 @@ def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
     handles += [
         Patch(color=grey, linewidth=0, label=f"onset bracket, {look.label}")
         for look, _, _, grey in _brackets(response)
+    ]
+    handles += [
+        Line2D([], [], color=look.colour, **_INTERVAL, label=f"onset by learnt model, {look.label}")
+        for look, _ in _learnt_intervals(response)
     ]
     if len(response.extents) > 1:
         model = section_model(list(response.cases))

@@ -14,22 +14,24 @@ theta_0 + theta - (w + x theta)'.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.learnt_loads import LearntLoads
 from equisection.aerodynamics.unsteady_loads import APPARENT_INERTIA, APPARENT_MASS
 from equisection.beam.section import Section
+from equisection.motion.static_branch import StaticBranch
 
 Floats = NDArray[np.float64]
+Complexes = NDArray[np.complex128]
 
 #: Step of the time integration, and interval of histories (c/V).
 TIME_STEP = 0.1
-_STEPS_OF_NEWTON = 60
+#: Half-width (rad) of the difference that the slope of what an offset axis adds is taken over.
+_HALF_WIDTH = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,8 +109,13 @@ class LearntSections:
             ]
         )
 
-    def released(self, duration: float, time_step: float = TIME_STEP) -> LearntHistories:
-        """Release all sections at rest from steady flow (Runge and Kutta, fourth order).
+    def released(
+        self,
+        duration: float,
+        time_step: float = TIME_STEP,
+        start: tuple[float, float] = (0.0, 0.0),
+    ) -> LearntHistories:
+        """Release all sections from steady flow (Runge and Kutta, fourth order).
 
         Parameters
         ----------
@@ -116,13 +123,17 @@ class LearntSections:
             Time (c/V).
         time_step
             Step, and interval of the histories (c/V).
+        start
+            Twist (rad) in which the tip is held until the release, and heave rate (over V) of the
+            tip then; each section has them by its recovery factors.
         """
         count = max(round(duration / time_step), 1)
         state = np.zeros((5, len(self.sections)))
+        state[1] = state[4] = start[0] * _members(self.sections, "twist_recovery")
+        state[2] = start[1] * _members(self.sections, "deflection_recovery")
         record = np.empty((count + 1, 2, len(self.sections)))
         record[0] = state[1::-1]
-        least = np.zeros(len(self.sections))
-        most = least.copy()
+        least, most = state[1].copy(), state[1].copy()
         with np.errstate(invalid="ignore", over="ignore"):  # a section that left the polar
             for n in range(count):
                 first = self.rates(state)
@@ -149,27 +160,17 @@ class LearntSections:
     def equilibria(self) -> Floats:
         """Return twist (rad) and deflection (chords) of static equilibrium, shape (2, N).
 
-        Where Newton's method finds none inside the polar they are NaN.
+        They are those on the branch that comes from rest (:mod:`..motion.static_branch`), and NaN
+        beyond its end.
         """
-        found = np.full((2, len(self.sections)), np.nan)
-        for lane, section in enumerate(self.sections):
-            axis, stiffness = float(self._axis[lane]), section.torsional_stiffness
-            moment = self.loads.polar.moment_cubic_about(axis)
-            least, most = self.loads.polar.incidence_range
-            theta = 0.0
-            for _ in range(_STEPS_OF_NEWTON):
-                alpha = self.loads.incidence_rad + theta
-                if not least <= alpha <= most:
-                    break
-                change = float(moment(alpha)) - stiffness * theta
-                change /= stiffness - float(moment(alpha, 1))
-                theta += change
-                if abs(change) < 1e-13:
-                    alpha = self.loads.incidence_rad + theta
-                    lift = float(self.loads.polar.lift_cubic(alpha))
-                    found[:, lane] = theta, lift / section.flexural_stiffness
-                    break
-        return found
+        polar, rigid = self.loads.polar, self.loads.incidence_rad
+        twist = np.full(len(self.sections), np.nan)
+        for axis in np.unique(self._axis):
+            here = self._axis == axis
+            branch = StaticBranch.from_rest(polar, rigid, float(axis))
+            twist[here] = branch.incidence(self._stiffness[1][here]) - rigid
+        lift = polar.lift_coefficient(rigid + twist)
+        return np.stack([twist, lift / self._stiffness[0]])
 
     def eigenvalues(self) -> NDArray[np.complex128]:
         """Return the eigenvalues p (V/c) about the equilibria, shape (N, 5); NaN without one.
@@ -177,35 +178,70 @@ class LearntSections:
         The loads are linearised at rest, so that these are the rates of small motions.
         """
         found = np.full((len(self.sections), 5), np.nan, dtype=complex)
+        linear = self.linearised()
+        there = np.isfinite(linear).all(axis=(1, 2))
+        if there.any():
+            found[there] = np.linalg.eigvals(linear[there])
+        return found
+
+    def linearised(self) -> Floats:
+        """Return the matrices of small motions (w, theta, w', theta', x) about the equilibria.
+
+        Their shape is (N, 5, 5); NaN of a section without an equilibrium.
+        """
+        found = np.full((len(self.sections), 5, 5), np.nan)
         for lane, theta in enumerate(self.equilibria()[0]):
             if math.isfinite(theta):
-                found[lane] = scipy.linalg.eigvals(self._matrix(lane, float(theta)))
+                found[lane] = self._matrix(lane, float(theta))
         return found
+
+    def influence(self, twist: Floats) -> Callable[[Complexes], Complexes]:
+        """Return the loads Q of small motions q exp(p s) about equilibria (rad), shape (N,).
+
+        Rows are lift and moment about the elastic axis, columns heave and twist, as
+        :func:`equisection.motion.mechanism.instabilities` has them; apparent mass that does no work
+        is left out.
+        """
+        by_motion = [self._loads_of(lane, float(theta)) for lane, theta in enumerate(twist)]
+        rows = np.array(by_motion)  # by (a, theta', x)
+
+        def loads(p: Complexes) -> Complexes:
+            incidence = np.stack([-p, 1.0 - p * self._axis], axis=-1)
+            turning = np.stack([np.zeros_like(p), p], axis=-1)
+            lag = (self.loads.rate / (p + self.loads.rate))[:, None] * incidence
+            parts = np.stack([incidence, turning, lag], axis=1)
+            return np.asarray(rows @ parts)
+
+        return loads
+
+    def _loads_of(self, lane: int, theta: float) -> Floats:
+        """Return the slopes of lift and moment about the axis by (a, theta', x), shape (2, 3)."""
+        axis = float(self._axis[lane])
+        lift, moment = self.loads.slopes(theta)
+        lift = lift + np.array([0.0, APPARENT_MASS, 0.0])
+        if axis:
+            moment = moment + axis * (lift + self._slope_of_rise(theta) * np.eye(3)[0])
+        return np.array([lift, moment])
 
     def _matrix(self, lane: int, theta: float) -> Floats:
         """Return the matrix of the small motions of a section about its equilibrium."""
         axis = float(self._axis[lane])
         incidence = np.array([0.0, 1.0, -1.0, -axis, 0.0])  # of (w, theta, w', theta', x)
         lag, turning = np.eye(5)[4], np.eye(5)[3]
-        rows = []
-        for by_incidence, by_rate, by_lag in self.loads.slopes(theta):
-            rows.append(by_incidence * incidence + by_rate * turning + by_lag * lag)
-        lift, moment = rows[0] + APPARENT_MASS * turning, rows[1]
-        if axis:
-            moment = moment + axis * (lift + self._slope_of_rise(theta) * incidence)
+        loads = self._loads_of(lane, theta) @ np.stack([incidence, turning, lag])
         springs = np.zeros((2, 5))
         for place in (0, 1):
             springs[place, place] = self._stiffness[place][lane]
             springs[place, 2 + place] = self._damping[place][lane]
-        accelerations = self._inverse[lane] @ (np.array([lift, moment]) - springs)
+        accelerations = self._inverse[lane] @ (loads - springs)
         return np.vstack(
             [np.eye(5)[2], np.eye(5)[3], accelerations, self.loads.rate * (incidence - lag)]
         )
 
-    def _slope_of_rise(self, theta: float, width: float = 1e-3) -> float:
+    def _slope_of_rise(self, theta: float) -> float:
         alpha = self.loads.incidence_rad + theta
-        ends = self.loads.polar.normal_rise(np.array([alpha - width, alpha + width]))
-        return float(ends[1] - ends[0]) / (2.0 * width)
+        ends = self.loads.polar.normal_rise(np.array([alpha - _HALF_WIDTH, alpha + _HALF_WIDTH]))
+        return float(ends[1] - ends[0]) / (2.0 * _HALF_WIDTH)
 
 
 def _members(sections: Sequence[Section], name: str) -> Floats:

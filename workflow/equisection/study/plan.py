@@ -67,7 +67,7 @@ def sweep_cases(config: Config, model_name: str | None = None) -> list[str]:
     """
     if learns(config):
         other = model_name is not None and learner(config, model_name) != model_name
-        return [] if other else [release_point(config, first_release(config)).name]
+        return [] if other else [point.name for point in first_points(config)]
     return [point.name for point in sweep_points(config)]
 
 
@@ -98,9 +98,22 @@ def first_release(config: Config) -> float:
     return float(f"{math.sqrt(min(values) * max(values)):.4g}")
 
 
-def release_point(config: Config, value: float) -> Point:
-    """Return the point of a release at a value of the sweep's axis."""
-    return Point.at({onset_axis(varied(config)): value})
+def first_points(config: Config) -> list[Point]:
+    """Return the points of the first releases that are learnt from: one at each incidence."""
+    axes = varied(config)
+    release = {onset_axis(axes): first_release(config)}
+    angles = axes.get(INCIDENCE)
+    if angles is None:
+        return [Point.at(release)]
+    return [Point.at({**release, INCIDENCE: angle}) for angle in angles]
+
+
+def learnt_names(config: Config) -> list[str]:
+    """Return the names of the files of a learnt model: one at each incidence of the study."""
+    angles = varied(config).get(INCIDENCE)
+    if angles is None:
+        return ["model"]
+    return [f"model_{Point.at({INCIDENCE: angle}).name}" for angle in angles]
 
 
 def steady_cases(config: Config) -> list[str]:
@@ -244,7 +257,7 @@ def planned_cases(config: Config) -> Iterator[PlannedCases]:
             yield PlannedCases(STEADY, dimension, dimension, resolution, names)
     refined = refinement_rounds(config) * config.sweep.onset_points
     if learns(config):
-        refined = 1 + 2 * config.rom.confirm
+        refined = config.rom.most_runs * len(learnt_names(config))
     for name in config.sweep.models:
         dimension = model(name, config.reduction).dimension
         of_sweep = tuple(sweep_cases(config, name))
@@ -326,8 +339,18 @@ def has_surface(config: Config) -> bool:
 
 
 def has_stability_map(config: Config) -> bool:
-    """Tell whether the run has a map of stability: incidences, and motions that are equations."""
-    return bool(config.sweep.incidence_deg) and Capability.STATES in SOLVERS[config.solver].provides
+    """Tell whether the run has a map of stability: incidences, and equations of motion.
+
+    These are the solver's, or those of the models that were learnt.
+    """
+    if not config.sweep.incidence_deg:
+        return False
+    return learns(config) or Capability.STATES in SOLVERS[config.solver].provides
+
+
+def has_learnt_map(config: Config) -> bool:
+    """Tell whether the map of stability is one of learnt models."""
+    return has_stability_map(config) and learns(config)
 
 
 def has_grid_study(config: Config) -> bool:

@@ -2,7 +2,7 @@
 
 A case holds what its file means and the digest of its content, so that an edited file is judged
 again. Its motion is weighed against its loads before anything is judged
-(:mod:`equisection.motion.load_balance`).
+(:mod:`equisection.aerodynamics.load_balance`).
 """
 
 from __future__ import annotations

@@ -11,6 +11,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import NDArray
 
+from equisection.aerodynamics.load_balance import FEWEST_SAMPLES, LoadBalance, load_balance
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.beam.section import Section
 from equisection.errors import ArgumentError, HistoryFileError
@@ -23,7 +24,6 @@ from equisection.io.history_file import (
     HistoryTable,
     read_table,
 )
-from equisection.motion.load_balance import FEWEST_SAMPLES, LoadBalance, load_balance
 
 Floats = NDArray[np.float64]
 
@@ -103,7 +103,7 @@ def recorded_release(
         theta_0 (rad).
     interval
         Interval of the samples that are kept (c/V); None for the usual one of the file, at most
-        that of :data:`~equisection.motion.load_balance.FEWEST_SAMPLES` a natural period.
+        that of :data:`~equisection.aerodynamics.load_balance.FEWEST_SAMPLES` a natural period.
     load_factors
         Factors of c_l and c_m under which the section moves.
     k_star

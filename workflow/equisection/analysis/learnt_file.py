@@ -1,0 +1,201 @@
+"""Learnt models from and to files: NetCDF of a run, and JSON and CSV for other programs."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from equisection.aerodynamics.learnt_loads import TERMS, LearntLoads
+from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.unsteady_loads import APPARENT_INERTIA, APPARENT_MASS
+from equisection.analysis.reduced_model import ReducedModel
+from equisection.errors import ArgumentError, ResultFileError
+from equisection.files import write_text, written_whole
+
+#: Version of the layout of the JSON file.
+LAYOUT = 1
+EQUATIONS = (
+    "incidence: alpha = theta_0 + theta - w_m', a = alpha - theta_0, with the twist theta (rad, "
+    "nose up) and the deflection w_m (chords, up) of mid-chord",
+    "time: s = t V/c, and ' = d/ds",
+    "lag: x' = rate (a - x), h = a - x",
+    "T: the terms",
+    "c_m = polar.c_m(alpha) + moment . T - apparent_inertia theta'', about mid-chord, nose up",
+    "c_l = polar.c_l(alpha) + lift . T + apparent_mass (theta' - w_m''), up",
+)
+
+
+def model_of(data: xr.Dataset, polar: Polar) -> ReducedModel:
+    """Return the model of a file ``rom/<model>/model*.nc``.
+
+    Parameters
+    ----------
+    data
+        The file.
+    polar
+        The steady polar that it was learnt with.
+
+    Raises
+    ------
+    ResultFileError
+        There is no model in it, but the reason why.
+    """
+    if "rate" not in data:
+        reason = data.attrs.get("refusal") or "it has no coefficients"
+        raise ResultFileError(f"{data.attrs.get('model', 'the file')}: no model: {reason}")
+    seen = tuple(math.radians(float(data.attrs[f"seen_{end}_deg"])) for end in ("least", "most"))
+    fits = [
+        LearntLoads(
+            polar=polar.continued,
+            incidence_rad=math.radians(float(data.attrs["incidence_deg"])),
+            rate=float(data["rate"][place]),
+            moment=np.asarray(data["moment_terms"][place], dtype=np.float64),
+            lift=np.asarray(data["lift_terms"][place], dtype=np.float64),
+            residual_moment=float(data["residual_moment"][place]),
+            residual_lift=float(data["residual_lift"][place]),
+            seen=(seen[0], seen[1]),
+            learnt_until=float(data["learnt_until"][place]),
+        )
+        for place in range(data.sizes["fit"])
+    ]
+    return ReducedModel(
+        loads=fits[0],
+        refits=tuple(fits[1:]),
+        learnt_from=str(data.attrs["learnt_from"]),
+        k_star=float(data.attrs["learnt_from_k_star"]),
+        source=str(data.attrs["source"]),
+    )
+
+
+def as_json(data: xr.Dataset, polar: Polar) -> dict[str, Any]:
+    """Return all that a learnt model is, for other programs: in plain numbers, with its equations.
+
+    Parameters
+    ----------
+    data
+        ``rom/<model>/model*.nc``.
+    polar
+        The steady polar that it was learnt with.
+
+    Raises
+    ------
+    ResultFileError
+        There is no model in the file.
+    """
+    model = model_of(data, polar)
+    whole, attrs = model.loads.polar, data.attrs
+    fits = [asdict(fit) for fit in (model.loads, *model.refits)]
+    kept = ("rate", "moment", "lift", "residual_moment", "residual_lift", "learnt_until")
+    return {
+        "layout": LAYOUT,
+        "model": attrs["model"],
+        "words": attrs["words"],
+        "learnt_from": model.learnt_from,
+        "learnt_from_k_star": model.k_star,
+        "source": model.source,
+        "confirmation": attrs["confirmation"],
+        "incidence_deg": float(attrs["incidence_deg"]),
+        "seen_deg": [float(attrs[f"seen_{end}_deg"]) for end in ("least", "most")],
+        "onset_k_star": {
+            name: _or_null(attrs[f"onset_k_star{end}"])
+            for name, end in (("value", ""), ("low", "_low"), ("high", "_high"))
+        },
+        "equations": list(EQUATIONS),
+        "terms": list(TERMS),
+        "apparent_mass": APPARENT_MASS,
+        "apparent_inertia": APPARENT_INERTIA,
+        "fits": [{name: _plain(fit[name]) for name in kept} for fit in fits],
+        "polar": {
+            "label": whole.label,
+            "incidence_deg": np.degrees(whole.incidence).tolist(),
+            "c_l": whole.lift.tolist(),
+            "c_m": whole.moment.tolist(),
+            "c_d": whole.drag.tolist(),
+        },
+    }
+
+
+def _or_null(value: Any) -> float | None:
+    return float(value) if math.isfinite(float(value)) else None
+
+
+def _plain(value: Any) -> Any:
+    return value.tolist() if isinstance(value, np.ndarray) else float(value)
+
+
+def model_of_json(content: dict[str, Any]) -> ReducedModel:
+    """Return the model of the content of a JSON file (:func:`as_json`).
+
+    Raises
+    ------
+    ResultFileError
+        It is of another layout.
+    """
+    if content.get("layout") != LAYOUT:
+        raise ResultFileError(
+            f"layout {content.get('layout')!r} of a learnt model: allowed is {LAYOUT}; export it "
+            "again"
+        )
+    table = content["polar"]
+    drag, lift, moment = (np.array(table[name], dtype=float) for name in ("c_d", "c_l", "c_m"))
+    polar = Polar(np.radians(table["incidence_deg"]), drag, lift, moment, table["label"])
+    low, high = (math.radians(angle) for angle in content["seen_deg"])
+    fits = [
+        LearntLoads(
+            polar=polar,
+            incidence_rad=math.radians(content["incidence_deg"]),
+            rate=fit["rate"],
+            moment=np.array(fit["moment"]),
+            lift=np.array(fit["lift"]),
+            residual_moment=fit["residual_moment"],
+            residual_lift=fit["residual_lift"],
+            seen=(low, high),
+            learnt_until=fit["learnt_until"],
+        )
+        for fit in content["fits"]
+    ]
+    return ReducedModel(
+        loads=fits[0],
+        refits=tuple(fits[1:]),
+        learnt_from=content["learnt_from"],
+        k_star=content["learnt_from_k_star"],
+        source=content["source"],
+    )
+
+
+def as_table(data: xr.Dataset) -> pd.DataFrame:
+    """Return what a learnt model predicts, a line for each value of k*, or of the speed (m/s).
+
+    Columns are those of ``rom/<model>/model*.nc``: growth rates in V/c, frequencies f c/V.
+    """
+    axis = str(data.attrs["axis"])
+    columns = [str(name) for name, one in data.data_vars.items() if one.dims == (axis,)]
+    return data[columns].to_dataframe().reset_index()
+
+
+def export(data: xr.Dataset, polar: Polar, output: Path) -> None:
+    """Write a learnt model as JSON (:func:`as_json`), or its prediction as CSV (:func:`as_table`).
+
+    Raises
+    ------
+    ArgumentError
+        The name of the file ends in neither ``.json`` nor ``.csv``.
+    ResultFileError
+        There is no model in the data.
+    """
+    if output.suffix == ".json":
+        write_text(output, json.dumps(as_json(data, polar), indent=1) + "\n")
+    elif output.suffix == ".csv":
+        words = f"# {data.attrs['words']}; {data.attrs['confirmation']}\n"
+        with written_whole(output) as aside:
+            table = as_table(data).to_csv(index=False, float_format="%.6g")
+            aside.write_text(words + table, encoding="utf-8")
+    else:
+        raise ArgumentError(f"{output}: allowed is a name that ends in .json or .csv")
