@@ -48,8 +48,12 @@ def rows() -> Iterator[Row]:
 
 
 def _by_snakemake(folders: Iterator[Path]) -> Row:
-    """Give every so many configurations to the real command, from a folder of its own."""
-    inputs, well = KINDS["configurations"][0][::EVERY], 0
+    """Give every so many configurations to the real command, from a folder of its own.
+
+    A file that is no YAML of sections is Snakemake's to refuse: it reads files before workflows.
+    """
+    configurations, well = KINDS["configurations"][0], 0
+    inputs = [one for one in configurations if one.named.startswith("config: ")][::EVERY]
     for one in inputs:
         folder = next(folders)
         folder.mkdir()
