@@ -35,11 +35,18 @@ def test_second_waits_for_the_first_and_takes_its_result(
     behind = second.start(second.target(RESULT))
     log = second.results / "logs" / "unsteady_2d_k5.log"
     wait_until(lambda: log.is_file() and "runs this case; waiting" in log.read_text(), 600)
+    unlocking = second.attempt("--unlock")
+    assert unlocking.returncode == 1
+    pids = {run.pid for run in (ahead, behind)}
+    assert any(
+        f"error: process {pid} runs the workflow here since" in unlocking.stdout for pid in pids
+    )
     tmp_path.joinpath("held.go").touch()
     for workflow in (ahead, behind):
         said, _ = workflow.communicate(timeout=1200)
         assert workflow.returncode == 0, said
     assert "runs this case; waiting for its result" in said
+    assert "Unlock" in second.run("--unlock")
 
     starts = {path.name for path in (folder / "postProcessing" / "loads").iterdir()}
     assert starts == {"0"}
