@@ -4,7 +4,7 @@ On the histories of OpenFOAM that are kept, of section and plate, cycle by cycle
 the work. Where gain and loss within a cycle cancel, what is missing is judged as what it does to
 the growth rate instead: dE/(2 E T), less than 0.0002 V/c, and less than 0.0003 where the twist
 swings by less than 0.5 deg: there the iterations of a time step end with loads that are some 3 % of
-the step late (docs/openfoam.md).
+the step late (docs/openfoam-sweep.md).
 """
 
 import math

@@ -56,7 +56,7 @@ def test_work_grows_with_mesh_steps_and_iterations() -> None:
 
 @pytest.mark.parametrize(("dimension", "longest"), [("2d", 110.0), ("3d", 70.0)])
 def test_rigid_case_may_go_on_as_long_as_its_record_can_be(dimension: str, longest: float) -> None:
-    """The plate's is shorter, for what it costs (docs/openfoam.md and docs/plate.md)."""
+    """The plate's is shorter, for what it costs (openfoam-sweep.md, plate-sweep.md)."""
     work = cost.work_of(load_config(OPENFOAM), STEADY, dimension, "coarse")
     assert work.steps == pytest.approx(longest / 0.02 * 3)
 

@@ -86,7 +86,7 @@ def rigid_plate(evidence: Evidence) -> Finding:
         graded(all_differences, 0.05, 0.15),
         "; ".join(parts) + f" (from the paper's {_FINEST})",
         "; ".join(sorted(set(evidence.table_1["made_by"].dropna()))),
-        "What of it is the mesh stands in [plate.md](plate.md).",
+        "What of it is the mesh stands in [plate-polar.md](plate-polar.md).",
     )
 
 
@@ -112,7 +112,7 @@ def independence_of_the_mesh(evidence: Evidence) -> Finding:
         words + ("" if near_stall else "; three meshes were not run at angles near to stall"),
         f"cells {study['cells'].iloc[0]}",
         "From 5 deg on, the steady solver finds no steady flow on the finer meshes "
-        "([openfoam.md](openfoam.md)).",
+        "([openfoam-polar.md](openfoam-polar.md)).",
     )
 
 
@@ -206,7 +206,8 @@ def courant_number(evidence: Evidence) -> Finding:
         f"{100 * area_below:.1f} % of the area; largest {courant.max():.2g}",
         f"{mesh.attrs['solver_description']}, {float(mesh.attrs['time_step']):g} c/V a step",
         "The paper's step is 2.5e-4 c/V if its 1.25e-6 are seconds, and 0.05 c/V if they are "
-        "dt c/V in SI units, as printed ([openfoam.md](openfoam.md#the-papers-cell-sizes)).",
+        "dt c/V in SI units, as printed "
+        "([openfoam-polar.md](openfoam-polar.md#the-papers-cell-sizes)).",
     )
 
 

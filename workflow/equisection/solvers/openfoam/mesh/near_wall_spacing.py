@@ -1,6 +1,6 @@
 """Cells of given sizes on the block mesh: along the wall, near it, in the wake and elsewhere.
 
-The sizes are those of Section 4.1 of the paper (docs/openfoam.md). From the wall they grow
+The sizes are those of Section 4.1 of the paper (docs/openfoam-polar.md). From the wall they grow
 geometrically to that of a region, and stay there. The counts are those that the sizes ask for in a
 channel 4 c high. In another channel, or around another thickness, the uniform part of each block
 takes up the difference. Growth, size of the first cell (y+ below 1) and length of the wake region
