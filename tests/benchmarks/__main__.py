@@ -19,6 +19,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 from tests.benchmarks import (  # noqa: E402
     beam_growth,
     campaign,
+    checking,
     default_run,
     early_verdict,
     flips,
@@ -39,6 +40,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "many-cases": many_cases.rows,
     "large-sweep": large_sweep.rows,
     "campaign": campaign.rows,
+    "checking": checking.rows,
     "beam-growth": beam_growth.rows,
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
