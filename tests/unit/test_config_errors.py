@@ -381,7 +381,7 @@ MALFORMED = [
         {"flow": {"channel": {"height_chords": 1e9}}},
         "flow.channel.height_chords",
         "1e+09",
-        "a number above 1 and up to 1e+06",
+        "a number above 1 and of at most 1e+06",
     ),
     ({"beam": {"thickness": 1e-6}}, "beam.thickness", "1e-06", "0.000452 m or more, 1/819 of the"),
     (
