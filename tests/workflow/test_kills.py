@@ -14,7 +14,7 @@ from tests.workflow.project import Project, has_nothing_to_do, small
 SUMMARY = "comparison/summary.csv"
 KILLS = 3
 #: Starts and ends of jobs after which a run is killed, at most; it has more of them for each kill.
-MOST_EVENTS = 6
+MOST_EVENTS = 4
 
 
 def kill_while_working(run: subprocess.Popen[str], events: int) -> None:
