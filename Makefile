@@ -70,13 +70,19 @@ status: $(ENV)/run
 verify: $(ENV)/run
 	$(BIN)/equisection verify
 
-# The tests of OpenFOAM run beside the others, on the second core.
+# Three parts side by side: tests that run OpenFOAM, tests that start Snakemake, and the others, which
+# are seen while they run.
+BESIDE := openfoam workflow+slurm
 test: $(ENV)/test
-	@log=$$(mktemp); $(BIN)/python -m pytest -p no:cacheprovider tests/openfoam >$$log 2>&1 & beside=$$!; \
-		trap "kill $$beside; exit 130" INT TERM; \
-		$(BIN)/python -m pytest --ignore=tests/openfoam; rest=$$?; \
-		wait $$beside; solver=$$?; echo "tests/openfoam, which ran beside:"; cat $$log; rm $$log; \
-		exit $$((rest | solver))
+	@logs=$$(mktemp -d); ids=; trap 'kill $$(jobs -p) 2>/dev/null; exit 130' INT TERM; \
+		for part in $(BESIDE); do \
+			$(BIN)/python -m pytest -p no:cacheprovider $$(printf 'tests/%s ' $$(echo $$part | tr + ' ')) \
+				>$$logs/$$part 2>&1 & ids="$$ids $$!"; \
+		done; \
+		$(BIN)/python -m pytest $(patsubst %,--ignore=tests/%,$(subst +, ,$(BESIDE))); failed=$$?; \
+		for id in $$ids; do wait $$id || failed=1; done; \
+		for part in $(BESIDE); do echo "tests/$$part, which ran beside:"; cat $$logs/$$part; done; \
+		rm -r $$logs; exit $$failed
 
 lint: $(ENV)/lint
 	$(BIN)/ruff format --check .

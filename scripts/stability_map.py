@@ -6,6 +6,8 @@ from typing import Any
 
 import pandas as pd
 
+from equisection.analysis.coarser_bodies import coarser_bodies
+from equisection.analysis.loads_in_use import reactions
 from equisection.analysis.mapped_models import (
     map_dataset,
     mapped_models,
@@ -30,9 +32,12 @@ def main(
     stability_map: Path,
     stability: Path,
     sensitivities: Path,
-    use: Path | None,
+    at_design: tuple[Path, Path] | None,
 ) -> None:
-    """Write the map, the critical speeds with their sensitivities, and the design speed's table."""
+    """Write the map, the critical speeds with their sensitivities, and the design speed's tables.
+
+    ``at_design`` are the files of what it is like in use and of the loads on the supports.
+    """
     config = load_config(raw_config)
     data = {name: read_dataset(path) for name, path in files.items()}
     solver = solver_from_config(config, config.steady.resolution)
@@ -40,7 +45,8 @@ def main(
     models = mapped_models(config, data, solver)
     write_dataset(stability_map, map_dataset(models, speeds_of_map(config, given)))
     table = checked_in_time(stability_table(models, config.flow.design_speed), models, config)
-    found = sensitivity_table(models, config, solver)
+    coarser = coarser_bodies(models, config, data, given)
+    found = sensitivity_table(models, config, solver, coarser)
     table = with_intervals(table, found)
     for row in table.to_dict("records"):
         logging.getLogger(__name__).info(
@@ -53,8 +59,9 @@ def main(
         )
     _write(table, stability)
     _write(found, sensitivities)
-    if use is not None:
-        _write(in_use(models, config), use)
+    if at_design is not None:
+        _write(in_use(models, config), at_design[0])
+        _write(reactions(models, config), at_design[1])
 
 
 def _write(table: pd.DataFrame, output: Path) -> None:
@@ -69,12 +76,14 @@ if __name__ == "__main__":
             for name in ("equivalent", "modes", "correction")
             if name in snakemake.input.keys()  # noqa: SIM118 - these are no mapping
         }
-        at_design = snakemake.output.get("in_use")
+        in_use_file = snakemake.output.get("in_use")
         main(
             snakemake.params.config,
             wanted,
             stability_map=Path(snakemake.output.stability_map),
             stability=Path(snakemake.output.stability),
             sensitivities=Path(snakemake.output.sensitivities),
-            use=Path(at_design) if at_design else None,
+            at_design=(Path(in_use_file), Path(snakemake.output.reactions))
+            if in_use_file
+            else None,
         )

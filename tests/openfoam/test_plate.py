@@ -6,7 +6,6 @@ What is compared with numbers was measured with OpenFOAM v1912.
 import os
 import pickle
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -188,8 +187,9 @@ def free(duration: float, k_star: float = 6.44, mass: float = 1.0) -> UnsteadyCa
 
 def run_of(installation: Installation, case: UnsteadyCase, work: Path, steady: Path) -> PlateRun:
     """Return a run that starts from the rigid steady flow, which is the same for all."""
-    shutil.copytree(steady, work, dirs_exist_ok=True)
-    return PlateRun(installation, case, plate_mesh_of(case, VERY_COARSE), COUPLING, work, 1)
+    run = PlateRun(installation, case, plate_mesh_of(case, VERY_COARSE), COUPLING, work, 1)
+    run.start_from(steady / "steady")
+    return run
 
 
 @pytest.fixture

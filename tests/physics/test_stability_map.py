@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -303,6 +304,22 @@ def test_jump_of_a_polar_between_rest_and_onset_is_named():
     assert "jumps between 3 and 4 deg" in found[0].note
     assert "jumps" not in found[1].note
     assert jumps(POLAR) == []
+    below = criticals(body_of(damped(PLATE, 0.15), jumping), [2.99, -2.5], [5.0, 15.0])
+    assert below[0].critical_mechanism == "none"
+    assert "stable up to 15 m/s" in below[0].note
+    assert "jumps between 3 and 4 deg" in below[0].note
+    assert "jumps" not in below[1].note
+
+
+def test_modes_that_cross_are_named_and_the_onset_stays():
+    line = one_line(body_of(PLATE, POLAR), 2.5, [10.0, 40.0])
+    assert line.modes.crossings == ()
+    crossing = replace(line.modes, crossings=((21.5, "bending 1", "torsion 1"),))
+    found = critical_of(replace(line, modes=crossing))
+    assert found.note == (
+        "bending 1 and torsion 1 cross at 21.5 m/s, beyond which their names may be exchanged"
+    )
+    assert found.critical_speed == critical_of(line).critical_speed
 
 
 def test_what_is_unstable_at_rest_has_no_onset_after_a_band_of_stability():

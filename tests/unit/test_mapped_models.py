@@ -15,8 +15,11 @@ import xarray as xr
 from matplotlib.figure import Figure
 from tests.conftest import ROOT
 
+import equisection as eq
 from equisection.aerodynamics.polar import Polar
+from equisection.analysis.coarser_bodies import coarser_bodies
 from equisection.analysis.critical_speeds import COLUMNS, from_map, with_margin
+from equisection.analysis.loads_in_use import reactions
 from equisection.analysis.mapped_models import (
     MappedModel,
     map_dataset,
@@ -24,13 +27,16 @@ from equisection.analysis.mapped_models import (
     speeds_of_map,
     stability_table,
 )
+from equisection.analysis.onset_intervals import sensitivity_table, with_intervals
 from equisection.analysis.releases_of_map import checked_in_time, in_use
 from equisection.config import Config, load_config
 from equisection.config.groups import Beam, Flow, Structure
 from equisection.errors import ConfigError
 from equisection.figures import catalogue
 from equisection.figures.style import drawing_style
+from equisection.motion.critical import critical_of
 from equisection.motion.stability import critical_speed
+from equisection.motion.stability_map import map_lines
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.correction_dataset import factors_to_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -166,6 +172,29 @@ def test_section_of_a_run_has_the_onset_of_the_section(
     np.testing.assert_allclose(rows["margin"], found["critical_speed"] / 22.0, rtol=1e-5)
 
 
+@pytest.mark.filterwarnings("ignore:structure.method 'beam' leaves out:UserWarning")
+def test_beam_of_a_run_is_that_of_python(config: Config, table: pd.DataFrame) -> None:
+    structure, channel = config.structure, config.flow.channel
+    assert channel is not None
+    found = eq.stability_map(
+        config.beam,
+        Polar.read(POLAR),
+        incidence_deg=[2.5, 5.0],
+        speed=config.sweep.speed,
+        density=config.flow.density,
+        method="beam",
+        elements=(1, structure.elements.span, 1),
+        modes=(structure.bending_modes, structure.torsion_modes),
+        strips=config.embedded.strips,
+        channel=(channel.height_chords, channel.tip_gap_chords),
+    )
+    rows = table[table["model"] == "3d"]
+    known = rows["speed"] <= config.sweep.speed[-1]
+    assert known.any()
+    for one, other in (("speed", "critical_speed"), ("k_star", "critical_k_star")):
+        np.testing.assert_allclose(rows[one][known], found[other][known.to_numpy()], rtol=2e-6)
+
+
 def test_k_star_of_a_run_is_that_of_the_beam_as_given(
     config: Config, data: dict[str, xr.Dataset], table: pd.DataFrame
 ) -> None:
@@ -219,6 +248,39 @@ def test_speeds_of_the_map_go_into_the_table_of_critical_speeds(table: pd.DataFr
     np.testing.assert_allclose(critical["margin"], critical["speed_low"] / 22.0)
 
 
+def test_coarser_beam_tells_how_well_the_strips_are_known(
+    config: Config, data: dict[str, xr.Dataset], models: list[MappedModel], table: pd.DataFrame
+) -> None:
+    """With half of the strips the onset is that of a map of its own; a last mode stays."""
+    given = AsGiven(nominal_k_star(data["equivalent"]), config.flow.speed)
+    coarser = coarser_bodies(models, config, data, given)
+    assert set(coarser) == {"3d"}
+    assert [(one.parameter, one.number, one.less) for one in coarser["3d"]] == [("strips", 4, 2)]
+    beam = [model for model in models if model.name == "3d"]
+    found = sensitivity_table(beam, config, solver_from_config(config, "coarse"), coarser)
+    rows = found[found["parameter"] == "strips"]
+    body = coarser["3d"][0].body
+    lines = map_lines(body, [line.incidence_rad for line in beam[0].lines], np.array([15.0, 80.0]))
+    own = [critical_of(line).critical_speed for line in lines]
+    np.testing.assert_allclose(rows["speed_at_less"], own, rtol=1e-5)
+    speed = table[table["model"] == "3d"]["speed"].to_numpy()
+    np.testing.assert_allclose(rows["speed_at_more"], 2.0 * speed - own, rtol=1e-5)
+    assert (rows["lowers"] > 0.0).all()
+
+
+def test_last_modes_of_each_kind_are_left_out(
+    config: Config, data: dict[str, xr.Dataset], models: list[MappedModel]
+) -> None:
+    structure = config.structure.model_copy(update={"bending_modes": 3, "torsion_modes": 2})
+    more = config.model_copy(update={"structure": structure})
+    given = AsGiven(nominal_k_star(data["equivalent"]), config.flow.speed)
+    found = coarser_bodies(models, more, data, given)["3d"]
+    modes = next(one for one in found if one.parameter == "modes")
+    assert (modes.number, modes.less) == (5, 2)
+    assert modes.body.structure.bending_shapes.shape[1] == 2
+    assert modes.body.structure.torsion_shapes.shape[1] == 1
+
+
 def test_small_releases_agree_with_the_eigenvalues(
     config: Config, models: list[MappedModel]
 ) -> None:
@@ -244,6 +306,52 @@ def test_design_speed_has_the_loads_of_statics(config: Config, models: list[Mapp
     )
     assert row["regime"] == "settled"
     assert row["damping_ratio"] > 0.0
+    root = reactions(models[:1], config).query("incidence_deg == 2.5").iloc[0]
+    assert (root["support"], root["place_m"]) == ("root", 0.0)
+    assert root["force_n"] == pytest.approx(lift * q * beam.chord * beam.length, rel=1e-6)
+    assert root["bending_moment_nm"] == row["root_bending_moment_nm"]
+    assert root["torque_nm"] == row["root_torque_nm"]
+
+
+def test_reactions_of_every_boundary_carry_the_load_of_the_air(
+    config: Config, models: list[MappedModel]
+) -> None:
+    """The same loads on other supports: their sums stay, and each support is named."""
+    supports = [{"at": 0.5, "deflection": "fixed"}]
+    other = Beam(boundary="one-fork", supports=supports)
+    propped = config.model_copy(update={"beam": other})
+    for held, names in ((config, ["root"]), (propped, ["root", "supports.0", "tip"])):
+        found = reactions(models, held)
+        assert list(found["support"].unique()) == names
+        sums = found.groupby(["model", "incidence_deg"])[["force_n", "torque_nm"]].sum()
+        if held is config:
+            expected = sums
+    np.testing.assert_allclose(sums, expected, rtol=1e-9)
+    assert set(found["model"]) == {"2d", "2d-corrected", "3d"}
+
+
+def test_incidences_that_a_polar_does_not_cover_are_named_in_every_table(
+    config: Config, data: dict[str, xr.Dataset]
+) -> None:
+    """Beyond the polar, and where the equilibrium leaves it: the other incidence goes on."""
+    sweep = config.sweep.model_copy(update={"incidence_deg": (2.5, 11.9, 20.0), "models": ("2d",)})
+    asked = config.model_copy(update={"sweep": sweep})
+    solver = solver_from_config(asked, "coarse")
+    models = mapped_models(asked, data, solver)
+    found = stability_table(models, 22.0)
+    found = with_intervals(found, sensitivity_table(models, asked, solver))
+    said, use = (table.set_index("incidence_deg") for table in (found, in_use(models, asked)))
+    assert np.isfinite(said.loc[2.5, "speed_from"])
+    for angle, words in ((11.9, "the equilibrium leaves the polar"), (20.0, "20 deg is outside")):
+        row = said.loc[angle]
+        assert row["mechanism"] == "unknown"
+        assert math.isnan(row["speed"])
+        assert row["interval_of"] == ""
+        assert words in row["note"]
+        assert words in use.loc[angle, "note"]
+    assert set(reactions(models, asked)["incidence_deg"]) == {2.5}
+    drawn = map_dataset(models, np.asarray(sweep.values()))
+    assert list(drawn["incidence_deg"].values) == [2.5, 11.9, 20.0]
 
 
 def test_design_speed_above_the_map_is_said(config: Config, models: list[MappedModel]) -> None:
@@ -268,13 +376,27 @@ def test_figures_of_a_map_are_drawn(  # noqa: PLR0917 - fixtures
     config: Config,
     data: dict[str, xr.Dataset],
     models: list[MappedModel],
+    table: pd.DataFrame,
     tmp_path: Path,
 ) -> None:
     given = AsGiven(nominal_k_star(data["equivalent"]), config.flow.speed)
     path = tmp_path / "map.nc"
     write_dataset(path, map_dataset(models, speeds_of_map(config, given)))
+    with_interval = table.assign(
+        speed_from=[20.0, np.nan, 0.0, 30.0, 25.0, 21.0], speed_to=[30, np.nan, 40, np.inf, 60, 50]
+    )
+    with_interval.to_csv(tmp_path / "stability.csv")
+    files = {"stability_map": path, "stability": tmp_path / "stability.csv"}
     values = {"incidence_deg": 2.5, "design_speed": design_speed}
     with drawing_style(ROOT / "envs" / "equisection.mplstyle"):
-        figure = catalogue.draw(entry, {"stability_map": path}, values)
+        figure = catalogue.draw(entry, files, values)
         assert isinstance(figure, Figure)
         figure.draw_without_rendering()
+    if entry.name != "critical-speed":
+        return
+    said = {text.get_text() for text in figure.legends[0].get_texts()}
+    assert {"interval", "open above"} <= said
+    assert ("interval below the design speed" in said) == (design_speed is not None)
+    assert [bool(axes.collections) for axes in figure.axes] == [True, True, True]
+    bars = figure.axes[0].collections[1].get_segments()  # of 2.5 deg; of 5 nothing is known
+    assert [bar[:, 1].tolist() for bar in bars] == [[20.0, 30.0]]

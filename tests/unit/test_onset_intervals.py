@@ -23,6 +23,7 @@ from equisection.analysis.onset_intervals import (
 )
 from equisection.beam.section import Section
 from equisection.config import Config, load_config
+from equisection.config.groups import Uncertainty
 from equisection.errors import ConfigError
 from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.stability_map import map_lines
@@ -30,6 +31,9 @@ from equisection.solvers.embedded.known_spreads import known_spread
 from equisection.solvers.registry import solver_from_config
 
 POLAR = ROOT / "config" / "polars" / "plate_2d_11136.csv"
+OF_THE_STRUCTURE = ["mass", "inertia", "k_w", "k_theta"]
+KNOWN = [*OF_THE_STRUCTURE, "tau_1", "tau_2", "tau_3", "lift", "moment", "growth"]
+NOTHING = dict.fromkeys(Uncertainty.model_fields, 0)
 
 
 def config_with(uncertainty: dict[str, Any], **embedded: Any) -> Config:
@@ -87,19 +91,33 @@ def test_every_known_input_of_the_default_plate_is_in_its_interval():
     found, stability = tables(config_with({}))
     assert tuple(found.columns) == COLUMNS
     varied = found[found["half_range"].notna()]
-    assert list(varied["parameter"]) == ["tau_1", "tau_2", "tau_3", "lift", "moment", "growth"]
+    assert list(varied["parameter"]) == KNOWN
     assert varied["source"].str.len().gt(0).all()
     row = stability.iloc[0]
-    assert row["interval_of"] == "tau_1 + tau_2 + tau_3 + lift + moment + growth"
+    assert row["interval_of"] == " + ".join(KNOWN)
+    # each part in its row: their squares add up, and the largest is named
+    assert varied["share"].sum() == pytest.approx(1.0)
+    below = row["speed"] - row["speed_from"]
+    assert np.linalg.norm(varied["lowers"]) == pytest.approx(below, rel=1e-9)
+    assert np.linalg.norm(varied["raises"]) == pytest.approx(row["speed_to"] - row["speed"])
+    most = varied.loc[varied["share"].idxmax()]
+    assert row["largest_part"] == f"{most['parameter']} {100 * most['share']:.0f} %"
+    assert most["lowers"] == varied["lowers"].max()
+    assert found["note"].eq("").all()
+    # a usual half-range is so small that the sensitivity tells what it does
+    for name in ("mass", "inertia", "k_w", "k_theta"):
+        one = varied.set_index("parameter").loc[name]
+        linear = abs(one["sensitivity"]) * one["half_range"] * row["speed"]
+        assert one["lowers"] == pytest.approx(linear, rel=0.1)
+        assert one["raises"] == pytest.approx(linear, rel=0.1)
     assert row["speed_worst"] < row["speed_from"] < row["speed"] < row["speed_to"]
     refused = stability.iloc[1]
     assert math.isnan(refused["speed_from"])
-    assert refused["interval_of"] == ""
+    assert refused["interval_of"] == refused["largest_part"] == ""
 
 
 def test_nothing_known_is_no_interval():
-    none = {"lags": 0, "lift": 0, "moment": 0, "growth": 0}
-    found, stability = tables(config_with(none))
+    found, stability = tables(config_with(NOTHING))
     assert found["half_range"].isna().all()
     assert math.isnan(stability["speed_from"][0])
     assert stability["interval_of"][0] == ""
@@ -107,7 +125,7 @@ def test_nothing_known_is_no_interval():
 
 def test_small_half_range_moves_the_speed_by_its_sensitivity():
     part = 0.002
-    found, stability = tables(config_with({"lags": 0, "lift": 0, "moment": part, "growth": 0}))
+    found, stability = tables(config_with({**NOTHING, "moment": part}))
     row = found.set_index("parameter").loc["moment"]
     expected = part * row["sensitivity"] * stability["speed"][0]
     assert row["speed_at_more"] - row["speed_at_less"] == pytest.approx(2 * expected, rel=1e-2)
@@ -117,12 +135,34 @@ def test_small_half_range_moves_the_speed_by_its_sensitivity():
 
 def test_damping_goes_no_lower_than_none():
     """Of 0.5 % of critical, 1 % less is no damping at all: less and more are not alike."""
-    only = {"lags": 0, "lift": 0, "moment": 0, "growth": 0}
-    wide, _ = tables(config_with({**only, "damping": 0.01}))
-    all_of_it, _ = tables(config_with({**only, "damping": 0.005}))
+    wide, _ = tables(config_with({**NOTHING, "damping": 0.01}))
+    all_of_it, _ = tables(config_with({**NOTHING, "damping": 0.005}))
     less = [one.set_index("parameter").loc["damping_torsion"] for one in (wide, all_of_it)]
     assert less[0]["speed_at_less"] == pytest.approx(less[1]["speed_at_less"], rel=1e-6)
     assert less[0]["speed_at_more"] > less[1]["speed_at_more"] > less[1]["speed_at_less"]
+
+
+def test_own_spread_of_each_property_and_of_the_mesh_is_in_the_interval():
+    """Axes lie to either side of mid-chord, where they are, and the mesh is a part of the speed."""
+    own = {"mass_axis": 0.01, "elastic_axis": 0.01, "density": 0.05, "drag": 0.1, "mesh": 0.02}
+    found, stability = tables(config_with({**NOTHING, **own}))
+    varied = found[found["half_range"].notna()].set_index("parameter")
+    speed = stability["speed"][0]
+    assert set(varied.index) == set(own)
+    assert set(varied["source"]) == {"configuration"}
+    for name in ("mass_axis", "elastic_axis"):
+        row = varied.loc[name]
+        ends = np.array([row["speed_at_less"], row["speed_at_more"]]) - speed
+        assert ends[0] * ends[1] < 0.0
+        assert ends[1] - ends[0] == pytest.approx(0.02 * row["sensitivity"], rel=0.1)
+    assert varied.loc["mesh", "lowers"] == pytest.approx(0.02 * speed)
+
+
+def test_slope_at_an_onset_that_the_growth_leaves_open_is_said_to_say_little():
+    found, stability = tables(config_with({**NOTHING, "growth": 0.2}))
+    assert math.isinf(stability["speed_to"][0])
+    assert found["note"].str.contains("0.2 V/c").all()
+    assert found["note"].str.contains("says little").all()
 
 
 def test_of_other_lags_and_polars_nothing_is_known():
@@ -172,6 +212,8 @@ def test_a_given_number_takes_the_place_of_what_is_known():
         ({"moment": 1.5}, "uncertainty.moment"),
         ({"damping": -0.01}, "uncertainty.damping"),
         ({"growth": -1.0}, "uncertainty.growth"),
+        ({"mass": "known"}, "uncertainty.mass"),
+        ({"elastic_axis": 0.6}, "uncertainty.elastic_axis"),
     ],
 )
 def test_a_value_that_is_none_is_told_by_its_key(given: dict[str, Any], named: str):

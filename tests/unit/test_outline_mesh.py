@@ -36,6 +36,7 @@ from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.reading.section_surface import contour_of_outline
 from equisection.solvers.openfoam.section.rigid_section import outline_mesh_of
 from equisection.solvers.openfoam.settings import Settings
+from equisection.study.given_outline import check_outline
 from equisection.study.plan import steady_dimensions
 
 SIZES = OutlineSizes()
@@ -284,14 +285,51 @@ def test_outline_decides_the_mesher() -> None:
     assert "mesher" not in Adapter.from_config(plate, "coarse").settings("2d")
     plate = load_config({**WING, "beam": {}, "structure": {}, "openfoam": {"mesher": "outline"}})
     assert "mesher" in Adapter.from_config(plate, "coarse").settings("2d")
-    assert "mesher" not in Adapter.from_config(plate, "coarse").settings("3d")
+    assert "mesher" in Adapter.from_config(plate, "coarse").settings("3d")
+    blocks = load_config({**WING, "beam": {}, "structure": {}})
+    assert "mesher" not in Adapter.from_config(blocks, "coarse").settings("3d")
+
+
+def test_rigid_beam_of_an_outline_is_run_where_a_model_needs_it() -> None:
+    for models in (["3d"], ["2d", "2d-corrected"]):
+        assert steady_dimensions(load_config({**WING, "sweep": {"models": models}})) == ("2d", "3d")
+    polar = {"steady": {**WING["steady"], "beam_polar": "config/polars/paper_plate_3d.csv"}}
+    config = load_config({**WING, **polar, "sweep": {"models": ["2d", "3d"]}})
+    assert steady_dimensions(config) == ("2d",)
+    free = load_config({**WING, "flow": {"channel": None}, "sweep": {"models": ["3d"]}})
+    assert Adapter.from_config(free, "coarse").settings("3d")["far_field"] == 30.0
+
+
+def test_cambered_outline_is_let_go_at_zero_and_a_symmetric_one_is_not() -> None:
+    """It has a lift there; a symmetric one would stay where it is."""
+    at_zero = {**WING, "flow": {"incidence_deg": 0.0}}
+    cambered = {**at_zero, "beam": {**WING["beam"], "outline": {"naca": "4412"}}}
+    assert load_config(cambered).flow.incidence_deg == 0.0
+    with pytest.raises(ConfigError, match=r"flow\.incidence_deg: 0: .* nothing sets it in motion"):
+        load_config(at_zero)
+    started = {"unsteady": {**WING["unsteady"], "start": {"twist_deg": 1.0}}}
+    assert load_config({**at_zero, **started}).unsteady.start.twist_deg == 1.0
+
+
+def test_symmetry_of_a_file_is_seen_in_its_points(tmp_path: Path) -> None:
+    at_zero = {**WING, "flow": {"incidence_deg": 0.0}}
+    for camber, is_refused in ((0.0, True), (0.05, False)):
+        corners = [(0, 0), (0.5, -0.1 + camber), (1, 0), (0.5, 0.1 + camber)]
+        path = tmp_path / f"{camber}.csv"
+        path.write_text("\n".join(f"{x},{y}" for x, y in corners))
+        config = load_config({**at_zero, "beam": {**WING["beam"], "outline": {"file": path.name}}})
+        if not is_refused:
+            check_outline(config, tmp_path)
+            continue
+        with pytest.raises(ConfigError, match=r"flow\.incidence_deg: 0: .* nothing sets it in"):
+            check_outline(config, tmp_path)
 
 
 def test_beam_of_an_outline_is_not_taken_for_a_rectangle(tmp_path: Path) -> None:
     geometry = GEOMETRY.model_copy(update={"outline": SHAPES["airfoil"].as_pairs()})
     case = STEADY.model_copy(update={"geometry": geometry, "dimension": "3d"})
     solver = Adapter(Settings("coarse", 2))
-    with pytest.raises(SolverError, match="mesh of the beam is that of a rectangle"):
+    with pytest.raises(SolverError, match="the case has an outline and no mesher of outlines"):
         solver.plate_grid(case, tmp_path)
 
 
@@ -319,8 +357,14 @@ def test_far_field_takes_the_place_of_the_channel() -> None:
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"sweep": {"models": ["2d", "3d"]}}, "allowed with beam.outline is 2d"),
-        ({"sweep": {"models": ["2d", "2d-corrected"]}}, "models without correction"),
+        (
+            {"sweep": {"models": ["2d", "3d"]}, "flow": {"root_on_wall": False}},
+            "flow.root_on_wall: false: allowed is true",
+        ),
+        (
+            {"sweep": {"models": ["2d-corrected"]}, "flow": {"root_on_wall": False}},
+            "flow.root_on_wall: false: allowed is true",
+        ),
         ({"openfoam": {"mesh_motion": "overset"}}, "allowed is morph with beam.outline"),
         ({"openfoam": {"meshes": {"coarse": "finest"}}}, "allowed are coarse, medium, fine"),
     ],

@@ -47,9 +47,9 @@ if TYPE_CHECKING:
     from equisection.beam.beam import Beam
     from equisection.beam.section import Section
     from equisection.errors import EquisectionError
-    from equisection.motion.map_dataset import stability_map
     from equisection.motion.stability import critical_speed, stability
     from equisection.reduction.beam_section import reduce
+    from equisection.solvers.embedded.map_of_any_body import stability_map
     from equisection.solvers.embedded.section_release import release
     from equisection.solvers.given.recorded_release import read_history
 else:
@@ -66,7 +66,7 @@ else:
         "reduce": "reduction.beam_section",
         "release": "solvers.embedded.section_release",
         "stability": "motion.stability",
-        "stability_map": "motion.map_dataset",
+        "stability_map": "solvers.embedded.map_of_any_body",
     }
 
     def __getattr__(name: str) -> object:

@@ -23,6 +23,7 @@ MODULES = (
     "foamlib",
     "matplotlib",
     "rich",
+    "shtab",
     "pygments",
     "jinja2",
 )

@@ -364,10 +364,12 @@ def stability_table_of_map():
 
 
 def in_use_of_map():
-    """Return the table of what the models are like at the design speed, if the run has one."""
+    """Return the tables of the models at the design speed, if the run has one."""
     if not plan.has_stability_map(CONFIG) or CONFIG.flow.design_speed is None:
         return {}
-    return {"in_use": f"{RESULTS}/comparison/in_use.csv"}
+    return {
+        name: f"{RESULTS}/comparison/{name}.csv" for name in ("in_use", "reactions")
+    }
 
 
 def structure_of_map():

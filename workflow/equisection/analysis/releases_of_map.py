@@ -17,6 +17,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from equisection.analysis.loads_in_use import is_there, loads_at_rest
 from equisection.analysis.mapped_models import MappedModel
 from equisection.config import Config
 from equisection.motion.body_in_flow import BodyInFlow
@@ -167,17 +168,18 @@ def _at_divergence(verdicts: dict[str, dict[str, Any]], line: MapLine) -> str:
 def in_use(models: Sequence[MappedModel], config: Config) -> pd.DataFrame:
     """Return ``comparison/in_use.csv``: each model at the design speed, incidence by incidence.
 
-    Static twist (deg) and deflection (m) of the tip, root bending moment (N m, that lifts the
-    beam) and root torque (N m, nose up, about the elastic axis) of a cantilever by the static loads
-    of the air alone, damping ratio and frequency of the least damped of the first two modes of
-    each kind, share of the speed of divergence, and the regime after a release from 3 deg beyond
-    equilibrium with the amplitude of the tip's twist (deg) if it is a limit cycle.
+    Static twist (deg) and deflection (m) of the tip; by the static loads of the air alone the
+    bending moment (N m, that lifts the tip) and the torque (N m, nose up, about the elastic axis)
+    at the root, and the largest along the span with their places z/L; damping ratio and frequency
+    of the least damped of the first two modes of each kind, share of the speed of divergence, and
+    the regime after a release from 3 deg beyond equilibrium with the amplitude of the tip's twist
+    (deg) if it is a limit cycle.
     """
     design = config.flow.design_speed
     assert design is not None, "the plan asks for it with a design speed alone"
     rows = []
     for model in models:
-        there = [line for line in model.lines if _is_there(line, design)]
+        there = [line for line in model.lines if is_there(line, design)]
         verdicts = released([MapRelease(line, design, LARGE_DEG) for line in there], config)
         of_line = dict(zip(map(id, there), verdicts, strict=True))
         rows += [
@@ -185,10 +187,6 @@ def in_use(models: Sequence[MappedModel], config: Config) -> pd.DataFrame:
             for line in model.lines
         ]
     return pd.DataFrame(rows)
-
-
-def _is_there(line: MapLine, speed: float) -> bool:
-    return line.exists and speed < line.path.end_speed and speed <= line.highest
 
 
 def _at_design(
@@ -202,27 +200,33 @@ def _at_design(
         "tip_deflection_m": nan,
         "root_bending_moment_nm": nan,
         "root_torque_nm": nan,
+        "largest_bending_moment_nm": nan,
+        "bending_moment_at": nan,
+        "largest_torque_nm": nan,
+        "torque_at": nan,
         "share_of_divergence_speed": speed / critical_of(line).divergence_speed,
         "damping_ratio": nan,
         "frequency_hz": nan,
         "regime": "",
         "cycle_twist_deg": nan,
-        "note": "no equilibrium at this speed",
+        "note": _absence(line, speed),
     }
     if verdict is None:
-        if line.exists and speed < line.path.end_speed:
-            row["note"] = f"above {line.highest:.4g} m/s, the highest speed that was looked at"
         return row
     system, states, deficits = line.path.system(np.array([speed]))
     twist, deflection = body.tip(states)
     values = Spectrum.of(np.array([speed]), system, states, deficits).values[0]
     p = _least_damped(line, speed, values)
-    moment, torque = root_loads(body, system, states, deficits, speed, config)
+    loads = loads_at_rest(body, system, (states, deficits), config)
     row.update(
         tip_twist_deg=math.degrees(twist[0]),
         tip_deflection_m=float(deflection[0]) * body.chord,
-        root_bending_moment_nm=moment,
-        root_torque_nm=torque,
+        root_bending_moment_nm=loads.bending_moment,
+        root_torque_nm=loads.torque,
+        largest_bending_moment_nm=loads.largest_bending_moment,
+        bending_moment_at=loads.bending_moment_at,
+        largest_torque_nm=loads.largest_torque,
+        torque_at=loads.torque_at,
         damping_ratio=-p.real / abs(p),
         frequency_hz=p.imag / math.tau * speed / body.chord,
         regime=str(verdict["regime"]),
@@ -232,6 +236,13 @@ def _at_design(
         note=str(verdict["reason"]),
     )
     return row
+
+
+def _absence(line: MapLine, speed: float) -> str:
+    """Say why nothing is known of a body at a speed (m/s)."""
+    if line.exists and speed < line.path.end_speed:
+        return f"above {line.highest:.4g} m/s, the highest speed that was looked at"
+    return f"no equilibrium at this speed: {critical_of(line).note}"
 
 
 def _least_damped(line: MapLine, speed: float, values: Complexes) -> complex:
@@ -244,36 +255,6 @@ def _least_damped(line: MapLine, speed: float, values: Complexes) -> complex:
     ]
     found = [complex(values[np.abs(values - guess).argmin()]) for guess in near]
     return max(found, key=lambda p: p.real / abs(p))
-
-
-def root_loads(  # noqa: PLR0917 - a state, its speed and its beam
-    body: BodyInFlow,
-    system: StripSystem,
-    states: Floats,
-    deficits: Floats,
-    speed: float,
-    config: Config,
-) -> tuple[float, float]:
-    """Return bending moment and torque (N m) at the root of a cantilever in equilibrium.
-
-    The loads of the strips are summed along the span: statics, whatever the modes. The section of
-    a beam has them all along it. NaN of a beam held elsewhere too.
-    """
-    beam = config.beam
-    if beam.boundary != "clamped-free" or beam.supports:
-        return math.nan, math.nan
-    columns = np.concatenate([states, deficits, np.ones((1, 1))], axis=1)[0]
-    strips = system.layout.strips
-    pressure = 0.5 * config.flow.density * speed**2
-    weights = system.structure.weights
-    lift = system.structure.lift_factor[0] * (system.strip_loads[0, :strips] @ columns)
-    torque = system.axis_moments[0] @ columns
-    place = np.full(1, 0.5) if body.is_section else np.cumsum(weights) - 0.5 * weights
-    force = pressure * body.chord * beam.length
-    return (
-        float(force * beam.length * (weights @ (lift * place))),
-        float(force * body.chord * (weights @ torque)),
-    )
 
 
 def released(releases: Sequence[MapRelease], config: Config) -> list[dict[str, Any]]:

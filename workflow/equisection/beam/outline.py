@@ -38,6 +38,8 @@ _LIKE_CHORD = 1.25
 #: Angle of the fluid in a notch (deg) below which it has no layers of cells, and the radius
 #: (chords) of the disc that does not enter it.
 NARROWEST_NOTCH_DEG, _NOTCH_RADIUS = 70.0, 0.008
+#: Distance (chords) within which the mirror image of a vertex is on the contour of a symmetric one.
+_SYMMETRIC = 1e-4
 #: Digits of a coordinate that count, the same on every machine.
 _DIGITS = 9
 #: Polynomial of a four-digit section's half thickness over sqrt(x) and x to x^4, times t/0.2, with
@@ -71,6 +73,16 @@ class Outline:
     def area(self) -> float:
         """Area inside (chords squared)."""
         return signed_area(self.points)
+
+    @property
+    def is_symmetric(self) -> bool:
+        """Tell whether the line y = 0, through the axis, parts it in two mirror images."""
+        mirrored = self.points * (1.0, -1.0)
+        edge = np.roll(self.points, -1, axis=0) - self.points
+        apart = mirrored[:, None, :] - self.points
+        part = np.clip((apart * edge).sum(axis=-1) / (edge**2).sum(axis=-1), 0.0, 1.0)
+        distance = np.hypot(*np.moveaxis(apart - part[..., None] * edge, -1, 0))
+        return bool(distance.min(axis=1).max() < _SYMMETRIC)
 
     def as_pairs(self) -> tuple[tuple[float, float], ...]:
         """Return the vertices as a case holds them."""

@@ -75,6 +75,11 @@ class OutlineKeys(KeyGroup):
         there = {"rectangle": self.rectangle is not None, "naca": self.naca, "file": self.file}
         return tuple(key for key, is_there in there.items() if is_there)
 
+    @property
+    def is_symmetric(self) -> bool:
+        """Tell whether it is symmetric about the chord for certain; that in a file may be."""
+        return not self.file and not (self.naca and not self.naca.startswith("00"))
+
     def outline(
         self, chord: float, thickness: float, elastic_axis: float, directory: Path = Path()
     ) -> Outline:

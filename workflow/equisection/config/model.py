@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, model_validator
 
+from equisection.beam.outline_keys import OutlineKeys
 from equisection.config.groups import (
     BY_SUPPORTS,
     FREE_TIP,
@@ -250,29 +251,52 @@ def _set_in_motion(
     start: StartKeys,
 ) -> Iterator[Problem]:
     """Refuse a release from an equilibrium, after which anything looks stable."""
-    if solver == "given":  # whatever moved it is in its record
+    if solver == "embedded" and symmetric and not start.is_given:
+        yield from release_from_equilibrium(incidence_deg, of_sweep)
+
+
+@check("flow.incidence_deg", "sweep.incidence_deg", "beam.outline", "solver", "unsteady.start")
+def _set_in_motion_by_a_flow(
+    incidence_deg: float,
+    of_sweep: tuple[float, ...],
+    outline: OutlineKeys | None,
+    solver: str,
+    start: StartKeys,
+) -> Iterator[Problem]:
+    """Refuse the same where the loads are those of the shape in the flow.
+
+    Of an outline in a file that is known once it is read (:mod:`equisection.study.given_outline`).
+    """
+    if solver in ("embedded", "given") or start.is_given:  # a record has what moved it
         return
-    if of_sweep:
-        yield from _set_in_motion_at(of_sweep, symmetric, solver, start)
-    elif incidence_deg == 0 and (symmetric or solver != "embedded") and not start.is_given:
+    if outline is None or outline.is_symmetric:
+        yield from release_from_equilibrium(incidence_deg, of_sweep)
+
+
+def release_from_equilibrium(
+    incidence_deg: float, of_sweep: tuple[float, ...]
+) -> Iterator[Problem]:
+    """Yield the problem of a symmetric section that is let go at 0 deg, without a start.
+
+    Parameters
+    ----------
+    incidence_deg, of_sweep
+        ``flow.incidence_deg``, and ``sweep.incidence_deg``, which takes its place if there are any.
+    """
+    if 0.0 in of_sweep:
+        yield Problem(
+            f"sweep.incidence_deg.{of_sweep.index(0.0)}",
+            0.0,
+            "allowed is 0 with unsteady.start.twist_deg, such as 0.1: a symmetric section has no "
+            "loads at 0 deg, so nothing sets it in motion and its runs would say nothing",
+        )
+    elif incidence_deg == 0 and not of_sweep:
         yield Problem(
             "flow.incidence_deg",
             incidence_deg,
             "allowed is 0 with unsteady.start.twist_deg, or any other, such as 0.1: a symmetric "
             "section has no loads at 0 deg, so nothing sets it in motion and the sweep would say "
             "nothing of its stability",
-        )
-
-
-def _set_in_motion_at(
-    incidences_deg: tuple[float, ...], symmetric: bool, solver: str, start: StartKeys
-) -> Iterator[Problem]:
-    if 0.0 in incidences_deg and (symmetric or solver != "embedded") and not start.is_given:
-        yield Problem(
-            f"sweep.incidence_deg.{incidences_deg.index(0.0)}",
-            0.0,
-            "allowed is 0 with unsteady.start.twist_deg, such as 0.1: a symmetric section has no "
-            "loads at 0 deg, so nothing sets it in motion and its runs would say nothing",
         )
 
 

@@ -342,8 +342,8 @@ CATALOGUE = (
     ),
     Entry(
         "critical-speed",
-        "critical speed over incidence",
-        _MAP,
+        "critical speed over incidence, with its interval",
+        {**_MAP, "stability": "comparison/stability.csv"},
         _DESIGN,
         exists=plan.has_stability_map,
         drawn_with=_OF_MAP,

@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 #: Half widths of the detail of the plate and of that of its leading edge (chords).
 PLATE, LEADING_EDGE = np.array([0.75, 0.5]), np.array([0.09, 0.06])
-#: Distance within which points are on the plate (chords).
+#: Distance within which points are on a wall of the channel, and an edge is upright (chords).
 ON_PLATE = 1e-6
 
 
@@ -66,7 +66,7 @@ def draw(grid: xr.Dataset, method: str, elements: tuple[int, int, int]) -> Figur
         say(panels["a"], "The modes are in closed form: the solid has no mesh.")
     else:
         _from_above(panels["a"], along_span, along_chord, corner)
-    on_plate = _on_upper_side(points, incidence, float(grid.attrs["thickness"]))
+    on_plate = _on_upper_side(points, grid["corners"].values, incidence)
     _from_above(panels["b"], levels, on_plate, corner)
     panels["b"].axvline(span, color=BLACK, linewidth=0.8)
     lines = points[edges(grid["corners"].values)]
@@ -95,13 +95,26 @@ def _from_above(axes: Axes, z: Floats, x: Floats, corner: Floats) -> None:
     axes.set(xlabel="$z/c$", ylabel="$x/c$")
 
 
-def _on_upper_side(points: Floats, incidence: float, thickness: float) -> Floats:
-    """Return x/c from the leading edge of the mesh's points on the plate's upper side."""
+def _on_upper_side(points: Floats, corners: NDArray[np.int64], incidence: float) -> Floats:
+    """Return x/c from the leading edge of the mesh's points on the body's upper side.
+
+    The body is the hole that the cells leave: an edge on it is of one cell, as those of the
+    channel's walls are, and has that cell above it on the upper side.
+    """
     cosine, sine = math.cos(incidence), math.sin(incidence)
-    x = points @ np.array([cosine, -sine])
-    y = points @ np.array([sine, cosine])
-    there = (np.abs(y - 0.5 * thickness) < ON_PLATE) & (np.abs(x) < 0.5 + ON_PLATE)
-    return np.sort(x[there]) + 0.5
+    x, y = (points @ np.array(axis) for axis in ((cosine, -sine), (sine, cosine)))
+    ends = np.stack([corners, np.roll(corners, -1, axis=1)], axis=-1).reshape(-1, 2)
+    cell = np.repeat(np.arange(len(corners)), corners.shape[1])
+    real = ends[:, 0] != ends[:, 1]
+    ends, cell = ends[real], cell[real]
+    _, first, count = np.unique(
+        np.sort(ends, axis=1), axis=0, return_index=True, return_counts=True
+    )
+    ends, cell = ends[first[count == 1]], cell[first[count == 1]]
+    along, up = np.ptp(x[ends], axis=1), y[corners[cell]].mean(axis=1) - y[ends].mean(axis=1)
+    box = np.abs(points[:, None, :] - [points.min(axis=0), points.max(axis=0)]) < ON_PLATE
+    on_body = ~box.any(axis=(1, 2))[ends].any(axis=1)
+    return np.unique(x[ends[on_body & (along > ON_PLATE) & (up > 0)]]) + 0.5
 
 
 def _in_words(method: str, elements: tuple[int, int, int]) -> str:

@@ -52,7 +52,7 @@ class Side:
     Attributes
     ----------
     z, x : (n,), (m,) array
-        z/c and x/c.
+        z/c, and x/c or the arc length of an outline.
     pressure, friction, spanwise_friction : (m, n) array
         c_p, and c_f along the chord and along the span.
     """
@@ -64,14 +64,17 @@ class Side:
     spanwise_friction: Floats
 
 
-def on_grid(faces: PlateSurface) -> Side:
-    """Interpolate the faces of one side linearly; beyond their middles nothing changes."""
-    span = float(faces.area.sum())  # over a chord of 1
-    z, x = _middles(span), _middles(1.0)
-    grid = np.meshgrid(_within(z, faces.z), _within(x, faces.x))
+def on_grid(faces: PlateSurface, span: float) -> Side:
+    """Interpolate the faces of one side linearly; beyond their middles nothing changes.
+
+    Those of an outline that is no rectangle are laid out along their arc length.
+    """
+    x = _middles(float(faces.along_side.max())) if faces.has_outline else _middles(1.0)
+    z = _middles(span)
+    grid = np.meshgrid(_within(z, faces.z), _within(x, faces.along_side))
     values = np.stack([faces.pressure, faces.friction, faces.spanwise_friction], axis=-1)
     there = scipy.interpolate.griddata(
-        np.stack([faces.z, faces.x], axis=-1), values, tuple(grid), method="linear"
+        np.stack([faces.z, faces.along_side], axis=-1), values, tuple(grid), method="linear"
     )
     return Side(z, x, there[..., 0], there[..., 1], there[..., 2])
 
@@ -133,9 +136,10 @@ def draw(surfaces: Mapping[float, ShownSurface], missing: Sequence[str], source:
             if name == "suction":
                 title += f": bubble {shown.surface.reattachment(side)[1][0]:.2f} c"
             letter(axes, "abcdefgh"[2 * row + column], title)
-            _map(axes, on_grid(shown.surface.on(side)), scale)
+            _map(axes, on_grid(shown.surface.on(side), shown.surface.span), scale)
             axes.set_xlabel("$z/c$" if row == len(surfaces) - 1 else "")
-            axes.set_ylabel("$x/c$" if column == 0 else "")
+            along = "$s/c$" if shown.surface.has_outline else "$x/c$"
+            axes.set_ylabel(along if column == 0 else "")
     if surfaces:
         _explain(figure, panels, scale)
     methods = [f"{angle:g} deg: {shown.method}" for angle, shown in surfaces.items()]
@@ -177,7 +181,7 @@ def _map(axes: Axes, side: Side, scale: Normalize) -> None:
     if side.friction.min() < 0.0 < side.friction.max():
         axes.contour(side.z, side.x, side.friction, levels=[0.0], colors=VERMILLION, linewidths=0.8)
     # seen from above, the stream comes from the top of the panel
-    axes.set(xlim=(0.0, side.z[-1] + side.z[0]), ylim=(1.0, 0.0))
+    axes.set(xlim=(0.0, side.z[-1] + side.z[0]), ylim=(side.x[-1] + side.x[0], 0.0))
     axes.set_aspect("equal")
     axes.grid(visible=False)
 

@@ -115,8 +115,9 @@ def _without_crossing(line: MapLine, fold: float, notes: list[str]) -> Critical:
             f"stable up to {last:.4g} m/s, where the equilibrium leaves the polar ({least:.4g} to "
             f"{greatest:.4g} deg): extend it"
         )
+        notes += _jumps_in_words(line, last)
         return Critical(speed_low=last, note="; ".join(notes))
-    notes.append(f"stable up to {highest:.4g} m/s")
+    notes += [f"stable up to {highest:.4g} m/s", *_jumps_in_words(line, last)]
     return Critical(speed_low=highest, critical_mechanism="none", note="; ".join(notes))
 
 

@@ -9,14 +9,8 @@ from typing import Any
 
 import numpy as np
 import xarray as xr
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from equisection.aerodynamics.polar import Polar
-from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
-from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
-from equisection.beam.section import Section
-from equisection.conventions import STANDARD_AIR
-from equisection.errors import ArgumentError
 from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.critical import Critical, critical_of
 from equisection.motion.equilibrium_path import SectionPath, systems_of_sections
@@ -25,61 +19,6 @@ from equisection.motion.stability_map import MapLine, map_lines
 from equisection.motion.static_branch import BranchEnd
 
 Floats = NDArray[np.float64]
-
-
-def stability_map(
-    section: Section,
-    polar: Polar,
-    *,
-    incidence_deg: ArrayLike,
-    speed: ArrayLike,
-    density: float = STANDARD_AIR,
-    lags: SeparationLags = IDENTIFIED_LAGS,
-) -> xr.Dataset:
-    """Stability of a section over incidence and speed, mode by mode, with its critical speeds.
-
-    Beyond :func:`equisection.motion.stability.stability` its modes are followed from near vacuum,
-    the critical speed at each incidence comes with its mechanism and its motion, and what one has
-    to know of it (a band of instability that ends, an incidence beyond the polar) is in ``note``.
-
-    Parameters
-    ----------
-    section
-        The section (SI).
-    polar
-        Steady coefficients of the section.
-    incidence_deg
-        Rigid incidences theta_0 (deg).
-    speed
-        Two speeds V (m/s) or more, rising; an onset is looked for up to the last.
-    density
-        Density of the fluid rho (kg/m^3); by default that of air at sea level.
-    lags
-        Lags of the separation bubble, by default those of a thin plate with sharp edges.
-
-    Returns
-    -------
-    xarray.Dataset
-        Over ``incidence_deg``, ``speed`` and ``mode``; every variable has units and a long name.
-
-    Raises
-    ------
-    ArgumentError
-        An incidence is not finite, the speeds do not rise from above 0, or the density is not
-        positive.
-    """
-    angles = np.atleast_1d(np.asarray(incidence_deg, dtype=np.float64))
-    speeds = np.atleast_1d(np.asarray(speed, dtype=np.float64))
-    if angles.ndim > 1 or not angles.size or not np.isfinite(angles).all():
-        raise ArgumentError(f"incidence_deg is {incidence_deg!r}; wanted finite numbers (deg)")
-    rises = speeds.ndim == 1 and speeds.size > 1 and bool((np.diff(speeds) > 0.0).all())
-    if not (rises and speeds[0] > 0.0 and np.isfinite(speeds).all()):
-        raise ArgumentError(f"speed is {speed!r}; wanted two rising numbers above 0 (m/s) or more")
-    if not density > 0.0:
-        raise ArgumentError(f"density is {density!r}; wanted a number above 0 (kg/m3)")
-    body = BodyInFlow.of_section(section, UnsteadyLoads.from_polar(polar, lags), density)
-    data = map_of_body(body, list(angles), list(speeds))
-    return data.assign_attrs(density=density, density_units="kg m-3")
 
 
 def map_of_body(

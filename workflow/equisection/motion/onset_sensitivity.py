@@ -171,6 +171,48 @@ class FollowedOnset:
             speed = following
         return self._of_a_map(body)
 
+    def speed_of(self, other: BodyInFlow) -> float:
+        """Return the critical speed (m/s) of the same beam on other strips or with other modes.
+
+        Its states are others, so that the motion of the onset is looked for by its eigenvalue: the
+        nearest one. Values beyond the range are those of :meth:`speed_with`.
+        """
+        if self.is_fold:
+            return self._fold_of(other)
+        assert self._spectrum is not None, "a fold has no vectors"
+        near = complex(self._spectrum.values[0, self._place])
+        speed, slope = self.speed, self.growth_by_speed
+        earlier: tuple[float, float] | None = None
+        for _ in range(MOST_STEPS):
+            if not self.speed / FURTHEST < speed < FURTHEST * self.speed:
+                break
+            spectrum = self._spectrum_of_other(other, speed)
+            if not spectrum.exists[0]:
+                break
+            place = int(np.abs(spectrum.values[0] - near).argmin())
+            near = complex(spectrum.values[0, place])
+            if earlier is not None and speed != earlier[0]:
+                slope = (near.real - earlier[1]) / (speed - earlier[0])
+            if slope <= 0.0:
+                break
+            earlier, following = (speed, near.real), speed - near.real / slope
+            if abs(following - speed) < NEAR * speed:
+                if np.delete(spectrum.values[0].real, _pair(spectrum, place)).max() > GROWS:
+                    break
+                return following
+            speed = following
+        return self._of_a_map(other)
+
+    def _spectrum_of_other(self, other: BodyInFlow, speed: float) -> Spectrum:
+        """Motions of a body on other strips about its equilibrium near that of the line."""
+        at, path = np.array([speed]), self.line.path
+        if not isinstance(path, BeamPath):
+            return self._spectrum_of(other, speed)
+        here, there = _middles(self.line.body), _middles(other)
+        near = np.interp(there, here, path.incidences_near(at)[0])[None]
+        system = other.system(at, np.full(1, self.line.incidence_rad))
+        return Spectrum.of(at, system, *equilibrium(system, near))
+
     def _most_like(self, spectrum: Spectrum) -> int | None:
         """Return the place of the motion of the onset among others; None where it is not clear."""
         if not spectrum.exists[0]:
@@ -214,6 +256,12 @@ class FollowedOnset:
         low = _between(speed, values, int(below[-1]), -growth) if below.size else 0.0
         high = _between(speed, values, int(above[0]) - 1, growth) if above.size else math.inf
         return low, high
+
+
+def _middles(body: BodyInFlow) -> Floats:
+    """Return the middles z/L of the strips."""
+    weights = body.structure.weights
+    return np.asarray(np.cumsum(weights) - 0.5 * weights)
 
 
 def _between(speed: Floats, values: Floats, place: int, wanted: float) -> float:

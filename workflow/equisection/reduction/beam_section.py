@@ -5,14 +5,14 @@ from __future__ import annotations
 import warnings
 from typing import Literal
 
-from equisection.beam.beam import MID_CHORD, Beam
+from equisection.beam.beam import Beam
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
-from equisection.errors import ModesError, ReductionError
+from equisection.errors import ReductionError
 from equisection.reduction.flutter_bias import flutter_bias, refusal, unlike
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import Reduction, reduce_beam, validity_warnings
-from equisection.structure.modes import modes_of_kinds
+from equisection.structure.modes import modes_of_kinds, require_method
 from equisection.structure.warping import warping_warnings
 
 #: Modes that are computed at least; with those of the chord's plane among them.
@@ -58,21 +58,7 @@ def reduce(
         The beam has no equivalent section: nothing restrains it, or the section would flutter at a
         speed that is 15 % or more off the beam's.
     """
-    if method != "beam" and beam.has_fittings:
-        raise ModesError(
-            f"method is {method!r}, which holds a beam at its ends alone, and the beam has "
-            "supports or lumps along its span; give method='beam'"
-        )
-    if method == "solid" and beam.cross_section is not None:
-        raise ModesError(
-            "method is 'solid', which meshes a homogeneous plate, and the beam has a "
-            "cross_section; give method='beam' or 'analytic'"
-        )
-    if method == "solid" and (beam.elastic_axis, beam.mass_axis) != (MID_CHORD, MID_CHORD):
-        raise ModesError(
-            "method is 'solid', which meshes a homogeneous plate, and the beam has its "
-            f"{beam.axes_in_words}; give method='beam' or 'analytic'"
-        )
+    require_method(beam, method)
     modes = modes_of_kinds(beam, method, elements, (1, 1), COUNT)
     section = reduce_beam(beam, modes, reduction)
     compared = flutter_bias(section, beam, modes, density)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 import xarray as xr
@@ -21,6 +21,7 @@ Floats = NDArray[np.float64]
 
 #: Distance along the span within which faces are in one layer (chords).
 _SAME_LAYER = 1e-5
+_NOTHING = np.empty(0)
 
 #: Outward normals of the sides (x, y, z).
 NORMALS = {
@@ -55,6 +56,13 @@ class PlateSurface:
         :data:`SPANWISE`.
     y_plus
         y+ of the middle of the first cell.
+    normal_x, normal_y
+        Outward normal of the face, of an outline that is no rectangle; empty for one, whose sides
+        have theirs, and 0 on the tip. The outline's sides are the upper and the lower one, as in
+        2D, and friction is positive along them.
+    arc
+        Arc length (chords) from the foremost point of the contour along the side to the face, of
+        such an outline; x on the tip.
     """
 
     x: Floats
@@ -66,6 +74,29 @@ class PlateSurface:
     friction: Floats
     spanwise_friction: Floats
     y_plus: Floats
+    normal_x: Floats = field(default_factory=lambda: _NOTHING)
+    normal_y: Floats = field(default_factory=lambda: _NOTHING)
+    arc: Floats = field(default_factory=lambda: _NOTHING)
+
+    @property
+    def has_outline(self) -> bool:
+        """Tell whether the section is of an outline that is no rectangle."""
+        return bool(self.arc.size)
+
+    @property
+    def along_side(self) -> Floats:
+        """Place along the side: x/c, or the arc length of an outline, shape (n,)."""
+        return self.arc if self.has_outline else self.x
+
+    @property
+    def span(self) -> float:
+        """L/c, from the faces of the upper side, of which there are from root to tip."""
+        upper = self.on("upper")
+        if not self.has_outline:
+            return float(upper.area.sum())  # over a chord of 1
+        middles = np.array([upper.z[layer].mean() for layer in _layers(upper.z)])
+        # each layer is as far from its middle to one edge as to the other
+        return float(2 * np.abs((middles * (-1.0) ** np.arange(middles.size)).sum()))
 
     def variables(self) -> dict[str, tuple[str, NDArray[np.generic], dict[str, str]]]:
         """Return the variables that are written to file, over ``face``, in single precision."""
@@ -80,10 +111,13 @@ class PlateSurface:
             "cf": f"friction coefficient along the section, {along}",
             "cf_span": f"friction coefficient along the span, {spanwise}",
             "y_plus": "y+ of the middle of the first cell",
+            "normal_x": "outward normal, along the chord",
+            "normal_y": "outward normal, across the chord",
+            "arc": "arc length over the chord from the foremost point of the contour",
         }
         numbers = {
-            name: ("face", getattr(self, field).astype(np.float32), _says(texts[name]))
-            for name, field in _FIELDS.items()
+            name: ("face", getattr(self, member).astype(np.float32), _says(texts[name]))
+            for name, member in {**_FIELDS, **(_OF_OUTLINE if self.has_outline else {})}.items()
         }
         sides = _says(f"side of the plate: {', '.join(NORMALS)}")
         return {**numbers, "side": ("face", self.side, sides)}
@@ -94,7 +128,8 @@ class PlateSurface:
 
     def taken(self, which: NDArray[np.generic]) -> PlateSurface:
         """Return some of the faces, or all in another order, by mask or numbers."""
-        return PlateSurface(*(getattr(self, field.name)[which] for field in fields(self)))
+        values = {one.name: getattr(self, one.name) for one in fields(self)}
+        return PlateSurface(**{name: v[which] if v.size else v for name, v in values.items()})
 
     def reattachment(self, side: str) -> tuple[Floats, Floats]:
         """Return z/c of the layers of faces from the root, and x/c of the bubble's end in each.
@@ -103,8 +138,7 @@ class PlateSurface:
         (:func:`surface.reattachment`).
         """
         faces = self.on(side)
-        ends = np.append(np.flatnonzero(np.diff(faces.z) > _SAME_LAYER) + 1, faces.z.size)
-        layers = [slice(*pair) for pair in itertools.pairwise([0, *ends])]
+        layers = _layers(faces.z)
         bubble = [
             surface.reattachment(faces.x[layer], faces.area[layer], faces.friction[layer])
             for layer in layers
@@ -114,31 +148,52 @@ class PlateSurface:
     def loads(self, incidence_deg: float) -> tuple[float, float, float]:
         """Return C_D, C_L and C_M about mid-chord, nose up, summed over the faces (Eq. 22).
 
-        The traction on a face is -c_p n + c_f t; the span is that of the upper side.
+        The traction on a face is -c_p n + c_f t.
+        """
+        normal, along, spanwise = self.directions()
+        traction = self.friction[:, None] * along + self.spanwise_friction[:, None] * spanwise
+        force = (traction - self.pressure[:, None] * normal) * self.area[:, None]
+        moment = self.y * force[:, 0] - (self.x - 0.5) * force[:, 1]
+        span = self.span
+        along_chord, across = force[:, :2].sum(axis=0) / span
+        turning = float(moment.sum() / span)
+        return surface.in_stream(float(along_chord), float(across), turning, incidence_deg)
+
+    def directions(self) -> tuple[Floats, Floats, Floats]:
+        """Return outward normal, and directions of positive friction, of each face, (n, 3).
+
+        On the upper side of an outline friction along the section is positive a quarter turn
+        clockwise from the normal.
         """
         normal, along, spanwise = (
             np.array([directions[str(side)] for side in self.side])
             for directions in (NORMALS, ALONG, SPANWISE)
         )
-        traction = self.friction[:, None] * along + self.spanwise_friction[:, None] * spanwise
-        force = (traction - self.pressure[:, None] * normal) * self.area[:, None]
-        moment = self.y * force[:, 0] - (self.x - 0.5) * force[:, 1]
-        span = self.area[self.side == "upper"].sum()
-        along_chord, across = force[:, :2].sum(axis=0) / span
-        turning = float(moment.sum() / span)
-        return surface.in_stream(float(along_chord), float(across), turning, incidence_deg)
+        if self.has_outline:
+            here = self.side != "tip"
+            sense = np.where(self.side == "upper", 1.0, -1.0)[here]
+            x, y = self.normal_x[here], self.normal_y[here]
+            normal[here, :2] = np.stack([x, y], axis=-1)
+            along[here, :2] = sense[:, None] * np.stack([y, -x], axis=-1)
+        return normal, along, spanwise
+
+
+def _layers(z: Floats) -> list[slice]:
+    """Return the layers of faces of one side, from the root to the tip."""
+    ends = np.append(np.flatnonzero(np.diff(z) > _SAME_LAYER) + 1, z.size)
+    return [slice(*pair) for pair in itertools.pairwise([0, *ends])]
 
 
 def joined(pieces: Sequence[PlateSurface]) -> PlateSurface:
-    """Return the faces of all pieces, by side, z, x and y."""
+    """Return the faces of all pieces, by side, z, place along the side and y."""
     whole = PlateSurface(
         *(
-            np.concatenate([getattr(piece, field.name) for piece in pieces])
-            for field in fields(PlateSurface)
+            np.concatenate([getattr(piece, one.name) for piece in pieces])
+            for one in fields(PlateSurface)
         )
     )
     # the z of a layer differs by rounding between pieces
-    return whole.taken(np.lexsort((whole.y, whole.x, whole.z.round(9), whole.side)))
+    return whole.taken(np.lexsort((whole.y, whole.along_side, whole.z.round(9), whole.side)))
 
 
 #: Variables of numbers in a file, and the fields that they hold.
@@ -152,6 +207,7 @@ _FIELDS = {
     "cf_span": "spanwise_friction",
     "y_plus": "y_plus",
 }
+_OF_OUTLINE = {name: name for name in ("normal_x", "normal_y", "arc")}
 
 
 def plate_surface_from_dataset(dataset: xr.Dataset) -> PlateSurface | None:
@@ -165,7 +221,8 @@ def plate_surface_from_dataset(dataset: xr.Dataset) -> PlateSurface | None:
     if "cf_span" not in dataset:
         return None
     side = surface.known_sides(dataset, NORMALS)
-    numbers = {field: dataset[name].values.astype(float) for name, field in _FIELDS.items()}
+    names = {**_FIELDS, **(_OF_OUTLINE if "arc" in dataset else {})}
+    numbers = {field: dataset[name].values.astype(float) for name, field in names.items()}
     return PlateSurface(side=side, **numbers)
 
 

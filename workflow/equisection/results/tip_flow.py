@@ -30,9 +30,9 @@ class TipFlow:
     turbulence : (p, m, n) array
         Turbulent kinetic energy k/V^2; NaN as the velocity is.
     chord_line : (p, n) array
-        y/c of the plate's chord line; NaN where there is no plate.
+        y/c of the plate's chord line, or the middle of another body; NaN where there is none.
     span, thickness
-        L/c and h/c.
+        L/c, and the thickness of the body in the planes over the chord.
     state
         State of the plate that the flow is of, in words.
     """

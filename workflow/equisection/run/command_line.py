@@ -1,6 +1,7 @@
-"""The command ``equisection``: questions about a run at a terminal.
+"""The command ``equisection``: a configuration to start from, a run, and questions about it.
 
-The workflow itself is started with ``snakemake``; this command reads the files of its runs.
+The workflow itself is that of ``snakemake``, which ``equisection run`` starts; the other commands
+read the files of its runs.
 """
 
 from __future__ import annotations
@@ -8,19 +9,25 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import equisection
-from equisection.errors import EquisectionError
+from equisection.errors import ConfigError, EquisectionError
 
 if TYPE_CHECKING:  # what a command needs is imported there, so that --help comes at once
     from equisection.config import Config
 
+#: What a beam may be like; ``run/starter.py`` has the examples.
+LIKE = ("tracker", "bridge", "wing", "panel", "plate")
+
 _EXAMPLES = """\
 examples:
-  snakemake --cores 2                    run the workflow (config/config.yaml)
+  equisection init my-row --like tracker write a configuration to start from, my-row.yaml
+  equisection run my-row.yaml            run it; the same as snakemake --configfile my-row.yaml
+  equisection onset results/my-row       its critical speed, by what, and how sure
+  equisection show results/my-row        its figures
   equisection status                     how far the runs in results/ are
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
@@ -41,38 +48,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
         parser.print_help()
         return 0
     try:
-        if options.command == "folder":
-            print(Path("results") / _config(options.configfile).run)
-        elif options.command == "check":
-            _check(options.configfile)
-        elif options.command == "cost":
-            _cost(options.configfile)
-        elif options.command == "polar":
-            print(_polar(options.results, options.format), end="")
-        elif options.command == "keep":
-            _keep(options.run_folder, options.folder)
-        elif options.command == "seal":
-            return 0 if _seal(options.place) else 1
-        elif options.command == "cost-model":
-            _cost_model(options.folder, options.write)
-        elif options.command == "verify":
-            return 0 if _verify(options.folder) else 1
-        else:
-            _status(options.run_folder, options.plain, options.html)
+        return _COMMANDS[options.command](options) or 0
     except EquisectionError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return 130
     except BrokenPipeError:  # the reader of a pipe has seen enough
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 0
+        return 0
 
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="equisection",
         description="A flexible beam in a flow, its equivalent two-dimensional section, and "
-        "where they go unstable. The workflow is started with snakemake; this command tells "
-        "how far it is.",
+        "where they go unstable. This command starts the workflow, which is one of snakemake, says "
+        "how far it is, and what came out.",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
@@ -80,6 +72,8 @@ def _parser() -> argparse.ArgumentParser:
         "--version", action="version", version=f"equisection {equisection.__version__}"
     )
     commands = parser.add_subparsers(dest="command", title="commands", metavar="COMMAND")
+    _add_start(commands)
+    _add_answers(commands)
     status = commands.add_parser(
         "status",
         help="how far the runs are",
@@ -204,6 +198,150 @@ def _parser() -> argparse.ArgumentParser:
         help="also write it to the cost model, workflow/profiles/cost.yaml",
     )
     return parser
+
+
+def _add_start(commands: Any) -> None:
+    """Add the commands that start a run: ``init`` and ``run``."""
+    init = commands.add_parser(
+        "init",
+        help="a configuration to start from",
+        description="Write a configuration with comments, that of an example with another name. On "
+        "a terminal the example and the dimensions are asked for where they are not given.",
+    )
+    init.add_argument("name", metavar="NAME", help="name of the run; the file is NAME.yaml")
+    init.add_argument("--like", choices=LIKE, help="what the beam is like")
+    for option, unit, words in (
+        ("--chord", "m", "chord"),
+        ("--length", "m", "length along the span"),
+        ("--design-speed", "m/s", "wind speed that it has to stand"),
+    ):
+        init.add_argument(option, type=float, metavar=unit.upper(), help=f"{words} ({unit})")
+    run = commands.add_parser(
+        "run",
+        help="run the workflow",
+        description="Start snakemake with config/config.yaml and the files given, with the cores "
+        "and the profile of 'make run', show its progress, and say what came out.",
+    )
+    run.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
+    run.add_argument(
+        "--snakemake",
+        nargs=argparse.REMAINDER,
+        default=[],
+        metavar="WORD",
+        help="further words for snakemake, such as -n or --cores 1; the last option",
+    )
+
+
+def _add_answers(commands: Any) -> None:
+    """Add the commands that say what came out: ``onset``, ``show``, and ``completion``."""
+    onset = commands.add_parser(
+        "onset",
+        help="the critical speed, by what, and how sure",
+        description="Say the critical speed of a run: from which model and by what, at which "
+        "frequency, with which margin to the design speed, and what is known of its error.",
+    )
+    onset.add_argument("run_folder", nargs="?", type=Path, metavar="RUN_FOLDER")
+    onset.add_argument("--json", action="store_true", help="as JSON, with every line of the table")
+    show = commands.add_parser(
+        "show",
+        help="the figures",
+        description="Open a run's figures in the viewer of this session; where there is none, "
+        "print where they are.",
+    )
+    show.add_argument("run_folder", type=Path, metavar="RUN_FOLDER")
+    show.add_argument("figure", nargs="*", metavar="FIGURE", help="names (default: all)")
+    show.add_argument("--to", type=Path, metavar="FOLDER", help="copy them there instead")
+    completion = commands.add_parser(
+        "completion",
+        help="a script by which a shell completes this command",
+        description="Print a script for a shell, for instance: equisection completion bash > "
+        "~/.local/share/bash-completion/completions/equisection",
+    )
+    completion.add_argument("shell", choices=("bash", "zsh", "tcsh"))
+
+
+def _init(options: argparse.Namespace) -> None:
+    # Imported here, so that --help and --version come at once.
+    from equisection.run import start  # noqa: PLC0415
+    from equisection.run.starter import (  # noqa: PLC0415
+        StarterError,
+        asked,
+        examples_folder,
+        starter,
+    )
+
+    given = {"chord": options.chord, "length": options.length, "design_speed": options.design_speed}
+    values = {name: value for name, value in given.items() if value is not None}
+    like = options.like
+    if like is None:
+        if not sys.stdin.isatty():
+            raise StarterError(f"--like is missing; allowed are {', '.join(LIKE)}")
+        like, values = asked(values)
+    file = Path(f"{options.name}.yaml")
+    text = starter(like, options.name, file, examples_folder(start.project_of_package()), values)
+    try:
+        with file.open("x", encoding="utf-8") as written:
+            written.write(text)
+    except FileExistsError:
+        raise StarterError(f"{file}: is there already; give another name") from None
+    except OSError as error:
+        raise StarterError(f"{file}: cannot be written ({error})") from None
+    print(f"{file}: edit it, then 'equisection check {file}' and 'equisection run {file}'")
+    try:  # dimensions of one's own may not go together with what is left of the example
+        _config([file])
+    except ConfigError as error:
+        print(f"as it stands it cannot run yet:\n{error}")
+
+
+def _run(files: Sequence[Path], further: Sequence[str]) -> int:
+    # Imported here, so that --help and --version come at once.
+    from rich.console import Console  # noqa: PLC0415
+
+    from equisection.run import start  # noqa: PLC0415
+    from equisection.run.answer import CRITICAL_SPEEDS, answer_of  # noqa: PLC0415
+    from equisection.run.launch import launch, snakemake_command  # noqa: PLC0415
+
+    config = start.checked_config(_keys(files), start.project_of_package() or Path.cwd())
+    status = launch(snakemake_command(files, further), Console(highlight=False))
+    folder = start.RESULTS / config.run
+    if status == 0 and (folder / CRITICAL_SPEEDS).is_file():
+        print("\n".join(answer_of(folder).lines()))
+        print(f"files           {folder}; figures: equisection show {folder}")
+    return status
+
+
+def _onset(folder: Path | None, as_json: bool) -> None:
+    # Imported here, so that --help and --version come at once.
+    from equisection.run.answer import AnswerError, answer_of  # noqa: PLC0415
+    from equisection.run.status import find_runs  # noqa: PLC0415
+
+    if folder is None:
+        runs = find_runs(Path("results"))
+        if len(runs) != 1:
+            there = ", ".join(map(str, runs)) or "none yet"
+            raise AnswerError(f"which run? In results/ there are: {there}")
+        folder = runs[0]
+    answer = answer_of(folder)
+    print(answer.as_json() if as_json else "\n".join(answer.lines()))
+
+
+def _show(run: Path, names: Sequence[str], folder: Path | None) -> None:
+    # Imported here, so that --help and --version come at once.
+    from equisection.run.shown_figures import copied, figures_of, opened  # noqa: PLC0415
+
+    pictures = figures_of(run, names)
+    if folder is not None:
+        pictures = copied(pictures, folder)
+    elif opened(pictures):
+        return
+    print("\n".join(map(str, pictures)))
+
+
+def _completion(shell: str) -> None:
+    # Imported here, so that --help and --version come at once.
+    import shtab  # noqa: PLC0415
+
+    print(shtab.complete(_parser(), shell=shell))
 
 
 def _cost_model(folders: Sequence[Path], model: Path | None) -> None:
@@ -352,6 +490,25 @@ def _verify(folders: Sequence[Path]) -> bool:
         print("there is no run and no kept result to verify")
     sys.stdout.flush()
     return not any(verified.faults for verified in found)
+
+
+#: What each command does with its options; nothing that it returns is the exit status 0.
+_COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
+    "init": _init,
+    "run": lambda of: _run(of.configfile, of.snakemake),
+    "onset": lambda of: _onset(of.run_folder, of.json),
+    "show": lambda of: _show(of.run_folder, of.figure, of.to),
+    "completion": lambda of: _completion(of.shell),
+    "status": lambda of: _status(of.run_folder, of.plain, of.html),
+    "verify": lambda of: int(not _verify(of.folder)),
+    "folder": lambda of: print(Path("results") / _config(of.configfile).run),
+    "check": lambda of: _check(of.configfile),
+    "cost": lambda of: _cost(of.configfile),
+    "polar": lambda of: print(_polar(of.results, of.format), end=""),
+    "keep": lambda of: _keep(of.run_folder, of.folder),
+    "seal": lambda of: int(not _seal(of.place)),
+    "cost-model": lambda of: _cost_model(of.folder, of.write),
+}
 
 
 if __name__ == "__main__":

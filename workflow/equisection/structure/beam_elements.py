@@ -17,6 +17,7 @@ moments over the span (:func:`_split`): of equal halves first both turn alike, t
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,7 @@ from equisection.beam.beam import Beam
 from equisection.beam.supports import Fitting
 
 Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
 
 #: Relative distance of eigenvalues that are one.
 _DEGENERATE = 1e-6
@@ -72,13 +74,43 @@ def stations(beam: Beam, elements: int) -> Floats:
     return both
 
 
-def bending_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats]:
-    """Bending frequencies (Hz, (n,)) and shapes g ((n, m), at the m :func:`stations`)."""
-    place = nodes_along_span(beam, elements)
-    mesh = MeshLine(place)
-    basis = Basis(mesh, ElementLineHermite(), intorder=6)
+@dataclass(frozen=True)
+class BeamSystem:
+    """Matrices of the deflection or the twist of a beam on elements, dimensionless as above.
+
+    Attributes
+    ----------
+    basis
+        Functions of the elements.
+    nodes
+        z/L of the nodes, shape (n + 1,).
+    values, others
+        Numbers of the unknowns that are values at the nodes, and of the others: slopes dg/ds at the
+        nodes, or twists in the middles of the elements.
+    of_beam
+        Stiffness of the beam alone, without springs.
+    stiffness, mass
+        Stiffness with springs, and mass with lumped ones.
+    held
+        Numbers of the unknowns that are zero.
+    """
+
+    basis: Basis
+    nodes: Floats
+    values: Integers
+    others: Integers
+    of_beam: Floats
+    stiffness: Floats
+    mass: Floats
+    held: list[int]
+
+
+def bending_system(beam: Beam, nodes: Floats) -> BeamSystem:
+    """Matrices of the deflection on elements with some nodes, at each support and lump one."""
+    basis = Basis(MeshLine(nodes), ElementLineHermite(), intorder=6)
     deflection, slope = basis.dofs.nodal_dofs
-    stiffness = BilinearForm(_curvature).assemble(basis).toarray()
+    of_beam = BilinearForm(_curvature).assemble(basis).toarray()
+    stiffness = of_beam.copy()
     mass = BilinearForm(_product).assemble(basis).toarray()
     if beam.root_bending_stiffness is not None:
         root = slope[0]
@@ -86,63 +118,76 @@ def bending_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats
         stiffness[root, root] += spring
     held: list[int] = []
     for support in beam.supports:
-        at = deflection[_node(place, support.at)]
+        at = deflection[node_at(nodes, support.at)]
         stiffness[at, at] += support.deflection_stiffness * beam.length**3 / beam.bending_rigidity
         if support.deflection == "fixed":
             held.append(int(at))
     for lump in beam.lumps:
-        at = deflection[_node(place, lump.at)]
+        at = deflection[node_at(nodes, lump.at)]
         mass[at, at] += lump.mass / (beam.mass_per_length * beam.length)
     for node, end in zip((0, -1), beam.bending_ends, strict=True):
         if end != "free":
             held.append(int(deflection[node]))
         if end == "clamped":
             held.append(int(slope[node]))
-    eigenvalue, vector = _lowest(stiffness, mass, held, count)
+    return BeamSystem(basis, nodes, deflection, slope, of_beam, stiffness, mass, held)
+
+
+def torsion_system(beam: Beam, nodes: Floats) -> BeamSystem:
+    """Matrices of the twist on elements with some nodes, at each support and lump one."""
+    basis = Basis(MeshLine(nodes), ElementLineP2(), intorder=4)
+    values, middles = basis.dofs.nodal_dofs[0], basis.dofs.interior_dofs[0]
+    of_beam = BilinearForm(_twist_rate).assemble(basis).toarray()
+    stiffness = of_beam.copy()
+    mass = BilinearForm(_product).assemble(basis).toarray()
+    if beam.root_torsional_stiffness is not None:
+        root = values[0]
+        spring = beam.root_torsional_stiffness * beam.length / beam.torsional_rigidity
+        stiffness[root, root] += spring
+    held = [
+        int(values[node])
+        for node, end in zip((0, -1), beam.torsion_ends, strict=True)
+        if end == "fixed"
+    ]
+    for support in beam.supports:
+        at = values[node_at(nodes, support.at)]
+        stiffness[at, at] += support.twist_stiffness * beam.length / beam.torsional_rigidity
+        if support.twist == "fixed":
+            held.append(int(at))
+    for lump in beam.lumps:
+        at = values[node_at(nodes, lump.at)]
+        mass[at, at] += lump.inertia_about_axis / (beam.inertia_per_length * beam.length)
+    return BeamSystem(basis, nodes, values, middles, of_beam, stiffness, mass, held)
+
+
+def bending_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats]:
+    """Bending frequencies (Hz, (n,)) and shapes g ((n, m), at the m :func:`stations`)."""
+    system = bending_system(beam, nodes_along_span(beam, elements))
+    eigenvalue, vector = _lowest(system.stiffness, system.mass, system.held, count)
     scale = beam.bending_rigidity / (beam.mass_per_length * beam.length**4)
-    values, slopes = vector[deflection], vector[slope]
-    size = np.diff(place)[:, None]
+    values, slopes = vector[system.values], vector[system.others]
+    size = np.diff(system.nodes)[:, None]
     middle = (values[:-1] + values[1:]) / 2.0 + size * (slopes[:-1] - slopes[1:]) / 8.0
     return _hertz(eigenvalue * scale), _interleave(values, middle)
 
 
 def torsion_modes(beam: Beam, elements: int, count: int) -> tuple[Floats, Floats]:
     """Torsion frequencies (Hz, (n,)) and shapes f ((n, m), at the m :func:`stations`)."""
-    place = nodes_along_span(beam, elements)
-    mesh = MeshLine(place)
-    basis = Basis(mesh, ElementLineP2(), intorder=4)
-    nodes, middles = basis.dofs.nodal_dofs[0], basis.dofs.interior_dofs[0]
-    stiffness = BilinearForm(_twist_rate).assemble(basis).toarray()
-    mass = BilinearForm(_product).assemble(basis).toarray()
-    if beam.root_torsional_stiffness is not None:
-        root = nodes[0]
-        spring = beam.root_torsional_stiffness * beam.length / beam.torsional_rigidity
-        stiffness[root, root] += spring
-    held = [
-        int(nodes[node])
-        for node, end in zip((0, -1), beam.torsion_ends, strict=True)
-        if end == "fixed"
-    ]
-    for support in beam.supports:
-        at = nodes[_node(place, support.at)]
-        stiffness[at, at] += support.twist_stiffness * beam.length / beam.torsional_rigidity
-        if support.twist == "fixed":
-            held.append(int(at))
-    for lump in beam.lumps:
-        at = nodes[_node(place, lump.at)]
-        mass[at, at] += lump.inertia_about_axis / (beam.inertia_per_length * beam.length)
+    system = torsion_system(beam, nodes_along_span(beam, elements))
     # Two more than wanted, so that the last of them does not lack its twin.
-    eigenvalue, vector = _lowest(stiffness, mass, held, count + 2 if beam.supports else count)
+    wanted = count + 2 if beam.supports else count
+    eigenvalue, vector = _lowest(system.stiffness, system.mass, system.held, wanted)
     if beam.supports:
-        powers = (basis.doflocs[0][:, None] ** np.arange(len(eigenvalue))).T
-        moments = powers @ BilinearForm(_product).assemble(basis) @ vector
+        powers = (system.basis.doflocs[0][:, None] ** np.arange(len(eigenvalue))).T
+        moments = powers @ BilinearForm(_product).assemble(system.basis) @ vector
         eigenvalue, vector = _split(eigenvalue, vector, moments)
         eigenvalue, vector = eigenvalue[:count], vector[:, :count]
     scale = beam.torsional_rigidity / (beam.inertia_per_length * beam.length**2)
-    return _hertz(eigenvalue * scale), _interleave(vector[nodes], vector[middles])
+    return _hertz(eigenvalue * scale), _interleave(vector[system.values], vector[system.others])
 
 
-def _node(nodes: Floats, at: float) -> int:
+def node_at(nodes: Floats, at: float) -> int:
+    """Return the number of the node at a place z/L."""
     return int(np.abs(nodes - at).argmin())
 
 

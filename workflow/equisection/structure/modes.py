@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.beam.beam import Beam
+from equisection.beam.beam import MID_CHORD, Beam
 from equisection.errors import ModesError
 from equisection.structure import analytic, beam_elements
 from equisection.structure.classify import classify
@@ -91,6 +91,31 @@ def compute_modes(
         method,
         f"{along_span} along the span" if method == "beam" else "none",
     )
+
+
+def require_method(beam: Beam, method: str) -> None:
+    """Refuse a method that cannot have a beam.
+
+    Raises
+    ------
+    ModesError
+        The message says which methods can.
+    """
+    if method != "beam" and beam.has_fittings:
+        raise ModesError(
+            f"method is {method!r}, which holds a beam at its ends alone, and the beam has "
+            "supports or lumps along its span; give method='beam'"
+        )
+    if method == "solid" and beam.cross_section is not None:
+        raise ModesError(
+            "method is 'solid', which meshes a homogeneous plate, and the beam has a "
+            "cross_section; give method='beam' or 'analytic'"
+        )
+    if method == "solid" and (beam.elastic_axis, beam.mass_axis) != (MID_CHORD, MID_CHORD):
+        raise ModesError(
+            "method is 'solid', which meshes a homogeneous plate, and the beam has its "
+            f"{beam.axes_in_words}; give method='beam' or 'analytic'"
+        )
 
 
 def modes_of_kinds(

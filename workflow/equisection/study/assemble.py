@@ -8,15 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-import numpy as np
 import xarray as xr
-from numpy.typing import NDArray
 
 from equisection.beam.section import Section
 from equisection.cases import (
     BeamModes,
     EndCriteria,
-    FittedModes,
     Geometry,
     Medium,
     SolverBlock,
@@ -24,6 +21,7 @@ from equisection.cases import (
     SteadyCase,
     UnsteadyCase,
 )
+from equisection.cases.beam_in_flow import beam_modes_in_flow
 from equisection.config import Config
 from equisection.errors import DivergenceError, EquisectionError, ReductionError
 from equisection.reduction.correction import corrected_equilibrium
@@ -35,15 +33,6 @@ from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.section_dataset import no_section, section_from_dataset
 from equisection.solvers.protocol import HasRecords, Solver
 from equisection.solvers.verdicts import pitch_frequency
-from equisection.structure.fittings import (
-    deflection_dashpots,
-    imbalances,
-    inertias,
-    lumped,
-    masses,
-    twist_dashpots,
-)
-from equisection.structure.mode_set import ModeSet
 from equisection.study.axes import K_STAR, Point
 from equisection.study.plan import Model
 
@@ -260,50 +249,12 @@ def _corrected(
 
 def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> BeamModes:
     """Return the beam's modes, with frequencies that grow as the square root of E."""
-    modes = modes_from_dataset(dataset)
-    bending = modes.bending(config.structure.bending_modes)
-    torsion = modes.torsion(config.structure.torsion_modes)
-    flow, chord = config.flow, config.beam.chord
-    to_reduced = 2 * math.pi * chord / flow.speed * math.sqrt(stiffness_scale)  # Hz to omega c/V
-    return BeamModes(
-        span=tuple(modes.span),
-        bending_frequency=tuple(to_reduced * bending.frequency),
-        bending_shape=tuple(map(tuple, bending.shape)),
-        torsion_frequency=tuple(to_reduced * torsion.frequency),
-        torsion_shape=tuple(map(tuple, torsion.shape)),
-        inertia=config.beam.inertia_per_length / (0.5 * flow.density * chord**4),
-        mass=config.beam.mass_per_length / (0.5 * flow.density * chord**2),
-        imbalance=config.beam.imbalance_per_length / (0.5 * flow.density * chord**3),
-        bending_damping=config.beam.damping.bending,
-        torsion_damping=config.beam.damping.torsion,
-        elastic_axis=config.beam.elastic_axis,
-        fittings=_fitted(config, bending, torsion, stiffness_scale),
+    structure, flow = config.structure, config.flow
+    return beam_modes_in_flow(
+        config.beam,
+        modes_from_dataset(dataset),
+        (structure.bending_modes, structure.torsion_modes),
+        density=flow.density,
+        speed=flow.speed,
+        stiffness_scale=stiffness_scale,
     )
-
-
-def _fitted(
-    config: Config, bending: ModeSet, torsion: ModeSet, stiffness_scale: float
-) -> FittedModes | None:
-    """Return lumped masses and dashpots on the modes; None of a beam without.
-
-    Another stiffness scale s is the same beam at another speed: c* goes with the square root of s.
-    """
-    beam, flow = config.beam, config.flow
-    if not beam.supports and not beam.lumps:
-        return None
-    span, f, g = bending.span, torsion.shape, bending.shape
-    pressure = 0.5 * flow.density
-    rate = math.sqrt(stiffness_scale) / (pressure * flow.speed * beam.chord)
-    mass = lumped(span, g, g, masses(beam)).diagonal() * beam.mass_per_length
-    inertia = lumped(span, f, f, inertias(beam)).diagonal() * beam.inertia_per_length
-    return FittedModes(
-        mass=tuple(mass / (pressure * beam.chord**2)),
-        inertia=tuple(inertia / (pressure * beam.chord**4)),
-        imbalance=_rows(lumped(span, f, g, imbalances(beam)) / (pressure * beam.chord**3)),
-        bending_dashpots=_rows(rate * lumped(span, g, g, deflection_dashpots(beam))),
-        torsion_dashpots=_rows(rate / beam.chord**2 * lumped(span, f, f, twist_dashpots(beam))),
-    )
-
-
-def _rows(matrix: NDArray[np.float64]) -> tuple[tuple[float, ...], ...]:
-    return tuple(map(tuple, matrix))

@@ -7,12 +7,13 @@ from pathlib import Path
 from equisection.beam.beam import Beam
 from equisection.beam.outline_keys import OutlineKeys
 from equisection.config import Config
+from equisection.config.model import release_from_equilibrium
 from equisection.errors import ConfigError, OutlineError
 from equisection.keys.checks import Problem
 
 
 def check_outline(config: Config, directory: Path | None = None) -> None:
-    """Refuse an outline that cannot be read or used.
+    """Refuse an outline that cannot be read or used, or is let go where it has no loads.
 
     Its file is seen from ``directory`` (by default the working one).
 
@@ -25,10 +26,16 @@ def check_outline(config: Config, directory: Path | None = None) -> None:
     if outline is None:
         return
     try:
-        config.beam.outline_in_flow(directory or Path.cwd())
+        found = config.beam.outline_in_flow(directory or Path.cwd())
     except OutlineError as error:
         key, value = _given(config.beam, outline)
         raise ConfigError(Problem(key, value, str(error).removeprefix(f"{value}: ")).line) from None
+    is_of_flow = config.solver not in ("embedded", "given") and not config.unsteady.start.is_given
+    if is_of_flow and found is not None and found.is_symmetric:
+        for problem in release_from_equilibrium(
+            config.flow.incidence_deg, config.sweep.incidence_deg
+        ):
+            raise ConfigError(problem.line)
 
 
 def _given(beam: Beam, outline: OutlineKeys) -> tuple[str, object]:

@@ -284,9 +284,10 @@ def has_both(config: Config) -> bool:
 def steady_dimensions(config: Config) -> tuple[str, ...]:
     """Return the dimensions of the steady cases; a beam whose polar is given has none.
 
-    Nor has one of an outline that the solver runs as a section alone.
+    Nor has one that no model needs and whose solver leaves it out then.
     """
-    if config.steady.beam_polar or not config.solver_section.has_beam_of(config.beam.outline):
+    models, outline = config.sweep.models, config.beam.outline
+    if config.steady.beam_polar or not config.solver_section.runs_rigid_beam(outline, models):
         return ("2d",)
     return SOLVERS[config.solver].dimensions
 

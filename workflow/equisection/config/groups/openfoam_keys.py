@@ -73,13 +73,14 @@ class OpenFoam(SolverKeys):
     )
     mesher: Mesher = Field(
         BLOCKS,
-        description="Mesh of the rectangular section: `blocks`, or `outline`, that of any outline "
-        "(layers at the wall, quadrilaterals between), which `beam.outline` always has.",
+        description="Mesh of the rectangular section and its beam: `blocks`, or `outline`, that of "
+        "any outline (layers at the wall, quadrilaterals between), which `beam.outline` always "
+        "has.",
     )
     far_field_chords: Annotated[float, Field(ge=10, le=1000, allow_inf_nan=False), NUMBER] = Field(
         30.0,
-        description="Distance of the far field (chords), to every side, of a section in free air "
-        "(`flow.channel: null`), which needs the mesh of outlines.",
+        description="Distance of the far field (chords), to every side, of section and beam in "
+        "free air (`flow.channel: null`), which needs the mesh of outlines.",
     )
     prefix: str = Field(
         "",
@@ -102,13 +103,18 @@ class OpenFoam(SolverKeys):
         """Return variables by which jobs find the solver on a machine."""
         return {PREFIX_VARIABLE: self.prefix} if self.prefix else {}
 
-    def has_beam_of(self, outline: object) -> bool:
-        """Tell whether the solver runs the beam of an outline: that of the rectangle alone."""
-        return outline is None
+    def runs_rigid_beam(self, outline: object, models: tuple[str, ...]) -> bool:
+        """Tell whether the rigid beam is run too: of an outline only where a model needs it."""
+        return outline is None or _needs_beam(models)
 
     def refuses_folder(self, folder: Path) -> str:
         """Return why the solver cannot work in a folder; empty if it can."""
         return refused_path(folder)
+
+
+def _needs_beam(models: tuple[str, ...]) -> bool:
+    """Tell whether a model is the beam, or is corrected by the rigid one."""
+    return any(name == "3d" or "corrected" in name for name in models)
 
 
 def refused_path(folder: Path) -> str:
@@ -137,13 +143,14 @@ def _follows_the_flow(solver: str, step: float) -> Iterator[Problem]:
 def _root_is_on_a_wall(
     solver: str, root_on_wall: bool, beam_polar: str, models: tuple[str, ...], outline: object
 ) -> Iterator[Problem]:
-    if outline is not None:  # whose beam has no mesh
+    needs_beam = _needs_beam(models) if outline is not None else True
+    if solver != "openfoam" or root_on_wall:
         return
-    if solver == "openfoam" and not root_on_wall and ("3d" in models or not beam_polar):
+    if "3d" in models or (needs_beam and not beam_polar):
         yield Problem(
             "flow.root_on_wall",
             root_on_wall,
-            "allowed is true with solver 'openfoam', whose mesh of the plate has its root on a "
+            "allowed is true with solver 'openfoam', whose mesh of the beam has its root on a "
             "wall; or give steady.beam_polar and leave out the model 3d",
         )
 
@@ -156,25 +163,9 @@ def _needs_a_channel(
         yield Problem(
             "flow.channel",
             channel,
-            "allowed is a channel with solver 'openfoam', which meshes it; for a section in free "
-            "air openfoam.mesher: outline, or a wide channel, for instance flow.channel: "
+            "allowed is a channel with solver 'openfoam', which meshes it; in free air give "
+            "openfoam.mesher: outline, or a wide channel, for instance flow.channel: "
             "{height_chords: 20, tip_gap_chords: 10}",
-        )
-
-
-@check("solver", "flow.channel", "beam.outline", "sweep.models", "steady.beam_polar")
-def _no_beam_in_free_air(
-    solver: str, channel: object, outline: object, models: tuple[str, ...], beam_polar: str
-) -> Iterator[Problem]:
-    """Refuse a beam without a channel, which its mesh fills."""
-    if solver != "openfoam" or channel is not None or outline is not None:
-        return
-    if "3d" in models or not beam_polar:
-        yield Problem(
-            "flow.channel",
-            channel,
-            "allowed with solver 'openfoam' is a channel for the beam: leave out the model 3d, and "
-            "give steady.beam_polar or beam.outline",
         )
 
 
@@ -193,29 +184,10 @@ def _has_a_mesh_of_outlines(
             )
     if motion == OVERSET:
         yield Problem(
-            "openfoam.mesh_motion", motion, f"allowed is {MORPH} {why}; overset has no such mesh"
-        )
-
-
-@check("solver", "beam.outline", "sweep.models", "steady.beam_polar")
-def _no_beam_of_an_outline(
-    solver: str, outline: object, models: tuple[str, ...], beam_polar: str
-) -> Iterator[Problem]:
-    """Refuse a beam of an outline, which has no mesh."""
-    if solver != "openfoam" or outline is None:
-        return
-    if "3d" in models:
-        yield Problem(
-            "sweep.models",
-            list(models),
-            "allowed with beam.outline is 2d: OpenFOAM's mesh of the beam is that of a rectangle",
-        )
-    elif not beam_polar and any("corrected" in model for model in models):
-        yield Problem(
-            "sweep.models",
-            list(models),
-            "allowed with beam.outline are models without correction, or a steady.beam_polar of "
-            "this beam: OpenFOAM's mesh of the rigid beam is that of a rectangle",
+            "openfoam.mesh_motion",
+            motion,
+            f"allowed is {MORPH} {why}, which is sound up to 10 deg and half a chord of motion: "
+            "the mesh that overset moves is that of a rectangle",
         )
 
 

@@ -33,7 +33,7 @@ class SolverKeys(KeyGroup):
         del folder
         return ""
 
-    def has_beam_of(self, outline: object) -> bool:
-        """Tell whether the solver runs the beam, and not its section alone, of an outline."""
-        del outline
+    def runs_rigid_beam(self, outline: object, models: tuple[str, ...]) -> bool:
+        """Tell whether the rigid beam is run too, for an outline and the models of the sweep."""
+        del outline, models
         return True

@@ -22,7 +22,7 @@ from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.span_strips import SpanStrips, cosine_strips
 from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.beam.beam import MID_CHORD
-from equisection.cases import ForcedCase, Geometry, SteadyCase, UnsteadyCase
+from equisection.cases import BeamModes, ForcedCase, Geometry, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups import FLAT_PLATE, Embedded
 from equisection.errors import IncidenceOutOfRangeError, SolverError
@@ -181,19 +181,33 @@ class Adapter:
 
     def body(self, case: UnsteadyCase) -> BodyInFlow:
         """Return section or beam of a case in a flow of any speed, without its correction."""
+        from equisection.motion.body_in_flow import BodyInFlow  # noqa: PLC0415
+
+        speed = case.medium.speed
+        if case.beam is not None:
+            return self.beam_body(case.beam, case.geometry, speed=speed, k_star=case.k_star)
+        assert case.section is not None, "a case that is not run has no body"
+        chord = case.geometry.chord
+        return BodyInFlow.of_section_in_flow(
+            case.section, self._loads(), speed=speed, chord=chord, k_star=case.k_star
+        )
+
+    def beam_body(
+        self, modes: BeamModes, geometry: Geometry, *, speed: float, k_star: float
+    ) -> BodyInFlow:
+        """Return a beam whose modes are those at a speed (m/s), where it has a k* (-)."""
         from equisection.aerodynamics.finite_span import FiniteSpan  # noqa: PLC0415
         from equisection.motion.body_in_flow import BodyInFlow  # noqa: PLC0415
         from equisection.solvers.embedded.releases import beam_parameters  # noqa: PLC0415
 
-        loads, speed, chord = self._loads(), case.medium.speed, case.geometry.chord
-        if case.beam is None:
-            assert case.section is not None, "a case that is not run has no body"
-            return BodyInFlow.of_section_in_flow(
-                case.section, loads, speed=speed, chord=chord, k_star=case.k_star
-            )
-        strips, span = self._span(case.geometry)
-        parameters = beam_parameters([case.beam], strips, FiniteSpan.of(span))
-        return BodyInFlow.of_beam(parameters, loads, speed=speed, chord=chord, k_star=case.k_star)
+        strips, span = self._span(geometry)
+        return BodyInFlow.of_beam(
+            beam_parameters([modes], strips, FiniteSpan.of(span)),
+            self._loads(),
+            speed=speed,
+            chord=geometry.chord,
+            k_star=k_star,
+        )
 
     def _loads(self) -> UnsteadyLoads:
         from equisection.aerodynamics.unsteady_loads import UnsteadyLoads  # noqa: PLC0415

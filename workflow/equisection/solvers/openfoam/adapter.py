@@ -28,7 +28,7 @@ from equisection.solvers.openfoam.settings import Settings
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 
 if TYPE_CHECKING:
-    from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow
+    from equisection.solvers.openfoam.beam.rigid_beam import BeamCells, PlateFlow
     from equisection.solvers.openfoam.section.rigid_section import RigidLoads, SectionCells
 
 logger = logging.getLogger(__name__)
@@ -81,9 +81,13 @@ class Adapter:
 
         settings = self._settings.of_dimension(dimension)
         preset = PRESETS[settings.mesh]
-        cells = str(preset.cells if dimension == "2d" else preset.plate_cells)
+        is_section = dimension == "2d"
+        cells = str(preset.cells if is_section else preset.plate_cells)
         if settings.mesher:
-            cells = f"about {preset.outline_cells}"
+            about = preset.outline_cells if is_section else preset.outline_beam_cells
+            # in free air the layers beyond the tip are as many as its far field asks for
+            is_more = bool(settings.far_field) and not is_section
+            cells = f"{'more than' if is_more else 'about'} {about}"
         mesh = f"{cells} cells ({settings.mesh})"
         if settings.mesher:
             mesh += f" around the outline ({settings.mesher})"
@@ -103,16 +107,12 @@ class Adapter:
 
     def _mesh(self, case: SteadyCase | UnsteadyCase | ForcedCase) -> SectionCells:
         """Return the mesh of a section."""
-        from equisection.solvers.openfoam.mesh.outline_mesh import require_mesher  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
         from equisection.solvers.openfoam.section import rigid_section  # noqa: PLC0415
 
         preset = PRESETS[self._settings.mesh]
-        if self._settings.mesher:
-            require_mesher(self._settings.mesher)
+        if self._has_outline(case):
             return rigid_section.outline_mesh_of(case, preset.refinement, self._settings.far_field)
-        if case.geometry.outline is not None:
-            raise SolverError("the case has an outline and no mesher of outlines; write it anew")
         return rigid_section.mesh_of(case, preset.refinement, preset.spacing)
 
     def section_mesh(self, case: SteadyCase, time_step: float, work: Path) -> SectionMesh:
@@ -161,12 +161,37 @@ class Adapter:
         return self._plate_flow(installation, case, place).result(tell)
 
     def _plate_flow(self, installation: Installation, case: SteadyCase, place: Path) -> PlateFlow:
-        from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_mesh_of  # noqa: PLC0415
+        from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow  # noqa: PLC0415
+
+        mesh, coupling = self._beam_mesh(case), self._settings.coupling
+        return PlateFlow(installation, case, mesh, coupling, self._ranks, place)
+
+    def _beam_mesh(self, case: SteadyCase | UnsteadyCase) -> BeamCells:
+        """Return the mesh of a beam."""
+        from equisection.solvers.openfoam.beam import rigid_beam  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
-        _require_rectangle(case)
-        mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
-        return PlateFlow(installation, case, mesh, self._settings.coupling, self._ranks, place)
+        refinement = PRESETS[self._settings.mesh].plate
+        if self._has_outline(case):
+            far_field = self._settings.far_field
+            return rigid_beam.outline_beam_mesh_of(case, refinement, far_field)
+        return rigid_beam.plate_mesh_of(case, refinement)
+
+    def _has_outline(self, case: SteadyCase | UnsteadyCase | ForcedCase) -> bool:
+        """Tell whether a case has the mesh of outlines.
+
+        Raises
+        ------
+        SolverError
+            It needs one and was written without, or for another mesher than the one installed.
+        """
+        from equisection.solvers.openfoam.mesh.outline_mesh import require_mesher  # noqa: PLC0415
+
+        if self._settings.mesher:
+            require_mesher(self._settings.mesher)
+        elif case.geometry.outline is not None:
+            raise SolverError("the case has an outline and no mesher of outlines; write it anew")
+        return bool(self._settings.mesher)
 
     def run_unsteady(
         self, cases: Sequence[UnsteadyCase], work: Path, progress: Progress
@@ -233,11 +258,8 @@ class Adapter:
         self, installation: Installation, case: UnsteadyCase, place: Path, tell: Progress
     ) -> UnsteadyResult:
         from equisection.solvers.openfoam.beam.free_beam import PlateRun  # noqa: PLC0415
-        from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of  # noqa: PLC0415
-        from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
-        _require_rectangle(case)
-        mesh = plate_mesh_of(case, PRESETS[self._settings.mesh].plate)
+        mesh = self._beam_mesh(case)
         coupling, ranks = self._settings.coupling, self._ranks
         run = PlateRun(installation, case, mesh, coupling, place, ranks)
         _ = run.points  # refuses what it does not have before the steady flow, which takes long
@@ -249,21 +271,6 @@ def _mesher() -> str:
     from equisection.solvers.openfoam.mesh.outline_mesh import mesher  # noqa: PLC0415
 
     return mesher()
-
-
-def _require_rectangle(case: SteadyCase | UnsteadyCase) -> None:
-    """Refuse a beam of an outline.
-
-    Raises
-    ------
-    SolverError
-        The case has one.
-    """
-    if case.geometry.outline is not None:
-        raise SolverError(
-            "OpenFOAM's mesh of the beam is that of a rectangle: take beam.outline out, or run the "
-            "section alone (sweep.models: [2d])"
-        )
 
 
 def _require_own_loads(case: UnsteadyCase) -> None:

@@ -24,9 +24,9 @@ class Settings:
     mesh_motion
         Way in which the mesh follows the free section.
     mesher
-        Mesher of outlines with its version; empty for the section's mesh of blocks.
+        Mesher of outlines with its version; empty for the mesh of blocks.
     far_field
-        Distance of the far field (chords) from a section in free air; 0 in a channel.
+        Distance of the far field (chords) in free air; 0 in a channel.
     """
 
     mesh: str
@@ -44,12 +44,12 @@ class Settings:
     def of_dimension(self, dimension: str) -> Settings:
         """Return the settings without the choices that do not exist in a dimension.
 
-        The cells of the section, and the motion of its mesh, do not concern the plate.
+        A section on the cells of its plate, and the motion of its mesh, do not concern the plate.
         """
         if dimension == "2d":
             return self
         mesh = self.mesh.removeprefix(ON_CELLS_OF_PLATE)
-        return replace(self, mesh=mesh, mesh_motion=MORPH, mesher="", far_field=0.0)
+        return replace(self, mesh=mesh, mesh_motion=MORPH)
 
     def of_case(self) -> dict[str, Any]:
         """Return the settings as a case holds them, without those at their defaults.

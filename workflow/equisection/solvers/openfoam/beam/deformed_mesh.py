@@ -41,6 +41,8 @@ def deform_mesh(
     points: LumpedPoints,
     position: NDArray[np.float64],
     work: Path,
+    *,
+    of_outline: bool = False,
 ) -> None:
     """Move the mesh at time 0 of a folder, divided or not, to a position of the modes.
 
@@ -54,6 +56,8 @@ def deform_mesh(
         Position of the modes.
     work
         Folder in which it is done.
+    of_outline
+        The mesh is that of an outline.
 
     Raises
     ------
@@ -72,7 +76,7 @@ def deform_mesh(
     entries = {**control("moveDynamicMesh", end, 1, end), "functions": {}}
     entries["libs"] = ['"liblumpedPointMotion.so"']
     solution = flow.unsteady_solution()
-    solution["solvers"] |= motion_solvers()
+    solution["solvers"] |= motion_solvers(of_outline=of_outline)
     schemes = flow.schemes(steady=False)
     schemes["laplacianSchemes"] |= motion_schemes()
     write_system(place, entries, schemes, solution)

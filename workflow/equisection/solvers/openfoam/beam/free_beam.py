@@ -40,7 +40,7 @@ from equisection.solvers.openfoam.beam.lumped_points import (
     write_lumped_motion,
 )
 from equisection.solvers.openfoam.beam.pipes import Alive, Pipes, names
-from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_control
+from equisection.solvers.openfoam.beam.rigid_beam import BeamCells, PlateFlow, plate_control
 from equisection.solvers.openfoam.case_folder import (
     drop_broken_states,
     drop_histories_after,
@@ -52,7 +52,7 @@ from equisection.solvers.openfoam.case_folder import (
 )
 from equisection.solvers.openfoam.dictionaries import write_system
 from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
-from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
+from equisection.solvers.openfoam.mesh.outline_beam_mesh import OutlineBeamMesh
 from equisection.solvers.openfoam.process import (
     SILENCE,
     BlowUpError,
@@ -88,7 +88,7 @@ _ROOM = 0.1
 
 
 @dataclass(frozen=True)
-class PlateRun(FreeRun[PlateMesh]):
+class PlateRun(FreeRun[BeamCells]):
     """The run of one case of the plate.
 
     Attributes
@@ -164,14 +164,30 @@ class PlateRun(FreeRun[PlateMesh]):
         )
         if not converged:
             logger.info("the steady flow does not converge; the release is from its last state")
+        self.start_from(source)
+
+    def start_from(self, source: Path) -> None:
+        """Make the folder of the free run from the last state of a steady run of the same mesh."""
         folder = emptied(self.folder)
         copy_flow_of_all(source, folder)
+        is_held = self.case.start.twist_deg != 0.0
         write_lumped_motion(folder, self.points, names(), is_deformed=is_held)
         mark_ready(folder)
 
     def _deform(self, folder: Path) -> None:
         """Move the mesh of a folder to that of the plate as it is held until the release."""
-        deform_mesh(self.installation, folder, self.points, self.release[0], self.work / "held")
+        deform_mesh(
+            self.installation,
+            folder,
+            self.points,
+            self.release[0],
+            self.work / "held",
+            of_outline=self._is_of_outline,
+        )
+
+    @property
+    def _is_of_outline(self) -> bool:
+        return isinstance(self.mesh, OutlineBeamMesh)
 
     def _write_system(self) -> None:
         """Write what controls the run; its end may differ from that of an earlier start."""
@@ -181,7 +197,7 @@ class PlateRun(FreeRun[PlateMesh]):
         )
         entries["libs"] = ['"liblumpedPointMotion.so"']
         solution = flow.unsteady_solution(self.coupling)
-        solution["solvers"] |= motion_solvers()
+        solution["solvers"] |= motion_solvers(of_outline=self._is_of_outline)
         schemes = flow.schemes(steady=False)
         schemes["laplacianSchemes"] |= motion_schemes()
         write_system(self.folder, entries, schemes, solution)
@@ -380,8 +396,9 @@ class _Exchange:
         points = self._run.points
         twist, deflection = points.tip(place)
         _, height = points.axes.mid_chord_places(twist, deflection)
-        room = 0.5 * self._run.mesh.section.channel.height - abs(float(height))
-        room -= 0.5 * abs(math.sin(self._run.mesh.section.incidence + float(twist)))
+        section = self._run.mesh.section
+        low, high = section.reach(section.incidence + float(twist))
+        room = 0.5 * section.channel.height - max(high + float(height), -low - float(height))
         if room < _ROOM:
             raise BlowUpError(
                 f"the plate has come to within {room:.2g} c of floor or ceiling at {time:.4g} c/V"

@@ -44,6 +44,8 @@ Floats = NDArray[np.float64]
 _OF_BEAM = ("imbalance", "bending_damping", "torsion_damping", "elastic_axis")
 #: Iterations of the mesh's displacement in each motion.
 _ITERATIONS = 4
+#: The same of the cells around an outline, of any shape.
+_ITERATIONS_OF_OUTLINE = 20
 #: A shape that is less than this at the tip, relative to its largest, is held there.
 _HELD = 1e-6
 
@@ -374,22 +376,23 @@ def _point_displacement() -> str:
     )
 
 
-def motion_solvers() -> dict[str, Any]:
-    """Return the entries of ``fvSolution`` for the displacement of the mesh.
+def motion_solvers(*, of_outline: bool = False) -> dict[str, Any]:
+    """Return the entries of ``fvSolution`` for the displacement of the mesh, or that of an outline.
 
     At the plate the diffusivity is practically infinite, and so is the scale of the residuals. By
     them the equation is solved after one iteration, while all but the first cells still lag behind.
     So the number of iterations is given. For the same reason corrections from coarser levels are
     not scaled, since the scaling would make them vanish.
     """
+    iterations = _ITERATIONS_OF_OUTLINE if of_outline else _ITERATIONS
     solver = {
         "solver": "GAMG",
         "smoother": "GaussSeidel",
         "tolerance": 0.0,
         "relTol": 0.0,
         "scaleCorrection": False,
-        "minIter": _ITERATIONS,
-        "maxIter": _ITERATIONS,
+        "minIter": iterations,
+        "maxIter": iterations,
     }
     return {"cellDisplacement": solver, "cellDisplacementFinal": solver}
 

@@ -8,13 +8,13 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from equisection.cases import SteadyCase, UnsteadyCase
+from equisection.cases import Geometry, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.steady_result import SteadyResult
@@ -29,6 +29,7 @@ from equisection.solvers.openfoam.dictionaries import (
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.beam_mesh import SIDE_WALLS, PlateMesh
 from equisection.solvers.openfoam.mesh.block_mesh import OF_PLATE, Spacing
+from equisection.solvers.openfoam.mesh.outline_beam_mesh import OF_BEAM, OutlineBeamMesh
 from equisection.solvers.openfoam.process import run_program
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, divide, parts
 from equisection.solvers.openfoam.reading.beam_surface import plate_surface
@@ -39,6 +40,7 @@ from equisection.solvers.openfoam.reading.span_loads import read_span_loads, sur
 from equisection.solvers.openfoam.rigid_flow import (
     CONVERGED,
     FEWEST,
+    FLOOR_OF_OUTLINE,
     MOST,
     STEP,
     WINDOW,
@@ -46,13 +48,23 @@ from equisection.solvers.openfoam.rigid_flow import (
     Tell,
     follow_iterations,
     follow_unsteady,
+    has_converged_around_outline,
     method_of_mean,
     write_at_rest,
 )
-from equisection.solvers.openfoam.section.rigid_section import SAMPLED, make_mesh, mesh_of
+from equisection.solvers.openfoam.section.rigid_section import (
+    SAMPLED,
+    check_mesh,
+    make_mesh,
+    mesh_of,
+    outline_mesh_of,
+)
 from equisection.solvers.openfoam.time_spent import spent
 
 logger = logging.getLogger(__name__)
+
+#: Mesh of a beam, of either mesher.
+BeamCells = PlateMesh | OutlineBeamMesh
 
 #: Half range of a coefficient that counts as converged however small it is.
 CONVERGED_WITHIN = 1e-4
@@ -63,7 +75,7 @@ RECORD = RigidFlowRecord(10.0, 20.0, 60.0)
 def plate_mesh_of(
     case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = OF_PLATE
 ) -> PlateMesh:
-    """Return the mesh of a case of the plate.
+    """Return the mesh of blocks of a case of the beam.
 
     Raises
     ------
@@ -71,11 +83,33 @@ def plate_mesh_of(
         The case has no channel, or the root is not on its wall.
     """
     section, geometry = mesh_of(case, refinement, spacing), case.geometry
+    _require_root_on_wall(geometry)
+    return PlateMesh(section, geometry.span, geometry.tip_gap or 0.0)
+
+
+def outline_beam_mesh_of(
+    case: SteadyCase | UnsteadyCase, refinement: float, far_field: float = 0.0
+) -> OutlineBeamMesh:
+    """Return the mesh of a case of the beam around its outline, or that of its rectangle.
+
+    In free air the wall beyond the tip is as far as the others (``far_field``, chords).
+
+    Raises
+    ------
+    SolverError
+        The case has neither a channel nor a far field, or the root is not on a wall.
+    """
+    section, geometry = outline_mesh_of(case, refinement, far_field, OF_BEAM), case.geometry
+    _require_root_on_wall(geometry)
+    gap = far_field if geometry.channel_height is None else geometry.tip_gap or 0.0
+    return OutlineBeamMesh(section, geometry.span, gap)
+
+
+def _require_root_on_wall(geometry: Geometry) -> None:
     if not geometry.root_on_wall:
         raise SolverError(
-            "flow.root_on_wall: false: OpenFOAM's mesh of the plate has its root on the wall"
+            "flow.root_on_wall: false: OpenFOAM's mesh of the beam has its root on the wall"
         )
-    return PlateMesh(section, geometry.span, geometry.tip_gap or 0.0)
 
 
 @dataclass(frozen=True)
@@ -98,7 +132,7 @@ class PlateFlow:
 
     installation: Installation
     case: SteadyCase | UnsteadyCase
-    mesh: PlateMesh
+    mesh: BeamCells
     coupling: flow.Coupling
     ranks: int
     work: Path
@@ -112,11 +146,15 @@ class PlateFlow:
             A program failed, or the mesh is not sound.
         """
         folder, case = emptied(self.work / "steady"), self.case
-        write_text(folder / "system" / "blockMeshDict", self.mesh.block_mesh_dict())
         flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium), SIDE_WALLS)
         entries = plate_control("simpleFoam", MOST, 1, MOST, self.mesh.span)
         entries["functions"] |= surface_output({"executeControl": "onEnd", "writeControl": "onEnd"})
         write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
+        if isinstance(self.mesh, OutlineBeamMesh):
+            self.mesh.write(folder)
+            check_mesh(self.installation, folder)
+            return folder
+        write_text(folder / "system" / "blockMeshDict", self.mesh.block_mesh_dict())
         make_mesh(self.installation, folder)
         return folder
 
@@ -148,13 +186,25 @@ class PlateFlow:
             deform(folder)
         loads, has_converged = follow_iterations(
             folder,
-            _has_converged,
+            self._has_converged,
             tell,
             lambda watch: run_program(
                 self.installation, "simpleFoam", folder, watch, ranks=self.ranks
             ),
         )
         return folder, loads, has_converged
+
+    @property
+    def _has_converged(self) -> Callable[[Loads], bool]:
+        """Test that a steady run has converged, by the cells of its mesh."""
+        is_of_outline = isinstance(self.mesh, OutlineBeamMesh)
+        return has_converged_around_outline if is_of_outline else _has_converged
+
+    @property
+    def _record(self) -> RigidFlowRecord:
+        """Record of the unsteady run, by the cells of its mesh."""
+        is_of_outline = isinstance(self.mesh, OutlineBeamMesh)
+        return replace(RECORD, floor=FLOOR_OF_OUTLINE) if is_of_outline else RECORD
 
     def result(self, tell: Tell) -> SteadyResult:
         """Return the loads of the rigid plate.
@@ -173,7 +223,7 @@ class PlateFlow:
             logger.info("%g deg: the steady solver does not converge", self.case.incidence_deg)
             folder, record = self._unsteady(folder, tell)
             mean = True
-            method = method_of_mean(record)
+            method = method_of_mean(record, self._record.floor)
         drag, lift, moment = record.means()
         last = states(parts(folder)[0])[-1].name
         span = read_span_loads(folder, last, self.mesh.edges(), mean=mean)
@@ -187,7 +237,7 @@ class PlateFlow:
             span.lift,
             span.moment,
             method,
-            surface=plate_surface(folder, self.mesh.section.incidence, mean=mean),
+            surface=plate_surface(folder, self.mesh.section, mean=mean),
             tip_flow=tip_flow,
             spent=spent(self.work),
         )
@@ -197,19 +247,20 @@ class PlateFlow:
         folder = emptied(self.work / "unsteady")
         copy_flow_of_all(source, folder)
         write_at_rest(folder)
-        end = RECORD.end
+        wanted = self._record
+        end = wanted.end
         entries = plate_control("pimpleFoam", end, STEP, end, self.mesh.span)
         entries["functions"] |= surface_output(
             {"executeControl": "timeStep", "writeControl": "onEnd"}
         )
         entries["functions"]["force_means"] = _force_means()
-        entries["functions"] |= averaging(RECORD.discarded, SAMPLED, ("p", *SAMPLED_FIELDS))
+        entries["functions"] |= averaging(wanted.discarded, SAMPLED, ("p", *SAMPLED_FIELDS))
         write_system(
             folder, entries, flow.schemes(steady=False), flow.unsteady_solution(self.coupling)
         )
         record = follow_unsteady(
             folder,
-            RECORD,
+            wanted,
             tell,
             lambda watch: run_program(
                 self.installation, "pimpleFoam", folder, watch, ranks=self.ranks

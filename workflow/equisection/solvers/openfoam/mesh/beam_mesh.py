@@ -12,6 +12,7 @@ that keep their points in their plane where the mesh moves.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +35,8 @@ from equisection.solvers.openfoam.mesh.block_mesh import (
 SIDE_WALLS = {"root_wall": "symmetryPlane", "far_wall": "symmetryPlane"}
 #: Cells along the plate and across the gap at refinement 1, and the size of those at the tip.
 _ALONG, _GAP, _AT_TIP = 44, 8, 1 / 16  # chords
+#: Growth from cell to cell beyond the tip, at refinement 1, where the gap is wide.
+_GROWTH = 1.25
 
 
 @dataclass(frozen=True)
@@ -60,20 +63,12 @@ class PlateMesh:
     @property
     def layers(self) -> int:
         """Number of layers of cells from wall to wall."""
-        along, beyond = _layers(self.section.refinement)
+        along, beyond = layers_of_beam(self.section.refinement)
         return along + (beyond if self.gap else 0)
-
-    def _ratio(self) -> float:
-        """Return the size of the last cell along the plate over that of the first."""
-        along, _ = _layers(self.section.refinement)
-        return 1 / expansion(self.span, along, _AT_TIP / self.section.refinement)
 
     def edges(self) -> NDArray[np.float64]:
         """Return z/c of the planes between the cells along the plate, shape (n + 1,)."""
-        along, _ = _layers(self.section.refinement)
-        sizes = self._ratio() ** (np.arange(along) / (along - 1))
-        ends = np.concatenate([[0.0], np.cumsum(sizes)])
-        return np.asarray(self.span * ends / ends[-1], dtype=np.float64)
+        return planes_along(self.span, self.section.refinement)
 
     def block_mesh_dict(self) -> str:
         """Return the text of ``blockMeshDict``.
@@ -84,10 +79,10 @@ class PlateMesh:
             The turned near field does not fit into the channel.
         """
         section, points = self.section, self.section.points()
-        along, beyond = _layers(section.refinement)
+        along, beyond = layers_of_beam(section.refinement)
         planes = [0.0, self.span]
         around, everywhere = list(blocks_around_plate()), [(i, j) for i in _FIVE for j in _FIVE]
-        layers = [(around, Layer(0, along, f"{self._ratio():.8g}"))]
+        layers = [(around, Layer(0, along, f"{_ratio(self.span, section.refinement):.8g}"))]
         plate = [face_x(2, 2), face_x(3, 2), face_y(2, 2), face_y(2, 3)]
         far = around
         if self.gap:
@@ -120,11 +115,44 @@ def plate_cells(spacing: Spacing, refinement: float, *, gap: bool = True) -> int
 
     The layers of the gap, if there is one, also have cells in the place of the plate.
     """
-    along, beyond = _layers(refinement)
+    along, beyond = layers_of_beam(refinement)
     columns, rows = spacing.refined(refinement)
     return spacing.cells(refinement) * along + sum(columns) * sum(rows) * beyond * gap
 
 
-def _layers(refinement: float) -> tuple[int, int]:
-    """Return the layers of cells along the plate and across the gap."""
+def planes_along(span: float, refinement: float, times: float = 1.0) -> NDArray[np.float64]:
+    """Return z/c of the planes between the cells along a beam of a span (chords).
+
+    There are ``times`` as many as along the plate.
+    """
+    along = round(times * layers_of_beam(refinement)[0])
+    ratio = 1 / expansion(span, along, _AT_TIP / refinement)
+    sizes = ratio ** (np.arange(along) / (along - 1))
+    ends = np.concatenate([[0.0], np.cumsum(sizes)])
+    return np.asarray(span * ends / ends[-1], dtype=np.float64)
+
+
+def planes_beyond(gap: float, refinement: float, longest: float = math.inf) -> NDArray[np.float64]:
+    """Return the distance from the tip (chords) of the planes between the cells beyond it.
+
+    Even ones, or in a wide gap cells that grow from those at the tip up to a longest one.
+    """
+    first, (_, fewest) = _AT_TIP / refinement, layers_of_beam(refinement)
+    if gap <= first * fewest:
+        return np.linspace(0.0, gap, fewest + 1)
+    growth, sizes = _GROWTH ** (1 / refinement), [first]
+    while sum(sizes) < gap:
+        sizes.append(min(sizes[-1] * growth, longest))
+    ends = np.concatenate([[0.0], np.cumsum(sizes)])
+    return np.asarray(gap * ends / ends[-1])
+
+
+def _ratio(span: float, refinement: float) -> float:
+    """Return the size of the last cell along the beam over that of the first."""
+    along, _ = layers_of_beam(refinement)
+    return 1 / expansion(span, along, _AT_TIP / refinement)
+
+
+def layers_of_beam(refinement: float) -> tuple[int, int]:
+    """Return the layers of cells along a beam, and across a gap that is not wide."""
     return max(4, round(_ALONG * refinement)), max(2, round(_GAP * refinement))

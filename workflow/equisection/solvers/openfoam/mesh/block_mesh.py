@@ -120,6 +120,11 @@ class Mesh:
         """Number of cells."""
         return self.spacing.cells(self.refinement)
 
+    def reach(self, incidence: float) -> tuple[float, float]:
+        """Return the lowest and the highest y of the chord line at an incidence (rad), chords."""
+        high = 0.5 * abs(math.sin(incidence))
+        return -high, high
+
     def points(self) -> NDArray[np.float64]:
         """Return the crossings of the lines (chords), shape (6, 6, 2), by x and then y.
 

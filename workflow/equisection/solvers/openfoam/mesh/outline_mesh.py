@@ -23,6 +23,7 @@ import subprocess
 import sys
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from typing import Any
 
 from equisection.errors import ConfigError, SolverError
 from equisection.files import write_text
@@ -38,6 +39,8 @@ TIME_LIMIT = 300.0
 NO_MESH = 3
 #: Input and log of that process, in the folder of the case.
 INPUT, LOG = "outline.json", "log.outline"
+#: Module that makes it.
+_MESHER = "outline_mesher"
 #: Room between the disc and the channel's walls (chords), and between it and inlet and outlet.
 _TO_WALL, _TO_END = 0.25, 1.0
 
@@ -105,6 +108,12 @@ class OutlineMesh:
         x, y = zip(*self.outline, strict=True)
         return (min(x) + max(x)) / 2, (min(y) + max(y)) / 2
 
+    def reach(self, incidence: float) -> tuple[float, float]:
+        """Return the lowest and the highest y of the outline at an incidence (rad), chords."""
+        cosine, sine = math.cos(incidence), math.sin(incidence)
+        heights = [y * cosine - x * sine for x, y in self.outline]
+        return min(heights), max(heights)
+
     @property
     def disc_radius(self) -> float:
         """Radius of the disc: that of the sizes, more for a section that is high."""
@@ -147,28 +156,41 @@ class OutlineMesh:
             gmsh is missing, crashed, or did not end within the time limit (s).
         """
         self.require_room()
-        write_text(folder / INPUT, json.dumps(asdict(self)))
-        command = [sys.executable, "-m", "equisection.solvers.openfoam.mesh.outline_mesher"]
-        try:
-            with (folder / LOG).open("wb") as log:
-                status = subprocess.run(
-                    [*command, str(folder.resolve())],
-                    stdin=subprocess.DEVNULL,
-                    stdout=log,
-                    stderr=subprocess.STDOUT,
-                    timeout=time_limit,
-                    check=False,
-                ).returncode
-        except subprocess.TimeoutExpired:
-            raise SolverError(
-                f"gmsh did not end the mesh of the outline within {time_limit:g} s and was ended; "
-                f"see {folder / INPUT}"
-            ) from None
-        if status == 0:
-            return
-        said = (folder / LOG).read_text(encoding="utf-8", errors="replace").strip().splitlines()
-        last = said[-1] if said else "it said nothing"
-        if status == NO_MESH:
-            raise BlowUpError(last)
-        how = f"status {status}" if status > 0 else f"signal {-status}"
-        raise SolverError(f"the mesh of the outline: {last} ({how}); see {folder / LOG}")
+        made_by(_MESHER, folder, asdict(self), time_limit)
+
+
+def made_by(module: str, folder: Path, mesh: dict[str, Any], time_limit: float) -> None:
+    """Have a mesh made by a module that runs as a process of its own, from its input.
+
+    Raises
+    ------
+    BlowUpError
+        The outline has no mesh.
+    SolverError
+        gmsh is missing, crashed, or did not end within the time limit (s).
+    """
+    write_text(folder / INPUT, json.dumps(mesh))
+    command = [sys.executable, "-m", f"{__package__}.{module}", str(folder.resolve())]
+    try:
+        with (folder / LOG).open("wb") as log:
+            status = subprocess.run(
+                command,
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+                timeout=time_limit,
+                check=False,
+            ).returncode
+    except subprocess.TimeoutExpired:
+        raise SolverError(
+            f"gmsh did not end the mesh of the outline within {time_limit:g} s and was ended; "
+            f"see {folder / INPUT}"
+        ) from None
+    if status == 0:
+        return
+    said = (folder / LOG).read_text(encoding="utf-8", errors="replace").strip().splitlines()
+    last = said[-1] if said else "it said nothing"
+    if status == NO_MESH:
+        raise BlowUpError(last)
+    how = f"status {status}" if status > 0 else f"signal {-status}"
+    raise SolverError(f"the mesh of the outline: {last} ({how}); see {folder / LOG}")

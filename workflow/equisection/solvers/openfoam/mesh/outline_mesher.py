@@ -9,7 +9,9 @@ from __future__ import annotations
 import json
 import math
 import sys
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -171,18 +173,23 @@ def write_mesh(mesh: OutlineMesh, folder: Path) -> int:
     return write_layer(folder, cells_of(mesh), PATCHES, lambda a, b: patches_of(mesh.channel, a, b))
 
 
-def _read(folder: Path) -> OutlineMesh:
-    found = json.loads((folder / INPUT).read_text(encoding="utf-8"))
-    outline = tuple((float(x), float(y)) for x, y in found.pop("outline"))
-    channel, sizes = ChannelBox(**found.pop("channel")), OutlineSizes(**found.pop("sizes"))
-    return OutlineMesh(outline=outline, channel=channel, sizes=sizes, **found)
+def read_mesh(found: dict[str, Any]) -> OutlineMesh:
+    """Return the mesh of a section from its input."""
+    given = dict(found)
+    outline = tuple((float(x), float(y)) for x, y in given.pop("outline"))
+    channel, sizes = ChannelBox(**given.pop("channel")), OutlineSizes(**given.pop("sizes"))
+    return OutlineMesh(outline=outline, channel=channel, sizes=sizes, **given)
 
 
-def main() -> int:
-    """Make the mesh of the folder on the command line; return the status of the process."""
+def make(write: Callable[[dict[str, Any], Path], int]) -> int:
+    """Make the mesh of the folder on the command line; return the status of the process.
+
+    ``write`` writes it from its input into the folder, and returns the number of cells.
+    """
     folder = Path(sys.argv[1])
     try:
-        print(f"{write_mesh(_read(folder), folder)} cells")
+        found = json.loads((folder / INPUT).read_text(encoding="utf-8"))
+        print(f"{write(found, folder)} cells")
     except BlowUpError as error:
         print(error)
         return NO_MESH
@@ -193,4 +200,4 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(make(lambda found, folder: write_mesh(read_mesh(found), folder)))

@@ -24,6 +24,8 @@ class OutlineSizes:
         Largest spacing along the wall, that at a corner, and the turning of a curve in a cell.
     wall_growth
         Change of the spacing with the distance along the wall.
+    side_over_corner
+        Length of a side over the spacing at its corners, at the least.
     fan_from_deg, fan_step_deg
         Turning of a convex corner from which rays fan out, and the angle between them.
     near, wake, outward
@@ -42,6 +44,7 @@ class OutlineSizes:
     at_corner: float = 2e-3
     turn_deg: float = 6.0
     wall_growth: float = 0.16
+    side_over_corner: float = 14.0
     fan_from_deg: float = 50.0
     fan_step_deg: float = 18.0
     near: float = 0.035

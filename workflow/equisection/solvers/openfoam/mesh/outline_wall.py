@@ -18,8 +18,6 @@ Floats = NDArray[np.float64]
 _PLACES, _SMALLEST = 2001, 4e-4
 #: Fewest cells of a side between corners, and between kinks.
 _BETWEEN_CORNERS, _BETWEEN_KINKS = 4, 2
-#: Length of a side over the spacing at its corners, at the least.
-_SIDE_OVER_CORNER = 14.0
 
 
 @dataclass(frozen=True)
@@ -85,7 +83,7 @@ def _spaced(side: _Side, sizes: OutlineSizes, refinement: float) -> Floats:
         of_curve = np.radians(sizes.turn_deg) / np.maximum(curvature, 1e-9)
         spacing = np.minimum(spacing, np.interp(s, reach[1:-1], of_curve))
     spacing = np.maximum(spacing, _SMALLEST)
-    at_corner = min(sizes.at_corner, length / _SIDE_OVER_CORNER)
+    at_corner = min(sizes.at_corner, length / sizes.side_over_corner)
     for is_corner, distance in zip(side.corners, (s, length - s), strict=True):
         if is_corner:
             spacing = np.minimum(spacing, at_corner + sizes.wall_growth * distance)

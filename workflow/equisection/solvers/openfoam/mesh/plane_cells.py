@@ -96,8 +96,8 @@ def write_layer(folder: Path, cells: PlaneCells, patches: Mapping[str, str], of:
     SolverError
         Cells overlap, or an edge is on no patch.
     """
-    corners = _ordered(cells.corners)
-    inside, boundary = _edges(corners)
+    corners = ordered(cells.corners)
+    inside, boundary = edges_of(corners)
     shift = len(cells.points)
 
     def upright(edge: Indices) -> Indices:
@@ -123,19 +123,19 @@ def write_layer(folder: Path, cells: PlaneCells, patches: Mapping[str, str], of:
     faces = np.concatenate([faces for faces, _ in groups])
     owners = np.concatenate([owners for _, owners in groups])
     points = np.concatenate([np.c_[cells.points, np.full(shift, plane)] for plane in _PLANES])
-    _write(folder, points, faces, (owners, inside[:, 1]), places)
+    write_faces(folder, points, faces, (owners, inside[:, 1]), places)
     return len(corners)
 
 
-def _ordered(corners: Indices) -> Indices:
+def ordered(corners: Indices) -> Indices:
     """Return the cells in an order in which neighbours are near each other."""
-    inside, _ = _edges(corners)
+    inside, _ = edges_of(corners)
     ones = np.ones(len(inside), dtype=np.int8)
     graph = scipy.sparse.coo_array((ones, inside[:, :2].T), shape=(len(corners),) * 2).tocsr()
     return np.asarray(corners[reverse_cuthill_mckee(graph + graph.T, symmetric_mode=True)])
 
 
-def _edges(corners: Indices) -> tuple[Indices, Indices]:
+def edges_of(corners: Indices) -> tuple[Indices, Indices]:
     """Return edges inside, as (lower cell, higher cell, ends), and those of the boundary.
 
     An edge has its ends as its (lower) cell passes them; those of the boundary are (cell, ends).
@@ -163,13 +163,29 @@ def _edges(corners: Indices) -> tuple[Indices, Indices]:
     return inside, np.column_stack([cell[alone], ends[alone]])
 
 
-def _write(
+def write_faces(
     folder: Path,
     points: Floats,
     faces: Indices,
     cells_of_faces: tuple[Indices, Indices],
     patches: list[tuple[str, str, int, int]],
 ) -> None:
+    """Write ``constant/polyMesh``.
+
+    Parameters
+    ----------
+    folder
+        Folder of the case.
+    points
+        Points, shape (n, 3).
+    faces
+        Corners of each face, shape (m, 4), in OpenFOAM's order; two that follow each other are one
+        in a triangle.
+    cells_of_faces
+        Owner of each face, and neighbour of each of those inside, which come first.
+    patches
+        Name, type, number of faces and first face of each patch.
+    """
     place = folder / "constant" / "polyMesh"
     owners, neighbours = cells_of_faces
     cells = int(owners.max()) + 1
@@ -182,7 +198,7 @@ def _write(
         a, b, c = dict.fromkeys(faces[row].tolist())
         texts[row] = f"3({a} {b} {c})"
     contents = {
-        "points": ("vectorField", [f"({x:.15g} {y:.15g} {z:g})" for x, y, z in points.tolist()]),
+        "points": ("vectorField", [f"({x:.15g} {y:.15g} {z:.15g})" for x, y, z in points.tolist()]),
         "faces": ("faceList", texts.tolist()),
         "owner": ("labelList", map(str, owners.tolist())),
         "neighbour": ("labelList", map(str, neighbours.tolist())),

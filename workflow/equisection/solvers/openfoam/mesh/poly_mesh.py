@@ -52,7 +52,9 @@ def read_poly_mesh(folder: Path) -> PolyMesh:
 
 def _faces(content: Any) -> Numbers:
     if isinstance(content, tuple):  # places and corners, in binary
-        return np.asarray(content[1], dtype=np.int64).reshape(-1, 4)
+        starts, corners = (np.asarray(part, dtype=np.int64) for part in content)
+        last = np.diff(starts) - 1
+        return np.asarray(corners[starts[:-1, None] + np.minimum(np.arange(4), last[:, None])])
     return np.array([face if len(face) == 4 else face[[0, 1, 2, 2]] for face in content])
 
 

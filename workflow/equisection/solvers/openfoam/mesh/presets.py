@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
-from equisection.solvers.openfoam.mesh.beam_mesh import plate_cells
+from equisection.solvers.openfoam.mesh.beam_mesh import layers_of_beam, plate_cells
 from equisection.solvers.openfoam.mesh.block_mesh import OF_PLATE, SIMILAR, Spacing
 from equisection.solvers.openfoam.mesh.near_wall_spacing import BY_CELL_SIZE
 from equisection.solvers.openfoam.mesh.outline_sizes import TYPICAL_CELLS
@@ -35,6 +35,11 @@ class Preset:
     def outline_cells(self) -> int:
         """Number of cells around an outline, roughly."""
         return round(TYPICAL_CELLS * self.refinement**2)
+
+    @property
+    def outline_beam_cells(self) -> int:
+        """Number of cells around a beam of an outline, with a gap beyond its tip, roughly."""
+        return round(TYPICAL_CELLS * self.plate**2 * sum(layers_of_beam(self.plate)))
 
     @property
     def is_similar(self) -> bool:

@@ -19,8 +19,10 @@ from equisection.results.tip_flow import TipFlow
 from equisection.solvers.openfoam.dictionaries import dictionary
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
+from equisection.solvers.openfoam.mesh.outline_beam_mesh import OutlineBeamMesh
 from equisection.solvers.openfoam.process import run_program
 from equisection.solvers.openfoam.ranks import parts
+from equisection.solvers.openfoam.reading.contour_places import cut_at
 
 logger = logging.getLogger(__name__)
 
@@ -51,7 +53,7 @@ AT_REST = Pose(np.zeros(1), np.zeros(1), np.zeros(1))
 def sample_tip_flow(
     installation: Installation,
     folder: Path,
-    mesh: PlateMesh,
+    mesh: PlateMesh | OutlineBeamMesh,
     *,
     state: str,
     pose: Pose = AT_REST,
@@ -97,6 +99,7 @@ def sample_tip_flow(
     if None in files:
         logger.warning("%s: nothing was sampled near the tip; see log.postProcess", folder)
         return None
+    chord_line, thickness = _body(x, z, mesh, pose)
     velocity, turbulence = (_on_grid(path, points) for path in files if path)
     return TipFlow(
         x=x,
@@ -104,14 +107,14 @@ def sample_tip_flow(
         z=z,
         velocity=velocity,
         turbulence=turbulence[..., 0],
-        chord_line=_chord_line(x, z, mesh, pose),
+        chord_line=chord_line,
         span=mesh.span,
-        thickness=mesh.section.channel.thickness,
+        thickness=thickness,
         state=state,
     )
 
 
-def _grid(mesh: PlateMesh, pose: Pose) -> tuple[Floats, Floats, Floats]:
+def _grid(mesh: PlateMesh | OutlineBeamMesh, pose: Pose) -> tuple[Floats, Floats, Floats]:
     """Return x of the planes, and y and z of the points, about where the tip is."""
     inward, beyond = min(INWARD, mesh.span), min(BEYOND, mesh.gap)
     tip = float(np.interp(mesh.span, pose.z, pose.deflection))
@@ -125,6 +128,23 @@ def _grid(mesh: PlateMesh, pose: Pose) -> tuple[Floats, Floats, Floats]:
 def _middles(low: float, high: float) -> Floats:
     ends = np.linspace(low, high, round((high - low) / STEP) + 1)
     return 0.5 * (ends[1:] + ends[:-1])
+
+
+def _body(
+    x: Floats, z: Floats, mesh: PlateMesh | OutlineBeamMesh, pose: Pose
+) -> tuple[Floats, float]:
+    """Return y of the middle of the body in each plane along z, shape (p, n), and its thickness.
+
+    The middle of a rectangle is its chord line; the thickness of an outline is the largest in the
+    planes.
+    """
+    if isinstance(mesh, PlateMesh):
+        return _chord_line(x, z, mesh, pose), mesh.section.channel.thickness
+    angle = mesh.section.incidence + np.interp(z, pose.z, pose.twist)
+    cuts = np.stack([cut_at(np.array(mesh.section.outline), float(at), angle) for at in x])
+    middle = cuts.mean(axis=-1) + np.interp(z, pose.z, pose.deflection)
+    thickness = float(np.nan_to_num(np.ptp(cuts, axis=-1)).max())
+    return np.where(z <= mesh.span, middle, math.nan), thickness
 
 
 def _chord_line(x: Floats, z: Floats, mesh: PlateMesh, pose: Pose) -> Floats:

@@ -20,6 +20,7 @@ from equisection.solvers.openfoam.mesh.block_mesh import Mesh
 from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 from equisection.solvers.openfoam.mesh.poly_mesh import PolyMesh, read_poly_mesh
 from equisection.solvers.openfoam.process import run_program
+from equisection.solvers.openfoam.reading.contour_places import ends_of
 
 Floats = NDArray[np.float64]
 
@@ -160,9 +161,7 @@ def contour_of_outline(
     places = to_section(poly.points[:, :2], incidence)
     behind = dict(zip(low[:, 1].tolist(), range(len(low)), strict=True))
     nodes = low[:, 0]
-    # of points that are as far, the one nearest to the chord, and of two of these the lower one
-    x, y = places[nodes].T.round(9)
-    nose, tail = (int(nodes[np.lexsort((y, np.abs(y), way))[0]]) for way in (x, -x))
+    nose, tail = (int(nodes[end]) for end in ends_of(places[nodes]))
     loop, node, turn = [], tail, 0
     for _ in range(len(low)):
         face = behind[node]

@@ -25,6 +25,7 @@ from equisection.solvers.openfoam.dictionaries import (
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.block_mesh import SIMILAR, ChannelBox, Mesh, Spacing
 from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
+from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
 from equisection.solvers.openfoam.process import BlowUpError, run_program
 from equisection.solvers.openfoam.reading.loads import Loads
 from equisection.solvers.openfoam.reading.section_surface import (
@@ -51,6 +52,9 @@ from equisection.solvers.openfoam.rigid_flow import (
 SectionCells = Mesh | OutlineMesh
 
 logger = logging.getLogger(__name__)
+
+#: Sizes of the cells around the outline of a section.
+SIZES = OutlineSizes()
 
 #: Time left out, shortest and longest record of a rigid unsteady run (c/V).
 RECORD = RigidFlowRecord(10.0, 40.0, 100.0)
@@ -83,7 +87,10 @@ def mesh_of(
 
 
 def outline_mesh_of(
-    case: SteadyCase | UnsteadyCase | ForcedCase, refinement: float, far_field: float = 0.0
+    case: SteadyCase | UnsteadyCase | ForcedCase,
+    refinement: float,
+    far_field: float = 0.0,
+    sizes: OutlineSizes = SIZES,
 ) -> OutlineMesh:
     """Return the mesh of a case around its outline, or around the rectangle of its thickness.
 
@@ -97,6 +104,8 @@ def outline_mesh_of(
         Refinement of each direction.
     far_field
         Distance of the far field (chords) in free air.
+    sizes
+        Sizes of the cells, which are refined.
 
     Raises
     ------
@@ -109,7 +118,7 @@ def outline_mesh_of(
         channel = ChannelBox(geometry.thickness, 2 * far_field, far_field, far_field)
     else:
         channel = _channel(geometry)
-    return OutlineMesh(outline, channel, _incidence(case), refinement)
+    return OutlineMesh(outline, channel, _incidence(case), refinement, sizes)
 
 
 def _channel(geometry: Geometry) -> ChannelBox:

@@ -1,0 +1,208 @@
+"""Commands that start a run and say what came out: ``init``, ``run``, ``onset``, ``show``."""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+from rich.console import Console
+from tests.conftest import ROOT
+
+from equisection.config import load_config
+from equisection.run import launch, starter
+from equisection.run.answer import answer_of
+from equisection.run.command_line import LIKE, main
+
+HEADER = (
+    "model,incidence_deg,speed,speed_low,speed_high,mechanism,frequency_hz,k_star,margin,basis,"
+    "growth_error,growth_error_rms,errs\n"
+)
+
+
+def run_with(folder: Path, *lines: str) -> Path:
+    (folder / "comparison").mkdir(parents=True)
+    (folder / "comparison" / "critical_speed.csv").write_text(HEADER + "\n".join(lines) + "\n")
+    return folder
+
+
+class TestOnset:
+    def test_the_beam_answers_before_its_sections(self, tmp_path: Path) -> None:
+        run = run_with(
+            tmp_path / "run",
+            "2d,2.5,39.54,39.54,39.54,flutter,7.89,9,,eigenvalue,,,",
+            "2d-corrected,2.5,41.3,39,43.6,flutter,7.6,8,,time,,,",
+            "3d,2.5,37.35,35.6,39.1,flutter,8.03,10,1.188,time,-0.004,0.005,unsafe",
+        )
+        lines = list(answer_of(run).lines())
+        assert lines[0].endswith("between 35.6 m/s (stable) and 39.1 m/s (unstable), at 2.5 deg")
+        assert lines[1].endswith("flutter at 8.03 Hz")
+        assert lines[2].endswith("1.19 times the design speed")
+        assert "off CFD by 0.005 V/c" in lines[3]
+        assert lines[3].endswith("the true speed is probably lower")
+        assert "2d 39.54 m/s (eigenvalue)" in lines[4]
+        assert len(lines) == 5
+
+    def test_of_several_incidences_the_lowest_answers(self, tmp_path: Path) -> None:
+        run = run_with(
+            tmp_path / "run",
+            *(f"3d,{a},{v},{v},{v},flutter,2,1,,time,,," for a, v in ((-5, 30), (0, 21), (5, 29))),
+        )
+        first = next(answer_of(run).lines())
+        assert "21 m/s, at 0 deg, the lowest of 3 incidences from -5 to 5 deg" in first
+
+    @pytest.mark.parametrize(
+        ("low", "high", "words"),
+        [("30", "", "above 30 m/s"), ("", "12", "below 12 m/s"), ("", "", "unknown")],
+    )
+    def test_an_open_bracket_is_no_number(
+        self, tmp_path: Path, low: str, high: str, words: str
+    ) -> None:
+        run = run_with(tmp_path / "run", f"3d,1,,{low},{high},none,,,,time,,,")
+        assert words in next(answer_of(run).lines())
+
+    def test_a_design_speed_beyond_the_stable_ones_is_said_loudly(self, tmp_path: Path) -> None:
+        run = run_with(tmp_path / "run", "3d,1,25,24,26,flutter,2,1,0.8,time,,,")
+        assert "NOT REACHED" in list(answer_of(run).lines())[2]
+
+    def test_for_machines(self, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+        run = run_with(tmp_path / "run", "3d,1,,24,,none,,,,time,,,")
+        assert main(["onset", str(run), "--json"]) == 0
+        answer = json.loads(capsys.readouterr().out)
+        assert answer["run"] == "run"
+        assert (answer["answer"]["speed_low"], answer["answer"]["speed_high"]) == (24.0, None)
+
+    @pytest.mark.parametrize("text", ["", "model,speed\n3d,2\n", HEADER])
+    def test_what_is_no_such_table_is_named(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str
+    ) -> None:
+        run = run_with(tmp_path / "run")
+        (run / "comparison" / "critical_speed.csv").write_text(text)
+        assert main(["onset", str(run)]) == 1
+        assert "critical_speed.csv: " in capsys.readouterr().err
+
+    def test_a_run_without_an_answer_says_where_to_look(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        assert main(["onset", str(tmp_path)]) == 1
+        assert "equisection status" in capsys.readouterr().err
+
+
+class TestInit:
+    def test_the_command_has_the_examples_that_there_are(self) -> None:
+        assert set(LIKE) == set(starter.EXAMPLES)
+
+    @pytest.mark.parametrize("like", LIKE)
+    def test_every_start_is_a_valid_configuration_with_the_new_values(
+        self, like: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
+        example = yaml.safe_load((ROOT / "config/examples" / starter.EXAMPLES[like]).read_text())
+        defaults = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+        beam = defaults["beam"] | example.get("beam", {})
+        chord, length = 1.1 * beam["chord"], 1.1 * beam["length"]
+        values = [f"--chord={chord}", f"--length={length}", "--design-speed=11"]
+        assert main(["init", "mine", "--like", like, *values]) == 0
+        text = Path("mine.yaml").read_text()
+        keys = yaml.safe_load(text)
+        assert keys["run"] == "mine"
+        assert keys["beam"]["chord"] == pytest.approx(chord)
+        assert keys["beam"]["length"] == pytest.approx(length)
+        assert keys["flow"]["design_speed"] == 11
+        assert "config/examples/" + starter.EXAMPLES[like] not in text
+        for section, content in keys.items():
+            if isinstance(content, dict) and isinstance(defaults.get(section), dict):
+                defaults[section] |= content
+            else:
+                defaults[section] = content
+        if "k_star" not in keys["sweep"]:
+            defaults["sweep"]["k_star"] = None
+        assert load_config(defaults).run == "mine"
+
+    def test_nothing_is_written_over(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
+        Path("mine.yaml").write_text("run: precious\n")
+        assert main(["init", "mine", "--like", "plate"]) == 1
+        assert "mine.yaml: is there already" in capsys.readouterr().err
+        assert Path("mine.yaml").read_text() == "run: precious\n"
+
+    @pytest.mark.parametrize("name", ["", "..", "a/b", "a b", "-x\n"])
+    def test_a_name_that_is_no_folder_is_refused(
+        self, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
+        assert main(["init", "--like", "plate", "--", name]) == 1
+        assert not list(tmp_path.iterdir())
+
+
+class TestRun:
+    def test_command_here_and_elsewhere(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.chdir(ROOT)
+        here = launch.snakemake_command([Path("a.yaml")], ["-n"])
+        assert here[1:3] == ["-m", "snakemake"]
+        assert "--snakefile" not in here
+        assert here[-3:] == ["--configfile", "a.yaml", "-n"]
+        monkeypatch.chdir(tmp_path)
+        there = launch.snakemake_command([], ["-j4"])
+        assert there[there.index("--snakefile") + 1] == str(ROOT / "Snakefile")
+        assert "--cores" not in there
+
+    def test_lines_of_jobs_that_go_well_give_way_to_the_bar(self, tmp_path: Path) -> None:
+        says = ["Finished jobid: 3 (Rule: x)", "warning: wind", "2 of 5 steps (40%) done"]
+        with (tmp_path / "out").open("w") as out:
+            console = Console(file=out, force_terminal=True, width=80)
+            status = launch.launch(
+                [sys.executable, "-c", f"print({chr(10).join(says)!r}); raise SystemExit(3)"],
+                console,
+            )
+        assert status == 3
+        shown = (tmp_path / "out").read_text()
+        assert "warning: wind" in shown
+        assert "2/5" in shown
+        assert "Finished jobid" not in shown
+
+    def test_a_wrong_configuration_starts_nothing(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        wrong = tmp_path / "wrong.yaml"
+        wrong.write_text("beam: {chord: -1}\n")
+        assert main(["run", str(wrong)]) == 1
+        assert "beam.chord" in capsys.readouterr().err
+
+
+class TestShow:
+    @pytest.fixture
+    def run(self, tmp_path: Path) -> Path:
+        folder = tmp_path / "run" / "figures"
+        folder.mkdir(parents=True)
+        for name in ("a.png", "a.svg", "b.png"):
+            (folder / name).write_bytes(name.encode())
+        return folder.parent
+
+    def test_without_a_display_their_places_are_told(
+        self, run: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        monkeypatch.setattr("equisection.run.shown_figures.has_display", lambda: False)
+        assert main(["show", str(run), "b"]) == 0
+        assert capsys.readouterr().out == f"{run}/figures/b.png\n"
+
+    def test_copies_have_every_format(self, run: Path, tmp_path: Path) -> None:
+        assert main(["show", str(run), "--to", str(tmp_path / "there")]) == 0
+        assert {path.name for path in (tmp_path / "there").iterdir()} == {"a.png", "a.svg", "b.png"}
+
+    def test_an_unknown_figure_is_named_with_those_that_there_are(
+        self, run: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        assert main(["show", str(run), "c"]) == 1
+        assert "no figure 'c'; there are a, b" in capsys.readouterr().err
+
+
+def test_a_shell_can_complete_the_command(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["completion", "bash"]) == 0
+    assert "onset" in capsys.readouterr().out

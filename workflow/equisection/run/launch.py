@@ -1,0 +1,88 @@
+"""Start the workflow by ``snakemake``, with a bar of its progress on a terminal."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+import sys
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
+
+from equisection.run.start import project_of_package
+
+#: Snakemake's line after each job.
+_STEPS = re.compile(r"^(\d+) of (\d+) steps \(\d+%\) done$")
+#: What Snakemake says of jobs that go well, which the bar stands for.
+_ROUTINE = re.compile(r"^(\[.*\]|Finished jobid: .*|Select jobs to execute.*|Execute \d+ jobs?.*)$")
+
+
+def snakemake_command(configfiles: Iterable[Path], further: Sequence[str]) -> list[str]:
+    """Return the command that runs the workflow.
+
+    Parameters
+    ----------
+    configfiles
+        Configurations on top of the default one.
+    further
+        Further words for ``snakemake``. Cores and profile are those of ``make run`` where they
+        are not among them.
+    """
+    command = [sys.executable, "-m", "snakemake"]
+    project = project_of_package()
+    elsewhere = project is not None and project != Path.cwd().resolve()
+    if elsewhere and not _given(further, "--snakefile", "-s"):
+        command += ["--snakefile", str(project / "Snakefile")]  # type: ignore[operator]
+    if not _given(further, "--cores", "-c", "--jobs", "-j", "--profile"):
+        command += ["--cores", "all"]
+    if not _given(further, "--workflow-profile"):
+        profile = (project or Path()) / "workflow" / "profiles" / "default"
+        command += [
+            "--workflow-profile",
+            str(profile if elsewhere else "workflow/profiles/default"),
+        ]
+    files = [str(path) for path in configfiles]
+    return [*command, *(["--configfile", *files] if files else []), *further]
+
+
+def launch(command: Sequence[str], console: Console) -> int:
+    """Run a command of ``snakemake``; return its exit status.
+
+    On a terminal the lines of jobs that go well give way to a bar, and what else is said is
+    printed above it. Elsewhere every line is passed on.
+    """
+    if not console.is_terminal:
+        return subprocess.run(command, check=False).returncode
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
+    with (
+        Progress(*columns, TimeElapsedColumn(), console=console) as progress,
+        subprocess.Popen(
+            command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace"
+        ) as running,
+    ):
+        task = progress.add_task("jobs", total=None)
+        assert running.stdout is not None
+        try:
+            for line in running.stdout:
+                steps = _STEPS.match(line.strip())
+                if steps:
+                    progress.update(task, completed=int(steps.group(1)), total=int(steps.group(2)))
+                elif not _ROUTINE.match(line.strip()) and line.strip():
+                    progress.console.print(line.rstrip("\n"), markup=False, highlight=False)
+        except KeyboardInterrupt:  # snakemake has it too, and ends its jobs before itself
+            running.wait()
+            raise
+        return running.wait()
+
+
+def _given(words: Sequence[str], *options: str) -> bool:
+    """Tell whether one of the options is among the words, with its value apart or after '='."""
+    return any(
+        word == option
+        or word.startswith(f"{option}=")
+        or (len(option) == 2 and word.startswith(option) and word[2:].isdigit())
+        for word in words
+        for option in options
+    )
