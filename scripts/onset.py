@@ -37,8 +37,10 @@ from equisection.study.assemble import section_refusal
 from equisection.study.axes import INCIDENCE, SPEED, AsGiven, onset_axis, varied
 
 if TYPE_CHECKING:  # what few runs ask for is imported where it is asked for
+    from equisection.aerodynamics.generalised_forces import GeneralisedForces
     from equisection.analysis.derivative_speeds import Equilibrium
     from equisection.motion.derivative_flutter import FlowingBody
+    from equisection.structure.modal_matrices import ModalMatrices
 
 
 def main(
@@ -92,6 +94,7 @@ def speeds(
     stability: Path | None = None,
     modes: Path | None = None,
     table_of_derivatives: Path | None = None,
+    forces_on_modes: Path | None = None,
 ) -> None:
     """Write the critical speed of each model with its known error, and tell it.
 
@@ -144,6 +147,7 @@ def speeds(
         )
     if table_of_derivatives is not None:
         from equisection.aerodynamics.derivatives import Derivatives  # noqa: PLC0415
+        from equisection.aerodynamics.generalised_forces import GeneralisedForces  # noqa: PLC0415
         from equisection.analysis.derivative_speeds import from_derivatives  # noqa: PLC0415
         from equisection.motion.derivative_flutter import FlowingBody  # noqa: PLC0415
 
@@ -151,7 +155,7 @@ def speeds(
             name: FlowingBody.of_section(section, flow.density)
             for name, section in sections.items()
         }
-        if modes is not None:
+        if modes is not None and forces_on_modes is None:
             bodies |= _beam(config, modes)
         derivatives = Derivatives.read(table_of_derivatives)
         by_table, remarks = from_derivatives(
@@ -161,9 +165,17 @@ def speeds(
             incidence_deg=flow.incidence_deg,
             equilibrium=_equilibrium(config, solver, sections),
         )
+        found.append(by_table)
+        if modes is not None and forces_on_modes is not None:
+            from equisection.analysis.derivative_speeds import from_moved_beam  # noqa: PLC0415
+
+            forces = GeneralisedForces.read(forces_on_modes)
+            moved = _moved_beam(config, modes, forces)
+            of_beam, more = from_moved_beam("3d", moved, forces, given=given)
+            found.append(of_beam)
+            remarks += more
         for remark in remarks:
             logging.getLogger(__name__).warning("%s", remark)
-        found.append(by_table)
     critical = critical_speeds.with_margin(found, flow.design_speed)
     for line in critical_speeds.in_words(critical) + errors_in_words(known or {}):
         logging.getLogger(__name__).info("%s", line)
@@ -200,14 +212,28 @@ def _equilibrium(
 def _beam(config: Config, modes: Path) -> dict[str, "FlowingBody"]:
     """Return the beam on the modes of its structure."""
     from equisection.motion.derivative_flutter import FlowingBody  # noqa: PLC0415
+
+    beam, structure = config.beam, config.structure
+    matrices = _matrices(config, modes, structure.bending_modes, structure.torsion_modes)
+    body = FlowingBody.of_beam(matrices, beam.chord, beam.elastic_axis, config.flow.density)
+    return {"3d": body}
+
+
+def _moved_beam(config: Config, modes: Path, forces: "GeneralisedForces") -> "FlowingBody":
+    """Return the beam on the modes that were moved."""
+    from equisection.motion.derivative_flutter import FlowingBody  # noqa: PLC0415
+
+    beam, torsion = config.beam, len(forces.modes) - forces.bending
+    matrices = _matrices(config, modes, forces.bending, torsion)
+    return FlowingBody.of_moved_beam(matrices, beam.chord, beam.elastic_axis, config.flow.density)
+
+
+def _matrices(config: Config, modes: Path, bending: int, torsion: int) -> "ModalMatrices":
     from equisection.results.modes_dataset import modes_from_dataset  # noqa: PLC0415
     from equisection.structure.modal_matrices import modal_matrices  # noqa: PLC0415
 
-    beam, structure = config.beam, config.structure
-    of_both = structure.bending_modes, structure.torsion_modes
-    matrices = modal_matrices(beam, modes_from_dataset(read_dataset(modes)), *of_both)
-    body = FlowingBody.of_beam(matrices, beam.chord, beam.elastic_axis, config.flow.density)
-    return {"3d": body}
+    found = modes_from_dataset(read_dataset(modes))
+    return modal_matrices(config.beam, found, bending, torsion)
 
 
 def growth_by_linear_theory(
@@ -264,6 +290,7 @@ if __name__ == "__main__":
             stability=next(map(Path, snakemake.input.stability), None),
             modes=next(map(Path, snakemake.input.modes), None),
             table_of_derivatives=next(map(Path, snakemake.input.derivatives), None),
+            forces_on_modes=next(map(Path, snakemake.input.forces), None),
         )
         for table in snakemake.output.section_and_beam:
             sections_against_beam(summary, Path(table))

@@ -23,6 +23,7 @@ from tests.benchmarks import (  # noqa: E402
     default_run,
     early_verdict,
     flips,
+    growth_rates,
     large_sweep,
     learnt,
     malformed,
@@ -32,6 +33,7 @@ from tests.benchmarks import (  # noqa: E402
     outlines,
     plate,
     stability_map,
+    starts,
 )
 from tests.benchmarks.measure import Row  # noqa: E402
 
@@ -45,12 +47,14 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
     "flips": flips.rows,
+    "growth-rates": growth_rates.rows,
     "learnt": learnt.rows,
     "malformed": malformed.rows,
     "openfoam": openfoam.rows,
     "outlines": outlines.rows,
     "plate": plate.rows,
     "stability-map": stability_map.rows,
+    "starts": starts.rows,
 }
 
 

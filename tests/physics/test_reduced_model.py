@@ -193,11 +193,11 @@ def test_release_far_from_the_onset_asks_for_another(sweep):
     learnt = learnt_model(sweep["2d"][10.0], POLAR)
     k_star = np.geomspace(5.0, 14.0, 12)
     sections = [sweep["2d"][10.0].section.scaled(k / 10.0) for k in k_star]
-    wanted = next_release(learnt, predicted_onset(predicted(learnt, k_star, sections)))
+    wanted = next_release(learnt.k_star, predicted_onset(predicted(learnt, k_star, sections)))
     assert wanted is not None
     assert 6.44 < wanted < 8.0
     near = learnt_model(sweep["2d"][6.44], POLAR)
-    assert next_release(near, predicted_onset(predicted(near, k_star, sections))) is None
+    assert next_release(near.k_star, predicted_onset(predicted(near, k_star, sections))) is None
 
 
 def test_growing_release_by_openfoam_predicts_the_limit_cycle_of_another():

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.plate_section import CHORD, DENSITY, PLATE, POLAR, speed_of
+from tests.plate_section import ATTACHED, CHORD, DENSITY, PLATE, POLAR, THIN, speed_of
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
@@ -38,7 +38,7 @@ def test_motion_is_that_of_the_solver_and_times_are_those_of_the_chord():
     np.testing.assert_allclose(found["incidence"], math.radians(2.5) + history.twist[:, 0])
 
 
-@pytest.mark.parametrize(("part", "regime"), [(0.8, "settled"), (1.2, "growing")])
+@pytest.mark.parametrize(("part", "regime"), [(0.8, "decaying"), (1.2, "growing")])
 def test_verdict_turns_where_the_eigenvalue_says(part, regime):
     found = release(PLATE, POLAR, incidence_deg=2.5, speed=part * ONSET, density=DENSITY)
     assert found.attrs["regime"] == regime
@@ -47,7 +47,7 @@ def test_verdict_turns_where_the_eigenvalue_says(part, regime):
     assert found.attrs["frequency_strouhal"] == pytest.approx(
         float(small["frequency_strouhal"]), rel=0.05
     )
-    if regime == "settled":
+    if regime == "decaying":
         assert found.attrs["mean_twist_deg"] == pytest.approx(
             math.degrees(float(small["equilibrium_twist"])), rel=0.01
         )
@@ -104,3 +104,41 @@ def test_arguments_that_make_no_sense_are_refused(changes, words):
 def test_incidence_beyond_the_polar_is_refused():
     with pytest.raises(IncidenceOutOfRangeError, match="15 deg is outside polar"):
         release(PLATE, POLAR, incidence_deg=15.0, speed=20.0)
+
+
+@pytest.mark.parametrize(
+    ("k_star", "incidence_deg", "duration", "regime"),
+    [
+        (1.0, 0.5, 1.0, "undecided"),
+        (1.0, 0.5, 30.0, "undecided"),  # less than two periods, at 35 c/V beyond the bound
+        (1.0, 0.5, 40.0, "growing"),
+        (4.0, 0.5, 10.0, "undecided"),  # the second half swing is larger, and it decays
+        (4.0, 0.5, 60.0, "decaying"),
+        (21.0, 0.0, 60.0, "undecided"),  # nothing moves it
+    ],
+)
+def test_thin_plate_is_not_judged_before_it_has_shown_what_it_does(
+    k_star, incidence_deg, duration, regime
+):
+    found = release(
+        PLATE,
+        THIN,
+        incidence_deg=incidence_deg,
+        speed=speed_of(PLATE, k_star),
+        density=DENSITY,
+        lags=ATTACHED,
+        duration=duration,
+    )
+    assert found.attrs["regime"] == regime, found.attrs["reason"]
+    if regime == "decaying":
+        theory = stability(
+            PLATE,
+            THIN,
+            incidence_deg=incidence_deg,
+            speed=found.attrs["speed"],
+            density=DENSITY,
+            lags=ATTACHED,
+        )
+        exact = float(theory["growth_rate_convective"])
+        assert found.attrs["growth_high"] < 0.0
+        assert found.attrs["growth_rate"] == pytest.approx(exact, rel=0.05)

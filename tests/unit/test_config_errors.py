@@ -306,6 +306,18 @@ MALFORMED = [
     ),
     ({"unsteady": {"start": {"twist_deg": -7}}}, "unsteady.start.twist_deg", "-7", "either way"),
     ({"unsteady": {"start": {"heave_rate": 2}}}, "unsteady.start.heave_rate", "2", "below 1"),
+    (
+        {"unsteady": {"start": {"state": "equilibrium"}}},
+        "unsteady.start.state",
+        "'equilibrium'",
+        "with unsteady.start.twist_deg, such as 0.2",
+    ),
+    (
+        {"solver": "openfoam", "unsteady": {"time_step": 0.02, "start": {"state": "equilibrium"}}},
+        "unsteady.start.state",
+        "'equilibrium'",
+        "'rigid' with solver 'openfoam'",
+    ),
     ({"embedded": {"incidence_point": 0}}, "embedded.incidence_point", "0", "0.25"),
     (
         {"flow": {"incidence_deg": 0}, "embedded": {"symmetric": False}, "solver": "openfoam"},

@@ -8,7 +8,7 @@ import yaml
 from tests.conftest import ROOT
 from tests.sample_cases import UNSTEADY
 
-from equisection.cases import FREE, STEADY, SolverBlock, canonical, case_hash
+from equisection.cases import FORCED, FREE, STEADY, SolverBlock, canonical, case_hash
 from equisection.config import load_config
 from equisection.errors import ConfigError
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -19,7 +19,10 @@ from equisection.run.cost_fit import fits, fitted
 from equisection.run.jobs import batch_work, solver_jobs
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.work_done import work_done
+from equisection.solvers.registry import solver_from_config
 from equisection.solvers.work import Work
+from equisection.study.forced_cases import forced_case
+from equisection.study.plan import forced_names
 
 COSTS = ROOT / "workflow" / "profiles" / "cost.yaml"
 KEPT = ROOT / "results" / "reference"
@@ -59,6 +62,26 @@ def test_rigid_case_may_go_on_as_long_as_its_record_can_be(dimension: str, longe
     """The plate's is shorter, for what it costs (openfoam-sweep.md, plate-sweep.md)."""
     work = cost.work_of(load_config(OPENFOAM), STEADY, dimension, "coarse")
     assert work.steps == pytest.approx(longest / 0.02 * 3)
+
+
+@pytest.mark.parametrize("motion", ["multi-sine", "harmonic"])
+@pytest.mark.parametrize("velocities", [[3, 4, 6, 24], [4, 5, 8, 8.3]])
+def test_job_of_a_forced_motion_asks_for_its_longest_record(
+    motion: str, velocities: list[float]
+) -> None:
+    """Two close frequencies take longer to be told apart than the periods of the slowest."""
+    forced = {"run": True, "motion": motion, "reduced_velocity": velocities}
+    for solver in ("openfoam", "embedded"):
+        config = load_config({**OPENFOAM, "solver": solver, "forced": forced})
+        adapter = solver_from_config(config, "coarse")
+        cases = [forced_case(config, name, adapter) for name in forced_names(config)]
+        longest = max(case.duration for case in cases)
+        work = cost.work_of(config, FORCED, "2d", "coarse")
+        steps = longest / config.unsteady.time_step
+        if solver == "openfoam":
+            assert work.steps == pytest.approx(3 * steps, rel=5e-3)
+        else:
+            assert work.steps >= 0.995 * steps
 
 
 def test_job_that_looks_up_what_is_kept_asks_for_no_solver() -> None:

@@ -79,6 +79,8 @@ def test_heave_that_grows_alone_is_galloping() -> None:
         (("growing", "growing"), "flutter", "unstable at 20 m/s and at all lower speeds"),
         (("failed", "failed"), "unknown", "nothing is known"),
         (("failed", "settled"), "unknown", "stable up to 20 m/s; what is beyond failed"),
+        (("undecided", "decaying"), "unknown", "stable up to 20 m/s; what is beyond failed"),
+        (("undecided", "undecided"), "unknown", "nothing is known"),
     ],
 )
 def test_open_brackets_say_what_is_known(

@@ -785,6 +785,34 @@ def test_model_with_a_frequency_alone_is_in_the_legend_and_one_point_is_seen():
     assert all(line.get_marker() == "." for line in lines)
 
 
+def test_limit_cycles_of_a_learnt_model_have_a_panel_and_words():
+    values = {
+        name: ("k_star", np.array([1.0, 1.0]))
+        for name in (
+            *("growth_rate", "growth_low", "growth_high"),
+            *("frequency_strouhal", "frequency_low", "frequency_high"),
+        )
+    }
+    flags = {"extrapolated": ("k_star", np.zeros(2))}
+    attributes = {"model": "2d", "words": "model learnt", "learnt_from_k_star": 6.0}
+    data = xr.Dataset({**values, **flags}, {"k_star": [5.0, 8.0]}, attributes)
+    runs = growth(regime=["limit-cycle", "settled"], twist_amplitude_deg=[4.0, 0.0])
+    without = growth_rate.draw(runs, linear_theory(), NOTHING, [data])
+    assert len(without.axes) == 2
+    cycles = data.assign(
+        limit_cycle_deg=("k_star", np.array([5.0, 2.0])),
+        limit_cycle_extrapolated=("k_star", np.array([1.0, 0.0])),
+    ).assign_attrs(limit_cycles="limit cycle by a model")
+    figure = growth_rate.draw(runs, linear_theory(), NOTHING, [cycles])
+    panel = figure.axes[2]
+    seen, beyond, run = (line.get_ydata() for line in panel.get_lines())
+    np.testing.assert_array_equal(seen, [np.nan, 2.0])
+    np.testing.assert_array_equal(beyond, [5.0, np.nan])
+    assert list(run) == [4.0]
+    assert "limit cycle by a model" in words(figure)
+    lay_out(figure)
+
+
 def test_failed_runs_have_no_growth():
     failed = growth(regime="failed")
     figure = growth_rate.draw(failed, linear_theory().iloc[:0], NOTHING)

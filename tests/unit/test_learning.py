@@ -73,6 +73,25 @@ def test_all_sections_are_learnt_from_the_uncorrected_one():
     assert plan.learner(alone, "2d-corrected") == "2d-corrected"
 
 
+def test_beam_is_learnt_from_its_own_release():
+    config = config_of(models=["2d", "2d-corrected", "3d"])
+    assert [plan.learner(config, name) for name in config.sweep.models] == ["2d", "2d", "3d"]
+    assert plan.sweep_cases(config, "3d") == ["k8"]
+
+
+@pytest.mark.parametrize(
+    ("rate", "released", "wanted"),
+    [(-0.01, "k8", [4.0]), (0.01, "k8", [16.0]), (-0.01, "k4", [])],
+)
+def test_model_without_an_onset_in_reach_asks_for_the_end_of_the_sweep(
+    tmp_path, rate, released, wanted
+):
+    lessons = Lessons(config_of(), "2d", {}, [index_of(tmp_path, "2d", {released: "settled"})])
+    found = lessons._towards_onset(table().assign(growth_rate=rate))
+    assert [point[K_STAR] for point in found] == wanted
+    assert lessons._towards_onset(table()) == []
+
+
 def test_runs_that_confirm_are_at_both_ends_of_the_interval():
     lessons = Lessons(config_of(), "2d-corrected", {}, [])
     assert [point[K_STAR] for point in lessons.confirming_points(course())] == [7.5, 8.5]
@@ -108,7 +127,17 @@ def test_words_never_pass_a_model_for_runs():
     [
         ({"rom": {"learn_from": [5.0, 6.0, 7.0]}}, "rom.learn_from"),
         ({"rom": {"confirm": 3}}, "rom.confirm"),
-        ({"sweep": {"onset": "model", "models": ["3d"]}}, "sweep.models"),
+        (
+            {
+                "sweep": {"onset": "model", "models": ["3d"]},
+                "steady": {"beam_polar": "config/polars/paper_plate_3d.csv"},
+            },
+            "steady.beam_polar",
+        ),
+        (
+            {"sweep": {"onset": "model", "models": ["3d"]}, "beam": {"elastic_axis": 0.4}},
+            "beam.elastic_axis",
+        ),
         (
             {"sweep": {"onset": "model", "models": ["2d-corrected"]}, "beam": {"mass_axis": 0.6}},
             "sweep.models",

@@ -285,7 +285,7 @@ def test_small_releases_agree_with_the_eigenvalues(
     config: Config, models: list[MappedModel]
 ) -> None:
     checked = checked_in_time(stability_table(models[:1], None), models[:1], config)
-    assert set(checked["below_small"]) == {"settled"}
+    assert set(checked["below_small"]) <= {"settled", "decaying"}
     assert set(checked["above_small"]) == {"growing"}
     assert checked["in_time"].str.len().gt(0).all()
 

@@ -1,9 +1,11 @@
 import io
 import math
 
+import numpy as np
 import pandas as pd
 import pytest
 
+from equisection.analysis.growth_onset import zero_of_line
 from equisection.analysis.linear_theory import ONSET_COLUMNS, with_linear_theory
 from equisection.analysis.onset import (
     next_points,
@@ -47,6 +49,8 @@ def test_table_of_no_runs_has_its_columns_and_no_lines():
     table = with_linear_theory(onset_table(summary), {}, "consistent")
     assert tuple(table.columns) == (
         *("model", "k_star_stable", "k_star_unstable", "failed_inside", "stable_below"),
+        *("undecided_inside", "in_doubt", "k_star_growth", "k_star_growth_low"),
+        *("k_star_growth_high", "growth_runs"),
         *ONSET_COLUMNS,
     )
     assert table.empty
@@ -92,9 +96,81 @@ def test_contradiction_counts_as_unstable():
     assert sides(onset_bracket([5, 5, 6], [S, G, S])) == (5, 6)
 
 
-def test_undecided_runs_are_refused():
-    with pytest.raises(ValueError, match="undecided"):
-        onset_bracket([5], ["undecided"])
+def test_regime_that_is_none_is_refused():
+    with pytest.raises(ValueError, match="'asleep' is not known; allowed are 'settled'"):
+        onset_bracket([5], ["asleep"])
+
+
+def test_undecided_run_is_on_no_side_and_named_inside_the_bracket():
+    regimes = [G, "undecided", "undecided", "decaying", "undecided"]
+    bracket = onset_bracket([5, 5.5, 6, 7, 8], regimes)
+    assert sides(bracket) == (5, 7)
+    assert bracket.undecided == (5.5, 6)
+    assert bracket.failed == ()
+    # the middle has been run and said nothing: around it, at another division
+    assert refinement_points(bracket, 0.01) not in ([], [5.5], [6.0])
+    assert not onset_bracket([5], ["undecided"]).closed
+
+
+def swept(k_star, rates, errors, regimes):
+    """Summary of one model; the intervals are two standard errors."""
+    known = dict.fromkeys(columns(), math.nan) | {"mean_known": 1}
+    return summarise(
+        ("2d", known | {
+            "k_star": k, "regime": regime, "growth_rate": rate, "growth_standard_error": error,
+            "growth_low": rate - 2 * error, "growth_high": rate + 2 * error,
+        })
+        for k, rate, error, regime in zip(k_star, rates, errors, regimes, strict=True)
+    )  # fmt: skip
+
+
+def test_onset_by_growth_is_where_the_line_is_zero_and_its_interval_holds_it():
+    """Rates on a line in ln k* with normal errors: 95 % of the intervals hold the zero."""
+    k_star = np.array([5.0, 6.0, 7.5, 9.0, 11.0])
+    true, error = 0.05 * np.log(7.0 / k_star), np.full(5, 0.001)
+    onset = zero_of_line(k_star, true, error)
+    assert onset.value == pytest.approx(7.0)
+    assert onset.low < 7.0 < onset.high
+    # a small error goes through as delta sigma over the slope
+    half = 0.001 * 1.96 / 0.05 * 7.0 / math.sqrt(5)
+    assert onset.high - onset.low == pytest.approx(2 * half, rel=0.05)
+    random = np.random.default_rng(3)
+    held = [
+        found.low <= 7.0 <= found.high
+        for found in (
+            zero_of_line(k_star, true + error * random.standard_normal(5), error)
+            for _ in range(200)
+        )
+    ]
+    assert 0.91 < np.mean(held) <= 1.0
+    level = zero_of_line(k_star[:2], np.array([0.0001, -0.0001]), error[:2])
+    assert math.isnan(level.low)
+
+
+def test_onset_table_tells_what_the_growth_of_its_runs_does():
+    summary = swept(
+        (5.0, 6.0, 8.0, 10.0, 14.0),
+        (0.020, 0.010, 0.0002, -0.008, -0.020),
+        (0.001, 0.001, 0.0010, 0.0010, 0.001),
+        (G, G, "undecided", "decaying", S),
+    )
+    row = onset_table(summary).iloc[0]
+    assert (row["k_star_unstable"], row["k_star_stable"]) == (6, 10)
+    assert row["undecided_inside"] == "8"
+    assert row["in_doubt"] == ""
+    assert row["k_star_growth_low"] < row["k_star_growth"] < row["k_star_growth_high"]
+    assert 7.5 < row["k_star_growth"] < 8.5
+    assert row["growth_runs"] == 4
+    # a growth that the error does not tell from none, on the unstable side
+    doubtful = swept((6.0, 10.0), (0.001, -0.01), (0.001, 0.001), (L, S))
+    assert onset_table(doubtful).iloc[0]["in_doubt"] == "6"
+    # all stable: nothing to draw a line through
+    stable = onset_table(swept((6.0, 10.0), (-0.01, -0.02), (0.001, 0.001), (S, S))).iloc[0]
+    assert math.isnan(stable["k_star_growth"])
+    # results from before there were errors
+    before = onset_table(summary.drop(columns=["growth_low", "growth_high"])).iloc[0]
+    assert math.isnan(before["k_star_growth"])
+    assert before["in_doubt"] == ""
 
 
 def test_refinement_divides_the_bracket():

@@ -6,7 +6,15 @@ import numpy as np
 import pytest
 from tests.sample_cases import UNSTEADY, UNSTEADY_PLATE
 
-from equisection.solvers.verdicts import TipMotion, judge, pitch_frequency
+from equisection.results.unsteady_result import VERDICT_ATTRIBUTES, VERDICT_UNITS
+from equisection.solvers.verdicts import (
+    Judge,
+    TipMotion,
+    growths_of_tips,
+    judge,
+    pitch_frequency,
+    refused,
+)
 
 TIME = np.arange(0.0, 60.0, 0.05)
 LEFT = "an incidence of 25.1 deg left the section polar"
@@ -50,3 +58,39 @@ def test_frequency_is_that_of_an_oscillation_or_not_known() -> None:
     creeping = np.radians(1.0 - np.exp(-0.1 * TIME))
     found = judge(UNSTEADY, TipMotion(TIME, creeping, 0.1 * creeping))
     assert math.isnan(found["frequency_strouhal"])
+
+
+def ringing(rate: float, end: float) -> TipMotion:
+    """Return a pitch near its natural frequency that grows at a rate, with a damped heave."""
+    time = TIME[end >= TIME]
+    pitch = np.radians(np.exp(rate * time) * np.cos(0.95 * time))
+    heave = np.exp(-0.05 * time) * np.cos(0.11 * time)
+    return TipMotion(time, pitch + 0.01 * heave, 0.1 * pitch - 0.2 * heave)
+
+
+def test_growth_of_motions_of_unlike_length_is_that_of_each_alone() -> None:
+    judged = Judge.of(UNSTEADY)
+    tips = [ringing(0.02, 59.0), ringing(-0.01, 45.0), ringing(0.0, 12.0), ringing(0.01, 59.0)]
+    together = growths_of_tips([judged] * 4, tips)
+    for tip, found, rate in zip(tips, together, (0.02, -0.01, math.nan, 0.01), strict=True):
+        (alone,) = growths_of_tips([judged], [tip])
+        assert found.rate == pytest.approx(rate, abs=2e-4, nan_ok=True)
+        assert found.rate == pytest.approx(alone.rate, abs=1e-6, nan_ok=True)
+        assert found.end == pytest.approx(alone.end, nan_ok=True)
+    broken = TipMotion(TIME, np.full_like(TIME, np.nan), TIME)
+    assert math.isnan(growths_of_tips([judged], [broken])[0].rate)
+
+
+def test_growth_in_a_result_has_its_error_and_window_or_none() -> None:
+    found = judge(UNSTEADY, ringing(-0.01, 45.0))
+    assert found.keys() == VERDICT_ATTRIBUTES.keys() == VERDICT_UNITS.keys()
+    assert found["regime"] == "decaying"
+    assert found["growth_low"] < found["growth_rate"] < found["growth_high"] < 0.0
+    assert found["growth_low"] <= -0.01 <= found["growth_high"]
+    assert (found["growth_start"], found["growth_end"]) == (10.0, pytest.approx(45.0))
+    assert found["growth_note"] == ""
+    # of a case that is not run there is no growth at all
+    never = refused(UNSTEADY.model_copy(update={"refusal": "none", "section": None})).verdict
+    assert never.keys() == found.keys()
+    for name in ("rate", "standard_error", "low", "high", "start", "end"):
+        assert math.isnan(float(never[f"growth_{name}"]))

@@ -35,6 +35,16 @@ def test_model_says_what_it_was_learnt_from(learnt: tuple[Project, str]) -> None
     assert found["onset_k_star_low"] < found["onset_k_star"] < found["onset_k_star_high"]
 
 
+def test_limit_cycles_end_at_the_onset(learnt: tuple[Project, str]) -> None:
+    """Well above the onset's k* a release decays, and below it swings."""
+    found = read_dataset(learnt[0].results / "rom" / "2d" / "model.nc")
+    assert found.attrs["limit_cycles"].startswith("limit cycle by a model learnt from all ")
+    k_star, size = found["k_star"].values, found["limit_cycle_deg"].values
+    assert (size[k_star > 1.5 * found.attrs["onset_k_star"]] < 0.2).all()
+    near = (k_star > 0.8 * found.attrs["onset_k_star"]) & (k_star < found.attrs["onset_k_star_low"])
+    assert (size[near] > 0.5).all()
+
+
 def test_onset_is_within_a_tenth_of_the_embedded_sweep(learnt: tuple[Project, str]) -> None:
     """Growth of its releases is zero at k* 7.9 between 40 and 100 c/V; one lag stands for several.
 

@@ -47,7 +47,6 @@ SECTIONS_TOGETHER = plan.sections_together(CONFIG)
 DIMENSIONS = plan.steady_dimensions(CONFIG)
 SWEEP = plan.sweep_cases(CONFIG)
 STEADY = plan.steady_cases(CONFIG)
-FORCED_NAMES = list(plan.forced_names(CONFIG))
 MESH_CASE = plan.rigid_case(CONFIG.steady.resolution, CONFIG.flow.incidence_deg)
 
 # Jobs inherit what tells them where the solver is on this machine.
@@ -136,16 +135,46 @@ def modes_of_table():
     return [f"{RESULTS}/structure/modes.nc"] if wanted else []
 
 
-def case_files_of_motions():
-    """Return the case files of the forced motions."""
-    names = ["forced"] if IN_ONE_JOB else FORCED_NAMES
-    return [f"{RESULTS}/cases/forced/2d/{name}.json" for name in names]
+def case_files_of_forced(dimension):
+    """Return the case files of the forced motions of a dimension."""
+    names = ["forced"] if IN_ONE_JOB else plan.forced_names(CONFIG, dimension)
+    return [f"{RESULTS}/cases/forced/{dimension}/{name}.json" for name in names]
+
+
+def motions(wildcards):
+    """Return the forced cases of a dimension."""
+    return list(plan.forced_names(CONFIG, wildcards.dimension))
+
+
+def case_files_of_motions(wildcards):
+    """Return the case files of the forced motions that a rule is about."""
+    return case_files_of_forced(wildcards.dimension)
+
+
+def results_of_motions(wildcards):
+    """Return the results of the forced motions that a rule is about."""
+    place = f"{RESULTS}/forced/{wildcards.dimension}"
+    return [f"{place}/{name}.nc" for name in motions(wildcards)]
+
+
+def modes_of_motions(wildcards):
+    """Return the modes of the beam, if the forced motions are in them."""
+    return [f"{RESULTS}/structure/modes.nc"] if wildcards.dimension == "3d" else []
 
 
 def derivative_files():
-    """Return the derivatives from forced motion, if the section is moved."""
-    names = ("2d", "2d-fit") if CONFIG.forced.run else ()
-    return [f"{RESULTS}/derivatives/{name}.csv" for name in names]
+    """Return the derivatives from forced motion, and the forces on modes, of what is moved."""
+    return [
+        f"{RESULTS}/derivatives/{dimension}{part}.csv"
+        for dimension in plan.forced_dimensions(CONFIG)
+        for part in ("", "-fit")
+    ]
+
+
+def forces_on_modes():
+    """Return the forces on the modes of the beam, if its onset is found by them."""
+    moved = "3d" in plan.forced_dimensions(CONFIG) and "3d" in CONFIG.sweep.models
+    return [f"{RESULTS}/derivatives/3d.csv"] if moved else []
 
 
 def kept_files():
@@ -238,9 +267,15 @@ def learnt_from(model, batches):
         "confirming": [
             f"{RESULTS}/unsteady/{model}/{batch}.json" for batch in batches[2:]
         ],
-        "polar_2d": f"{RESULTS}/steady/polar_2d.nc",
+        **polar_of_learnt(model),
         **structure_of(model),
     }
+
+
+def polar_of_learnt(name):
+    """Return the polar that a learnt model has as its steady part, by its name."""
+    polar = f"polar_{plan.model(name, CONFIG.reduction).dimension}"
+    return {polar: f"{RESULTS}/steady/{polar}.nc"}
 
 
 def learnt_before_round(wildcards):

@@ -78,6 +78,7 @@ rule onset:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         stability=stability_table_of_map(),
         derivatives=table_of_derivatives(),
+        forces=forces_on_modes(),
         modes=modes_of_table(),
         learnt=learnt_models(),
     output:

@@ -235,6 +235,11 @@ class Derivatives:
         turned = np.array([[1.0, -ahead], [0.0, 1.0]])
         return np.asarray(turned.T @ loads @ turned, dtype=np.complex128)
 
+    @property
+    def quantities(self) -> int:
+        """Number of quantities that have a spread: the eight derivatives."""
+        return len(DERIVATIVES)
+
     def thinned(self) -> tuple[Derivatives, ...]:
         """Two tables of about half the rows each, both with the first and the last.
 

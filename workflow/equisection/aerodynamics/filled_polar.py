@@ -65,7 +65,15 @@ def missing_angles(polar: Polar, seen: tuple[float, float]) -> list[float]:
     seen
         Least and greatest incidence (rad) of the motion.
     """
-    points = np.degrees(polar.incidence)
+    return missing_between(polar.incidence, seen)
+
+
+def missing_between(incidence: Floats, seen: tuple[float, float]) -> list[float]:
+    """Angles (deg) that lack where a motion goes (:func:`missing_angles`) between given ones (rad).
+
+    ``incidence`` ascends, shape (n,).
+    """
+    points = np.degrees(incidence)
     low, high = np.degrees(seen)
     found: list[float] = []
     for start, stop in itertools.pairwise(points):

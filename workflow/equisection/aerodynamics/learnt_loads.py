@@ -22,6 +22,7 @@ free, as in Volterra series of low order (Silva, J. Aircr. 30, 1993).
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -47,7 +48,8 @@ RIDGE = 1e-4
 LARGEST_CONTRADICTION = 0.3
 #: End (c/V) of the part that is checked by it; what has settled later is noise.
 CHECKED_UNTIL = 50.0
-_LIFT_WEIGHT = 0.3
+#: Weight of what the lift leaves, to that of the moment, in the search for the rate (-).
+LIFT_WEIGHT = 0.3
 _RATES = (0.05, 4.0)
 _FIRST_RATES = 14
 
@@ -174,7 +176,7 @@ class Lesson:
         ResultFileError
             The history cannot be learnt from.
         """
-        require_lesson(history)
+        require_lesson(history.name, history.time)
         require_consistent(history, polar)
         s, axis = history.time, history.section.axis_behind_mid_chord
         twist = scipy.interpolate.make_interp_spline(s, history.twist, 5)
@@ -233,18 +235,11 @@ def learn(history: ReferenceHistory, polar: Polar, until: float = math.inf) -> L
     whole = polar.continued
     lesson = Lesson.of(history, whole, until)
 
-    def misfit(log_rate: float) -> float:
-        _, _, moment, lift = lesson.fitted(math.exp(log_rate))
-        return moment**2 + _LIFT_WEIGHT * lift**2
+    def misfit(rate: float) -> float:
+        _, _, moment, lift = lesson.fitted(rate)
+        return moment**2 + LIFT_WEIGHT * lift**2
 
-    low, high = map(math.log, _RATES)
-    grid = np.linspace(low, high, _FIRST_RATES)
-    best = int(np.argmin([misfit(value) for value in grid]))
-    around = (grid[max(best - 1, 0)], grid[min(best + 1, grid.size - 1)])
-    log_rate = scipy.optimize.minimize_scalar(
-        misfit, bounds=around, method="bounded", options={"xatol": 1e-4}
-    ).x
-    rate = math.exp(float(log_rate))
+    rate = rate_of_least(misfit)
     moment, lift, left_moment, left_lift = lesson.fitted(rate)
     seen = history.incidence_rad + lesson.a[lesson.used]
     return LearntLoads(
@@ -260,19 +255,41 @@ def learn(history: ReferenceHistory, polar: Polar, until: float = math.inf) -> L
     )
 
 
-def require_lesson(history: ReferenceHistory) -> None:
+def rate_of_least(misfit: Callable[[float], float]) -> float:
+    """Return the rate of a lag (V/c) that leaves least: the best of a grid, refined around it."""
+    low, high = map(math.log, _RATES)
+    grid = np.linspace(low, high, _FIRST_RATES)
+    best = int(np.argmin([misfit(math.exp(value)) for value in grid]))
+    around = (grid[max(best - 1, 0)], grid[min(best + 1, grid.size - 1)])
+    log_rate = scipy.optimize.minimize_scalar(
+        lambda value: misfit(math.exp(value)),
+        bounds=around,
+        method="bounded",
+        options={"xatol": 1e-4},
+    ).x
+    return math.exp(float(log_rate))
+
+
+def require_lesson(name: str, time: Floats) -> None:
     """Refuse a history that cannot be learnt from.
+
+    Parameters
+    ----------
+    name
+        Its name.
+    time
+        Its times (c/V), shape (n,).
 
     Raises
     ------
     ResultFileError
         It is too short, has gaps or uneven samples, or is too coarse in time.
     """
-    s = history.time
+    s = time
     if s.size < 2 or s[-1] - s[0] < SHORTEST_RECORD * (1.0 - 1e-9):
         length = float(s[-1] - s[0]) if s.size else 0.0
         raise ResultFileError(
-            f"{history.name}: a record of {length:.3g} c/V is too short to learn from; "
+            f"{name}: a record of {length:.3g} c/V is too short to learn from; "
             f"{SHORTEST_RECORD:g} c/V or more are needed (unsteady.duration)"
         )
     steps = np.diff(s)
@@ -280,12 +297,12 @@ def require_lesson(history: ReferenceHistory) -> None:
     if np.any(np.abs(steps - step) > 1e-3 * step):
         place = int(np.argmax(np.abs(steps - step)))
         raise ResultFileError(
-            f"{history.name}: samples are {steps[place]:.4g} c/V apart at s = {s[place]:.4g} and "
+            f"{name}: samples are {steps[place]:.4g} c/V apart at s = {s[place]:.4g} and "
             f"{step:.4g} elsewhere; a record to learn from has no gaps, and even samples"
         )
     if step > LONGEST_INTERVAL:
         raise ResultFileError(
-            f"{history.name}: samples are {step:.3g} c/V apart; at most {LONGEST_INTERVAL:g} are "
+            f"{name}: samples are {step:.3g} c/V apart; at most {LONGEST_INTERVAL:g} are "
             "allowed in a record to learn from (unsteady.output_interval)"
         )
 

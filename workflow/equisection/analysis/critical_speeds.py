@@ -71,7 +71,7 @@ def from_runs(
         :data:`BEFORE_MARGIN`. The speed is the middle of the bracket from
         ``speed_low``, stable, to ``speed_high``, unstable. Where one side is open the speed is NaN,
         and the mechanism of a model that is stable throughout is ``none``, but ``unknown`` where
-        runs failed beyond the last stable one. Without an
+        runs failed or were undecided beyond the last stable one. Without an
         oscillation of the twist the unstable run has diverged; what else grows is called
         ``flutter``, with or without separation, which a history alone does not tell, but
         ``galloping`` where the heave grows and the twist does not. The basis is
@@ -118,7 +118,7 @@ def _basis(solvers: Iterable[str], bases: Mapping[str, str]) -> str:
 def _mechanism(bracket: OnsetBracket, unstable: pd.DataFrame) -> str:
     """Return the mechanism of the unstable run that is nearest to the onset."""
     if math.isnan(bracket.unstable):
-        is_open = math.isnan(bracket.stable) or bool(bracket.failed)
+        is_open = math.isnan(bracket.stable) or bool(bracket.unknown)
         return Mechanism.UNKNOWN if is_open else Mechanism.NONE
     if "heave_grows" in unstable and (unstable["heave_grows"] == 1).any():
         return Mechanism.GALLOPING
@@ -273,7 +273,8 @@ def _line(row: Mapping[Any, Any]) -> str:
         return f"{who}: unstable at {high:.4g} m/s and at all lower speeds that were run"
     if np.isfinite(low) and row["mechanism"] == "unknown":
         return (
-            f"{who}: stable up to {low:.4g} m/s; what is beyond failed, so nothing is known of it"
+            f"{who}: stable up to {low:.4g} m/s; what is beyond failed or is undecided, so nothing "
+            "is known of it"
         )
     if np.isfinite(low):
         return f"{who}: stable up to {low:.4g} m/s; no onset was found"

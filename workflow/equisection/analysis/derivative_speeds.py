@@ -4,18 +4,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from typing import Any
 
 import pandas as pd
 
 from equisection.aerodynamics.derivatives import Derivatives
+from equisection.aerodynamics.generalised_forces import GeneralisedForces
 from equisection.analysis.critical_speeds import BEFORE_MARGIN, DERIVATIVES
-from equisection.motion.derivative_flutter import FlowingBody, derivative_onset
+from equisection.motion.derivative_flutter import (
+    DerivativeOnset,
+    FlowingBody,
+    derivative_onset,
+)
 from equisection.study.axes import AsGiven
 
 #: Incidence (deg) of equilibrium of a model at a speed (m/s).
 Equilibrium = Callable[[str, float], float]
 #: Difference of two incidences (deg) beyond which derivatives may be others.
 OFF_EQUILIBRIUM = 0.2
+#: Model of the beam.
+BEAM = "3d"
 
 
 def from_derivatives(
@@ -56,6 +64,12 @@ def from_derivatives(
         found = derivative_onset(body, table)
         if found.reason:
             remarks.append(f"{model} ({DERIVATIVES}): {found.reason}")
+        if model == BEAM:
+            remarks.append(
+                f"{model} ({DERIVATIVES}): each strip has the loads of the section, without those "
+                "that a finite span induces: a short beam flutters later than this says; "
+                "forced.beam_modes moves the beam itself"
+            )
         if equilibrium is not None and not math.isnan(found.speed):
             there = equilibrium(model, found.speed)
             if abs(there - mean) > OFF_EQUILIBRIUM:
@@ -64,17 +78,44 @@ def from_derivatives(
                     f"{there:.3g} deg, and the derivatives are those at {mean:.3g} deg: take them "
                     "there (forced.incidence_deg)"
                 )
-        rows.append(
-            {
-                "model": model,
-                "incidence_deg": mean,
-                "speed": found.speed,
-                "speed_low": found.speed_low,
-                "speed_high": found.speed_high,
-                "mechanism": found.mechanism,
-                "frequency_hz": found.frequency,
-                "k_star": given.k_star_at(found.speed),
-                "basis": DERIVATIVES,
-            }
-        )
+        rows.append(_row(model, mean, found, given))
     return pd.DataFrame(rows, columns=list(BEFORE_MARGIN)), remarks
+
+
+def from_moved_beam(
+    model: str, body: FlowingBody, forces: GeneralisedForces, *, given: AsGiven
+) -> tuple[pd.DataFrame, list[str]]:
+    """Return the critical speed of a beam by the forces on its moved modes, and remarks.
+
+    Parameters
+    ----------
+    model
+        Name of its model.
+    body
+        The beam on the modes that were moved.
+    forces
+        Generalised forces on these modes.
+    given
+        The beam as given.
+    """
+    found = derivative_onset(body, forces)
+    remarks = [f"{model} ({DERIVATIVES}): {found.reason}"] if found.reason else []
+    rows = [_row(model, forces.incidence_deg, found, given)]
+    return pd.DataFrame(rows, columns=list(BEFORE_MARGIN)), remarks
+
+
+def _row(
+    model: str, incidence_deg: float, found: DerivativeOnset, given: AsGiven
+) -> dict[str, Any]:
+    """Return the row of an onset."""
+    return {
+        "model": model,
+        "incidence_deg": incidence_deg,
+        "speed": found.speed,
+        "speed_low": found.speed_low,
+        "speed_high": found.speed_high,
+        "mechanism": found.mechanism,
+        "frequency_hz": found.frequency,
+        "k_star": given.k_star_at(found.speed),
+        "basis": DERIVATIVES,
+    }

@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from equisection.results.unsteady_result import UNKNOWN
 from equisection.study.axes import AXES, axes_among
 
 #: Quantities of ``comparison/summary.csv`` whose ratio to the beam's tells how close a section is.
@@ -30,8 +31,8 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
     Parameters
     ----------
     summary
-        ``comparison/summary.csv``; the axes of its study are columns here too. Failed
-        runs count as not run.
+        ``comparison/summary.csv``; the axes of its study are columns here too. Failed and
+        undecided runs count as not run.
 
     Returns
     -------
@@ -43,7 +44,7 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
     """
     axes = [axis.name for axis in axes_among(summary.columns)]
     also = [axis.name for axis in AXES if axis.name in summary and axis.name not in axes]
-    run = summary[summary["regime"] != "failed"]
+    run = summary[~summary["regime"].isin(UNKNOWN)]
     beam = run[run["model"] == BEAM].drop(columns="model")
     both = run[run["model"] != BEAM].merge(beam, on=axes, suffixes=("", "_beam"))
     return pd.DataFrame(

@@ -54,17 +54,13 @@ def derivatives_of(results: Mapping[str, tuple[ForcedCase, xr.Dataset]]) -> Forc
     fits, remarks = [], []
     for name, (case, data) in results.items():
         signal = signal_of(case)
-        kept = _record(name, case, data)
+        kept = record_of(name, case, data)
         for load in _LOADS:
             found = load_response(
                 kept["time"].to_numpy(), kept[load].to_numpy(), signal.frequencies
             )
-            if found.rest > LARGE_REST:
-                remarks.append(
-                    f"{name}: {100 * found.rest:.0f} % of {load} is not at the frequencies of the "
-                    "motion: the loads are not linear in it, or the flow moves by itself"
-                )
-            for velocity, value, spread in zip(*_per_motion(signal, found), strict=True):
+            remarks += remark_on_rest(name, load, found.rest)
+            for velocity, value, spread in zip(*per_motion(signal, found), strict=True):
                 answers[load, case.component, velocity] = value, spread
                 fits.append((name, case.component, load, velocity, found.mean, found.rest))
     case = next(case for case, _ in results.values())
@@ -72,7 +68,17 @@ def derivatives_of(results: Mapping[str, tuple[ForcedCase, xr.Dataset]]) -> Forc
     return ForcedAnswers(table, pd.DataFrame(fits, columns=list(FIT_COLUMNS)), tuple(remarks))
 
 
-def _record(name: str, case: ForcedCase, data: xr.Dataset) -> xr.Dataset:
+def remark_on_rest(name: str, load: str, rest: float) -> list[str]:
+    """Return what there is to say of the part of a load at other frequencies than the motion's."""
+    if rest <= LARGE_REST:
+        return []
+    return [
+        f"{name}: {100 * rest:.0f} % of {load} is not at the frequencies of the motion: the loads "
+        "are not linear in it, or the flow moves by itself"
+    ]
+
+
+def record_of(name: str, case: ForcedCase, data: xr.Dataset) -> xr.Dataset:
     """Return the samples after the settling time."""
     if data.attrs.get("failure"):
         raise ResultFileError(f"forced case {name}: {data.attrs['failure']}")
@@ -86,7 +92,7 @@ def _record(name: str, case: ForcedCase, data: xr.Dataset) -> xr.Dataset:
     return data.isel(time=time >= case.settling - 1e-9)
 
 
-def _per_motion(
+def per_motion(
     signal: ForcedSignal, found: LoadResponse
 ) -> tuple[list[float], list[complex], list[float]]:
     """Return reduced velocities, load over motion and its spread."""

@@ -19,10 +19,13 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from equisection.aerodynamics.learnt_loads import TERMS
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
+from equisection.aerodynamics.strip_polars import StripPolars
+from equisection.analysis.learnt_cycles import LimitCycles, cycles_of
 from equisection.analysis.onset import is_unstable
+from equisection.analysis.recorded_beam import on_strips, release_of, strip_polars_at
+from equisection.analysis.reduced_beam import ReducedBeam, learnt_beam, predicted_beams
 from equisection.analysis.reduced_model import (
     COLUMNS,
     PredictedOnset,
@@ -32,20 +35,24 @@ from equisection.analysis.reduced_model import (
     predicted,
     predicted_onset,
 )
-from equisection.beam.section import Section
+from equisection.cases import UnsteadyCase
 from equisection.config import Config
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.recorded_history import history_of
+from equisection.results.unsteady_result import Regime
 from equisection.solvers.registry import solver_from_config
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
 from equisection.study.assemble import case_at
 from equisection.study.axes import K_STAR, Axis, Point, onset_axis, varied
 
-#: Values over the sweep and its reach at which a model predicts, beside those of the sweep.
-PREDICTED = 41
+#: Model of the loads of a section, or of those of the strips of a beam.
+Learnt = ReducedModel | ReducedBeam
+#: Values over the sweep and its reach at which a model predicts, beside those of the sweep, and as
+#: many of a beam, whose strips take longer.
+PREDICTED, PREDICTED_BEAMS = 41, 21
 #: Limit cycles above this amplitude (deg) are unstable, as in a bracket of runs.
 THRESHOLD_DEG = 0.5
 #: Relative difference in which a run is at an end of an interval: names have four digits.
@@ -61,6 +68,8 @@ class JudgedRun:
     point: Point
     unstable: bool | None
     file: Path
+    failed: bool = False
+    amplitude_deg: float = math.nan
 
 
 def runs_of(index: Path) -> list[JudgedRun]:
@@ -70,6 +79,8 @@ def runs_of(index: Path) -> list[JudgedRun]:
             Point.named(name),
             is_unstable(str(found["regime"]), float(found["twist_amplitude_deg"]), THRESHOLD_DEG),
             result_file(index, name),
+            failed=found["regime"] == Regime.FAILED,
+            amplitude_deg=float(found["twist_amplitude_deg"]),
         )
         for name, found in read_index(index).items()
     ]
@@ -77,7 +88,7 @@ def runs_of(index: Path) -> list[JudgedRun]:
 
 @dataclass(frozen=True)
 class Lessons:
-    """All that a model of the section is learnt from.
+    """All that a model of the loads is learnt from.
 
     Attributes
     ----------
@@ -86,7 +97,8 @@ class Lessons:
     name
         The model of the sweep.
     data
-        ``equivalent``, with ``correction`` of a corrected model, and ``polar_2d``.
+        ``equivalent``, with ``correction`` of a corrected model, and ``polar_2d``; of the beam
+        ``modes`` and ``polar_3d``.
     releases
         Indices of the releases, in the order of their rounds.
     confirming
@@ -104,7 +116,7 @@ class Lessons:
         """Read the files of a model by name: one of each data set, indices of the two kinds."""
         data = {
             one: read_dataset(Path(str(files[one])))
-            for one in ("equivalent", "polar_2d", "correction")
+            for one in ("equivalent", "polar_2d", "correction", "modes", "polar_3d")
             if one in files
         }
         releases, confirming = (
@@ -117,60 +129,94 @@ class Lessons:
         """Axis along which the onset is looked for."""
         return onset_axis(varied(self.config))
 
+    @property
+    def _model(self) -> plan.Model:
+        return plan.model(self.name, self.config.reduction)
+
+    @property
+    def _is_beam(self) -> bool:
+        return self._model.dimension == "3d"
+
     @cached_property
     def polar(self) -> Polar:
         """Steady polar of the section."""
         return polar_at(self.data["polar_2d"], self.config.steady.resolution)
 
     @cached_property
-    def _grid(self) -> tuple[list[float], list[float], list[Section | None], list[bool]]:
-        """Values, k*, sections and divergence of the beams that are predicted, by rising k*."""
+    def strip_polars(self) -> StripPolars:
+        """Steady loads of the beam along the span."""
+        return strip_polars_at(self.data["polar_3d"], self.config.steady.resolution)
+
+    @cached_property
+    def _grid(self) -> tuple[list[float], list[UnsteadyCase]]:
+        """Values and cases of the beams that are predicted, by rising k*."""
         given = self.config.sweep.values()
         reach = self.config.sweep.onset_reach
         lowest, highest = min(given) / reach, max(given) * reach
         highest = min(highest, plan.highest_of_sweep(self.config))
-        spaced = np.geomspace(lowest, highest, PREDICTED)
+        count = PREDICTED_BEAMS if self._is_beam else PREDICTED
+        spaced = np.geomspace(lowest, highest, count)
         values = sorted({*given, *(float(f"{value:.4g}") for value in spaced)})
-        model = plan.model(self.name, self.config.reduction)
         solver = solver_from_config(self.config, self.config.steady.resolution)
         # a history of a model has no interval that could be too long for the stiffest beam
         unsteady = self.config.unsteady.model_copy(update={"output_interval": 1e-3})
         config = self.config.model_copy(update={"unsteady": unsteady})
         cases = [
-            case_at(config, model, Point.at({self.axis: value}), self.data, solver)
+            case_at(config, self._model, Point.at({self.axis: value}), self.data, solver)
             for value in values
         ]
         ordered = sorted(zip(values, cases, strict=True), key=lambda pair: pair[1].k_star)
-        return (
-            [value for value, _ in ordered],
-            [case.k_star for _, case in ordered],
-            [case.section for _, case in ordered],
-            [case.diverges for _, case in ordered],
-        )
+        return [value for value, _ in ordered], [case for _, case in ordered]
 
-    def prediction(self, model: ReducedModel) -> pd.DataFrame:
+    def prediction(self, model: Learnt) -> pd.DataFrame:
         """Return growth and frequency over the sweep and its reach, by rising k*.
 
         A column has the value on the study's axis, if that is not k*. A section without a static
         equilibrium has an infinite growth rate where it diverges, else an unknown one.
         """
-        values, k_star, sections, diverges = self._grid
-        there = [place for place, section in enumerate(sections) if section is not None]
-        found = predicted(
-            model,
-            [k_star[place] for place in there],
-            [section for section in sections if section is not None],
-        ).set_index(pd.Index(there))
+        values, cases = self._grid
+        k_star = [case.k_star for case in cases]
+        there = [place for place, case in enumerate(cases) if not case.refusal]
+        found = self._predicted(model, [cases[place] for place in there])
         table = pd.DataFrame({self.axis.name: values, "k_star": k_star})
-        table[list(COLUMNS)] = found[list(COLUMNS)]
+        table[list(COLUMNS)] = found.set_index(pd.Index(there))[list(COLUMNS)]
         growth = ["growth_rate", "growth_low", "growth_high"]
-        table.loc[np.array(diverges), growth] = math.inf
+        table.loc[np.array([case.diverges for case in cases]), growth] = math.inf
         table["extrapolated"] = [value is True for value in table["extrapolated"]]
         return table
 
-    def learnt(self, run: JudgedRun) -> ReducedModel:
+    def limit_cycles(self) -> LimitCycles | None:
+        """Return the limit cycles of a section's sweep, by the release that grows farthest.
+
+        None for the beam, whose model has too few terms for large amplitudes.
+        """
+        if self._is_beam:
+            return None
+        runs = [run for index in (*self.releases, *self.confirming) for run in runs_of(index)]
+        growing = [run for run in runs if run.unstable]
+        history = None
+        if growing:
+            run = max(growing, key=lambda each: np.nan_to_num(each.amplitude_deg))
+            history = self._history(run)
+        return cycles_of(self._grid[1], history, self.polar)
+
+    def _predicted(self, model: Learnt, cases: Sequence[UnsteadyCase]) -> pd.DataFrame:
+        """Return growth and frequency of cases with a section or beam to move."""
+        k_star = [case.k_star for case in cases]
+        if isinstance(model, ReducedBeam):
+            beams = on_strips([case.beam for case in cases if case.beam], model.loads.polars.strips)
+            return predicted_beams(model, k_star, beams)
+        return predicted(model, k_star, [case.section for case in cases if case.section])
+
+    def learnt(self, run: JudgedRun) -> Learnt:
         """Return the model that is learnt from a run."""
-        found = learnt_model(self._history(run), self.polar)
+        found: Learnt
+        if self._is_beam:
+            case, strips = self._case_of(run), self.strip_polars.strips
+            release = release_of(run.file, read_dataset(run.file), case, strips)
+            found = learnt_beam(release, self.strip_polars)
+        else:
+            found = learnt_model(self._history(run), self.polar)
         if found.missing_angles:
             _LOG.warning(
                 "the polar at resolution '%s' has no points at %s deg, where the release %s moves, "
@@ -183,12 +229,18 @@ class Lessons:
 
     def _history(self, run: JudgedRun) -> ReferenceHistory:
         """Return the history of a run, with the section that moved."""
+        case = self._case_of(run)
+        assert case.section is not None, "a case of a section"
+        return history_of(run.file, read_dataset(run.file), case, case.section)
+
+    def _case_of(self, run: JudgedRun) -> UnsteadyCase:
+        """Return the case of a run, with the section or beam that moved."""
         model = plan.model(run.file.parent.name, self.config.reduction)
         solver = solver_from_config(self.config, self.config.steady.resolution)
         case = case_at(self.config, model, run.point, self.data, solver)
-        if case.section is None:
+        if case.refusal:
             raise ResultFileError(f"{run.file}: {case.refusal}; no model can be learnt from it")
-        return history_of(run.file, read_dataset(run.file), case, case.section)
+        return case
 
     @cached_property
     def last_release(self) -> JudgedRun:
@@ -200,7 +252,7 @@ class Lessons:
             It failed.
         """
         runs = [run for index in self.releases for run in runs_of(index)]
-        if not runs or runs[-1].unstable is None:
+        if not runs or runs[-1].failed:
             name = runs[-1].point.name if runs else "none"
             raise ResultFileError(
                 f"{self.releases[-1]}: the release to learn from failed, or is missing ({name}); "
@@ -217,11 +269,29 @@ class Lessons:
             return [Point.at({self.axis: value}) for value in given[1:]]
         model = self.learnt(self.last_release)
         table = self.prediction(model)
-        k_star = next_release(model, predicted_onset(table))
+        onset = predicted_onset(table)
+        if not math.isfinite(onset.k_star):
+            return self._towards_onset(table)
+        k_star = next_release(model.k_star, onset)
         if k_star is None:
             return []
         nearest = np.interp(k_star, table["k_star"], table[self.axis.name])
         return [Point.at({self.axis: float(f"{nearest:.4g}")})]
+
+    def _towards_onset(self, table: pd.DataFrame) -> list[Point]:
+        """Return the end of the sweep where a model without an onset in reach would have it.
+
+        All stable, that is the end of the softest beam; all unstable, of the stiffest. None where
+        the model was learnt there.
+        """
+        rates = table["growth_rate"].to_numpy()
+        rates = rates[~np.isnan(rates)]
+        if not rates.size or ((rates > 0.0).any() and (rates <= 0.0).any()):
+            return []
+        pick = min if rates[0] <= 0.0 else max
+        end = pick(self.config.sweep.values(), key=self.axis.stability)
+        point = Point.at({self.axis: end})
+        return [] if point == self.last_release.point else [point]
 
     def contradiction(self, onset: PredictedOnset, index: Path) -> JudgedRun | None:
         """Return a run on the wrong side of an interval of the onset, that nearest to it.
@@ -241,11 +311,10 @@ class Lessons:
 
     def _k_star_of(self, point: Point) -> float:
         """Return the k* of the beam at a point."""
-        model = plan.model(self.name, self.config.reduction)
         if K_STAR in point.axes:
             return point[K_STAR]
         solver = solver_from_config(self.config, self.config.steady.resolution)
-        return case_at(self.config, model, point, self.data, solver).k_star
+        return case_at(self.config, self._model, point, self.data, solver).k_star
 
     def course(self) -> Course:
         """Return the model after all that has been run, with what it predicts and what it says."""
@@ -326,7 +395,7 @@ class Course:
         Name of a run that it still contradicts; empty if there is none.
     """
 
-    model: ReducedModel
+    model: Learnt
     table: pd.DataFrame
     onset: PredictedOnset
     checked: int
@@ -350,6 +419,7 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
     """Return what is written to ``rom/<model>/model.nc``."""
     loads, model = course.model.loads, course.model
     table = course.table
+    moved = "tip" if isinstance(model, ReducedBeam) else "section"
     described = {
         "k_star": ("1", "k* = k_theta/(q c^2)"),
         "growth_rate": ("V/c", "growth rate of the pitch after a release"),
@@ -358,7 +428,7 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
         "frequency_strouhal": ("1", "frequency f c/V"),
         "frequency_low": ("1", "lowest frequency of the refits"),
         "frequency_high": ("1", "highest frequency of the refits"),
-        "twist_amplitude_deg": ("deg", "half the range of the section's twist at the end"),
+        "twist_amplitude_deg": ("deg", f"half the range of the {moved}'s twist at the end"),
         "extrapolated": ("1", "1: the motion goes to an incidence that the model has not seen"),
     }
     variables = {
@@ -385,7 +455,7 @@ def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
                 np.array([fit.moment for fit in fits]),
                 {
                     "units": "1",
-                    "long_name": f"B_m of {', '.join(TERMS)}",
+                    "long_name": f"B_m of {', '.join(model.terms)}",
                 },
             ),
             "lift_terms": (

@@ -11,8 +11,12 @@ Every k* above the bracket is then stable (or failed). A sequence that is not mo
 unstable, stable, unstable, stable, gives the bracket of its upper change; stable k* further
 down are islands and do not count.
 
-A failed run is neither: it is left out. Inside the bracket it is named, since only repeating it can
-narrow that bracket.
+A failed run is neither, nor is an undecided one: they are left out. Inside the bracket they are
+named, since only repeating the one, or a longer run of the other, can narrow that bracket.
+
+A side of the bracket whose growth does not have the sign of that side within its error is named
+too. And the growth rates of the runs next to their change of sign give the onset with an interval
+(:mod:`equisection.analysis.growth_onset`).
 
 With further axes (the incidence) there is a bracket for each of their values.
 """
@@ -20,11 +24,14 @@ With further axes (the incidence) there is a bracket for each of their values.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import astuple, dataclass
 
+import numpy as np
 import pandas as pd
 
+from equisection.analysis.growth_onset import HAS, onset_by_growth
+from equisection.results.unsteady_result import STABLE, UNKNOWN, Regime
 from equisection.study.axes import (
     K_STAR,
     AsGiven,
@@ -51,6 +58,8 @@ class OnsetBracket:
         Unstable value nearest to the stable side; NaN if no run is unstable.
     failed : tuple of float
         Values of failed runs inside the bracket (or beyond its known side if it is open).
+    undecided : tuple of float
+        Those of undecided runs there.
     islands : tuple of float
         Stable values beyond ``unstable``: the sequence is not monotone.
     """
@@ -59,6 +68,7 @@ class OnsetBracket:
     unstable: float
     failed: tuple[float, ...] = ()
     islands: tuple[float, ...] = ()
+    undecided: tuple[float, ...] = ()
 
     @property
     def closed(self) -> bool:
@@ -70,30 +80,33 @@ class OnsetBracket:
         """abs(stable - unstable)/unstable; NaN if open."""
         return abs(self.stable - self.unstable) / self.unstable
 
+    @property
+    def unknown(self) -> tuple[float, ...]:
+        """Values inside that were run and say nothing."""
+        return tuple(sorted({*self.failed, *self.undecided}))
+
 
 def is_unstable(regime: str, twist_amplitude_deg: float, threshold_deg: float) -> bool | None:
-    """Tell whether a run is unstable; None for a failed run, which is neither.
+    """Tell whether a run is unstable; None for a failed or undecided run, which is neither.
 
     Parameters
     ----------
     regime : str
-        ``settled``, ``limit-cycle``, ``growing`` or ``failed``.
+        One of :class:`equisection.results.unsteady_result.Regime`.
     twist_amplitude_deg : float
         Twist amplitude (deg), which decides for a limit cycle.
     threshold_deg : float
         Limit cycles above this amplitude (deg) are unstable; those below are a residue of
         the flow's own unsteadiness. NaN amplitudes count as above.
     """
-    if regime == "failed":
+    if regime in UNKNOWN:
         return None
-    if regime == "limit-cycle":
+    if regime == Regime.LIMIT_CYCLE:
         return not twist_amplitude_deg <= threshold_deg
-    if regime in ("settled", "growing"):
-        return regime == "growing"
-    raise ValueError(
-        f"regime {regime!r} is not one of 'settled', 'limit-cycle', 'growing', 'failed'; "
-        "let the run end before it is compared"
-    )
+    if regime in STABLE or regime == Regime.GROWING:
+        return regime not in STABLE
+    allowed = ", ".join(f"'{one}'" for one in Regime)
+    raise ValueError(f"regime {regime!r} is not known; allowed are {allowed}")
 
 
 def onset_bracket(
@@ -132,13 +145,19 @@ def onset_bracket(
     first = min(above, key=towards, default=math.nan)
     low = -math.inf if math.isnan(last) else towards(last)
     high = math.inf if math.isnan(first) else towards(first)
-    failed = {value for value, state in states if state is None} - unstable - stable
-    return OnsetBracket(
-        stable=first,
-        unstable=last,
-        failed=tuple(sorted(value for value in failed if low < towards(value) < high)),
-        islands=tuple(sorted(stable - above)),
+    inside = {
+        name: {
+            float(value) for value, regime in zip(values, regimes, strict=True) if regime == name
+        }
+        - unstable
+        - stable
+        for name in UNKNOWN
+    }
+    failed, undecided = (
+        tuple(sorted(value for value in inside[name] if low < towards(value) < high))
+        for name in (Regime.FAILED, Regime.UNDECIDED)
     )
+    return OnsetBracket(first, last, failed, tuple(sorted(stable - above)), undecided)
 
 
 def refinement_points(bracket: OnsetBracket, tolerance: float, count: int = 1) -> list[float]:
@@ -156,17 +175,17 @@ def refinement_points(bracket: OnsetBracket, tolerance: float, count: int = 1) -
     -------
     list of float
         Rising values of four significant digits, so that they name cases; those that failed
-        before are left out. Empty when the bracket is open or narrow enough.
+        before, or were undecided, are left out. Empty when the bracket is open or narrow enough.
     """
     if not bracket.closed or bracket.relative_width <= tolerance:
         return []
     low, high = sorted((bracket.unstable, bracket.stable))
     middle = 0.5 * (low + high)
-    # Each failed run may be in the way of one division; the next finer one goes around it.
-    for parts in range(count + 1, count + 2 + len(bracket.failed)):
+    # Each run that says nothing may be in the way of one division; the next finer goes around it.
+    for parts in range(count + 1, count + 2 + len(bracket.unknown)):
         step = (high - low) / parts
         points = {_rounded(low + i * step) for i in range(1, parts)}
-        points -= set(bracket.failed)
+        points -= set(bracket.unknown)
         inside = [value for value in points if low < value < high]
         if inside:
             return sorted(sorted(inside, key=lambda value: abs(value - middle))[:count])
@@ -278,27 +297,60 @@ def onset_table(summary: pd.DataFrame) -> pd.DataFrame:
     """Return ``comparison/onset.csv``: the bracket of each model of a summary that has runs.
 
     Its columns are the model, the values on the further axes of the study, the sides of the bracket
-    (``k_star_stable``, ``k_star_unstable``), ``failed_inside`` and ``stable_below``.
+    (``k_star_stable``, ``k_star_unstable``), ``failed_inside``, ``stable_below``,
+    ``undecided_inside``, ``in_doubt`` and the onset by the growth rates with its interval
+    (``k_star_growth``, ``k_star_growth_low``, ``k_star_growth_high``) from ``growth_runs`` runs.
     """
     axes = axes_among(summary.columns)
     axis = onset_axis(axes)
     rows = []
     for model, fixed, runs in sweeps(summary):
         bracket = bracket_of(runs)
+        by_growth = onset_by_growth(runs, axis)
         rows.append(
             {
                 "model": model,
                 **{further.name: value for further, value in fixed.items()},
                 f"{axis.name}_stable": bracket.stable,
                 f"{axis.name}_unstable": bracket.unstable,
-                "failed_inside": " ".join(f"{value:g}" for value in bracket.failed),
-                "stable_below": " ".join(f"{value:g}" for value in bracket.islands),
+                "failed_inside": _in_words(bracket.failed),
+                "stable_below": _in_words(bracket.islands),
+                "undecided_inside": _in_words(bracket.undecided),
+                "in_doubt": _in_words(sides_in_doubt(bracket, runs, axis)),
+                **dict(zip(_by_growth(axis), astuple(by_growth), strict=True)),
             }
         )
     further = (one.name for one in axes if one is not axis)
     sides = (f"{axis.name}_stable", f"{axis.name}_unstable")
-    names = ["model", *further, *sides, "failed_inside", "stable_below"]
-    return pd.DataFrame(rows, columns=names)
+    words = ("failed_inside", "stable_below", "undecided_inside", "in_doubt")
+    return pd.DataFrame(rows, columns=["model", *further, *sides, *words, *_by_growth(axis)])
+
+
+def _in_words(values: Iterable[float]) -> str:
+    return " ".join(f"{value:g}" for value in values)
+
+
+def _by_growth(axis: Axis) -> tuple[str, ...]:
+    """Names of the columns of an onset by growth rates."""
+    return (*(f"{axis.name}_growth{end}" for end in ("", "_low", "_high")), "growth_runs")
+
+
+def sides_in_doubt(bracket: OnsetBracket, runs: pd.DataFrame, axis: Axis) -> list[float]:
+    """Return the sides of a bracket that the growth of their runs does not bear out.
+
+    The interval of the growth rate holds zero, or is on the other side of it, or is not known. A
+    run without an oscillation has no growth rate, and leaves no such doubt.
+    """
+    found: list[float] = []
+    if not set(runs.columns) >= HAS:
+        return found
+    for value, is_stable in ((bracket.unstable, False), (bracket.stable, True)):
+        for _, run in runs[axis.same(runs[axis.name], value)].iterrows():
+            low, high = float(run["growth_low"]), float(run["growth_high"])
+            bears_out = high < 0.0 if is_stable else low > 0.0
+            if np.isfinite(run["growth_rate"]) and not bears_out and value not in found:
+                found.append(value)
+    return sorted(found)
 
 
 def sweeps(summary: pd.DataFrame) -> Iterator[tuple[str, dict[Axis, float], pd.DataFrame]]:

@@ -18,10 +18,11 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.filled_polar import missing_angles
-from equisection.aerodynamics.learnt_loads import LearntLoads, learn
+from equisection.aerodynamics.learnt_loads import TERMS, LearntLoads, learn
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.beam.section import Section
+from equisection.motion.learnt_beams import LearntSwings
 from equisection.motion.learnt_motion import LearntHistories, LearntSections
 from equisection.verdict.growth import Growth, growth_window, growths_of
 
@@ -82,7 +83,12 @@ class ReducedModel:
     @property
     def words(self) -> str:
         """Return what the model is, for every table and figure with its numbers."""
-        return f"model learnt from {self.source} at k* = {self.k_star:g}"
+        return words_of(self.source, self.k_star)
+
+    @property
+    def terms(self) -> tuple[str, ...]:
+        """Return the terms of its loads in words."""
+        return TERMS
 
     @property
     def missing_angles(self) -> list[float]:
@@ -104,6 +110,11 @@ class PredictedOnset:
         return all(map(math.isfinite, (self.k_star, self.low, self.high)))
 
 
+def words_of(source: str, k_star: float) -> str:
+    """Return what a model is that was learnt from a solver's release at a k*."""
+    return f"model learnt from {source} at k* = {k_star:g}"
+
+
 def learnt_model(history: ReferenceHistory, polar: Polar) -> ReducedModel:
     """Learn a model from a release.
 
@@ -120,8 +131,7 @@ def learnt_model(history: ReferenceHistory, polar: Polar) -> ReducedModel:
     ResultFileError
         The release cannot be learnt from.
     """
-    last = float(history.time[-1])
-    early, middle, late = ENDS if last >= ENDS[-1] - 1e-6 else (last - 5.0, last, last - 2.5)
+    early, middle, late = ends_of_records(float(history.time[-1]))
     return ReducedModel(
         loads=learn(history, polar, middle),
         refits=tuple(learn(history, polar, end) for end in (early, late)),
@@ -129,6 +139,14 @@ def learnt_model(history: ReferenceHistory, polar: Polar) -> ReducedModel:
         k_star=history.k_star,
         source=history.source,
     )
+
+
+def ends_of_records(last: float) -> tuple[float, float, float]:
+    """Return the ends (c/V) of a refit, of the model and of another refit, by that of the record.
+
+    Of a record shorter than 50 c/V they are 5 c/V before its end, its end, and 2.5 before.
+    """
+    return ENDS if last >= ENDS[-1] - 1e-6 else (last - 5.0, last, last - 2.5)
 
 
 def predicted(
@@ -159,13 +177,35 @@ def predicted(
         polar before growth can be read has NaN numbers and an infinite growth rate.
         ``extrapolated`` tells that the release goes to an incidence that the model has not seen.
     """
-    rows = [_Released.of(loads, sections, windows) for loads in (model.loads, *model.refits)]
+    rows = [released(loads, sections, windows) for loads in (model.loads, *model.refits)]
+    return prediction_of(k_star, rows, model.loads.seen, SMALLEST_BAND)
+
+
+def prediction_of(
+    k_star: Sequence[float],
+    rows: Sequence[PredictedReleases],
+    seen: tuple[float, float],
+    smallest_band: float,
+) -> pd.DataFrame:
+    """Return the table of :func:`predicted` of releases with a model and with its refits.
+
+    Parameters
+    ----------
+    k_star
+        k* of the beams (-), shape (N,).
+    rows
+        Releases of the N beams with the model, then with each refit.
+    seen
+        Least and greatest incidence (rad) of what the model was learnt from.
+    smallest_band
+        Smallest band of a growth rate (V/c).
+    """
     rates = np.array([row.rates for row in rows])
     frequencies = np.array([row.frequencies for row in rows])
-    band = np.maximum(_spread(rates), SMALLEST_BAND)
+    band = np.maximum(_spread(rates), smallest_band)
     spread = _spread(frequencies)
     away = np.isinf(rates).any(axis=0)  # a refit that runs away
-    least, most = rows[0].histories.farthest.T
+    least, most = rows[0].farthest.T
     return pd.DataFrame(
         {
             "k_star": np.asarray(k_star, dtype=float),
@@ -176,7 +216,7 @@ def predicted(
             "frequency_low": frequencies[0] - spread,
             "frequency_high": frequencies[0] + spread,
             "twist_amplitude_deg": rows[0].amplitudes_deg,
-            "extrapolated": (least < model.loads.seen[0]) | (most > model.loads.seen[1]),
+            "extrapolated": (least < seen[0]) | (most > seen[1]),
         }
     )
 
@@ -190,39 +230,34 @@ def _spread(values: Floats) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class _Released:
-    """Releases of some sections with one model of the loads, and their growth."""
+class PredictedReleases:
+    """Releases of N sections or beams with one model of the loads, and their growth.
 
-    histories: LearntHistories
+    Attributes
+    ----------
+    time
+        s (c/V), shape (n,).
+    twist
+        Twist (rad), shape (n, N).
+    farthest
+        Least and greatest incidence (rad), shape (N, 2).
+    ends
+        End of each history (c/V), shape (N,).
+    growths, windows
+        Growth of each, and the window that it is read from (c/V), shape (N, 2).
+    """
+
+    time: Floats
+    twist: Floats
+    farthest: Floats
+    ends: Floats
     growths: list[Growth]
     windows: Floats
-
-    @classmethod
-    def of(
-        cls,
-        loads: LearntLoads,
-        sections: Sequence[Section],
-        windows: Sequence[tuple[float, float]] | None,
-    ) -> _Released:
-        natural = np.array([natural_frequencies(section) for section in sections])
-        if windows is None:
-            spans = np.array([growth_window(DURATION, pitch) for pitch, _ in natural])
-        else:
-            spans = np.array(windows, dtype=float)
-        histories = LearntSections(sections, loads).released(float(spans[:, 1].max()))
-        spans[:, 1] = np.minimum(spans[:, 1], histories.ends)
-        growths = growths_of(
-            histories.time,
-            np.nan_to_num(np.array([histories.twist.T, histories.deflection.T])),
-            natural,
-            spans,
-        )
-        return cls(histories, growths, spans)
 
     @property
     def rates(self) -> Floats:
         """Growth rates (V/c), infinite where the release left the polar at once."""
-        left = self.histories.ends < self.histories.time[-1]
+        left = self.ends < self.time[-1]
         found = np.array([growth.rate for growth in self.growths])
         return np.where(np.isnan(found) & left, np.inf, found)
 
@@ -236,10 +271,50 @@ class _Released:
         """Half the range of the twist (deg) over the last third of each window."""
         found = []
         for lane, (start, end) in enumerate(self.windows):
-            late = (self.histories.time >= end - (end - start) / 3.0) & (self.histories.time <= end)
-            twist = self.histories.twist[late, lane]
+            late = (self.time >= end - (end - start) / 3.0) & (self.time <= end)
+            twist = self.twist[late, lane]
             found.append(0.5 * math.degrees(float(np.ptp(twist))) if twist.size else math.nan)
         return np.array(found)
+
+
+def released(
+    loads: LearntLoads,
+    sections: Sequence[Section],
+    windows: Sequence[tuple[float, float]] | None,
+) -> PredictedReleases:
+    """Return releases of sections with learnt loads (:func:`predicted` has the parameters)."""
+    natural = np.array([natural_frequencies(section) for section in sections])
+    spans = windows_of(natural, windows)
+    histories = LearntSections(sections, loads).released(float(spans[:, 1].max()))
+    records = np.array([histories.twist.T, histories.deflection.T])
+    return with_growth(histories, records, histories.twist, natural, spans)
+
+
+def windows_of(natural: Floats, windows: Sequence[tuple[float, float]] | None) -> Floats:
+    """Return the windows (c/V) that growth is read from, shape (N, 2): those given, or the usual.
+
+    ``natural`` are frequencies f c/V, that of the pitch first, shape (N, W).
+    """
+    if windows is None:
+        return np.array([growth_window(DURATION, float(pitch)) for pitch in natural[:, 0]])
+    return np.array(windows, dtype=float)
+
+
+def with_growth(
+    run: LearntHistories | LearntSwings,
+    records: Floats,
+    twist: Floats,
+    natural: Floats,
+    windows: Floats,
+) -> PredictedReleases:
+    """Return releases with their growth, read up to their ends (:class:`PredictedReleases`).
+
+    ``records`` (C, N, n) and ``natural`` (N, W) are those of
+    :func:`equisection.verdict.growth.growths_of`, ``twist`` (n, N) is that of section or tip.
+    """
+    spans = np.stack([windows[:, 0], np.minimum(windows[:, 1], run.ends)], axis=1)
+    growths = growths_of(run.time, np.nan_to_num(records), natural, spans)
+    return PredictedReleases(run.time, twist, run.farthest, run.ends, growths, spans)
 
 
 def limit_cycles(
@@ -329,14 +404,21 @@ def predicted_onset(prediction: pd.DataFrame) -> PredictedOnset:
     )
 
 
-def next_release(model: ReducedModel, onset: PredictedOnset) -> float | None:
+def next_release(learnt_at: float, onset: PredictedOnset) -> float | None:
     """Return the k* to release at next, or None where the model is near enough to the onset.
 
     A model that was learnt far from the onset that it predicts is not to be trusted; the next
     release is at 0.8 of that onset, where the motion grows and says most.
+
+    Parameters
+    ----------
+    learnt_at
+        k* of the release that the model was learnt from.
+    onset
+        The onset that it predicts.
     """
     if not math.isfinite(onset.k_star):
         return None
-    if TRUSTED[0] <= model.k_star / onset.k_star <= TRUSTED[1]:
+    if TRUSTED[0] <= learnt_at / onset.k_star <= TRUSTED[1]:
         return None
     return float(f"{NEXT_RELEASE * onset.k_star:.4g}")

@@ -29,6 +29,7 @@ from equisection.motion.mode_tracking import Spectrum
 from equisection.motion.stability_map import MapLine
 from equisection.motion.steady_states import consistent_deficits
 from equisection.motion.strip_system import StripSystem
+from equisection.results.unsteady_result import STABLE, UNKNOWN
 from equisection.solvers.verdicts import Judge, TipMotion, monitor_of
 from equisection.verdict import Criteria
 
@@ -131,7 +132,7 @@ def _agreement(verdicts: dict[str, dict[str, Any]], line: MapLine) -> str:
     if critical_of(line).critical_mechanism == Mechanism.DIVERGENCE:
         return _at_divergence(verdicts, line)
     regime = {name: str(verdict["regime"]) for name, verdict in verdicts.items()}
-    failed = [name for name, word in regime.items() if word == "failed"]
+    unknown = [name for name, word in regime.items() if word in UNKNOWN]
     found = []
     if regime["below_small"] in ("growing", "limit-cycle"):
         found.append("grows below the onset from a small start")
@@ -140,21 +141,23 @@ def _agreement(verdicts: dict[str, dict[str, Any]], line: MapLine) -> str:
             f"subcritical: {100 * ASIDE:g} % below the onset a start of {LARGE_DEG:g} deg does not "
             "decay"
         )
-    if regime["above_small"] == "settled":
+    if regime["above_small"] in STABLE:
         found.append("decays above the onset from a small start")
-    elif regime["above_large"] == "settled":
+    elif regime["above_large"] in STABLE:
         found.append(
             f"{100 * ASIDE:g} % above the onset a start of {LARGE_DEG:g} deg dies down towards "
             "the cycle to which a small one grows"
         )
-    found += [f"{name} failed: {verdicts[name]['reason']}" for name in failed]
+    found += [f"{name} {regime[name]}: {verdicts[name]['reason']}" for name in unknown]
     return "; ".join(found) or "agrees"
 
 
 def _at_divergence(verdicts: dict[str, dict[str, Any]], line: MapLine) -> str:
     """Say whether the body leaves its equilibrium above the speed of divergence, and to where."""
     above = verdicts["above_small"]
-    if above["regime"] != "settled":
+    if above["regime"] in UNKNOWN:
+        return f"above_small {above['regime']}: {above['reason']}"
+    if above["regime"] not in STABLE:
         return "agrees"
     onset = line.onset
     assert onset is not None, "there are no releases without one"

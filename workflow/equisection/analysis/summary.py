@@ -10,6 +10,7 @@ from typing import Any
 import pandas as pd
 
 from equisection.errors import ResultFileError
+from equisection.results.unsteady_result import BOUNDED
 from equisection.store.index import read_index
 from equisection.study.axes import K_STAR, SPEED, AsGiven, Axis, Point, axes_of, onset_axis_among
 from equisection.study.plan import model
@@ -33,9 +34,15 @@ QUANTITIES = (
     "loads_zigzag",
     "deflection_amplitude_chords",
     "heave_grows",
+    "growth_standard_error",
+    "growth_low",
+    "growth_high",
+    "growth_start",
+    "growth_end",
+    "growth_note",
 )
 #: Those that results may lack, which were made before.
-_NEWER = ("loads_zigzag", "deflection_amplitude_chords", "heave_grows")
+_NEWER = QUANTITIES[QUANTITIES.index("loads_zigzag") :]
 
 
 def columns(axes: Sequence[Axis] = (K_STAR,)) -> tuple[str, ...]:
@@ -109,7 +116,7 @@ def _of(attributes: Mapping[str, Any], name: str) -> Any:
     if name in _NEWER:
         return attributes.get(name, math.nan)
     if name == "mean_known" and name not in attributes:
-        return int(attributes["regime"] in {"settled", "limit-cycle"})
+        return int(attributes["regime"] in BOUNDED)
     return attributes[name]
 
 

@@ -8,6 +8,7 @@ from equisection.cases.case import (
     Geometry,
     Harmonic,
     Medium,
+    ModeShapes,
     SolverBlock,
     Start,
 )
@@ -46,6 +47,7 @@ __all__ = [
     "Harmonic",
     "Kind",
     "Medium",
+    "ModeShapes",
     "SolverBlock",
     "Start",
     "SteadyCase",

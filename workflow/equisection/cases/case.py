@@ -166,6 +166,20 @@ class BeamModes(Block):
             raise EquisectionError(f"{model} takes no beam with {', '.join(more)}")
 
 
+class ModeShapes(Block):
+    """Shapes of the beam's first modes, normalised to a largest value of 1, over ``span`` = z/L.
+
+    One row a mode. ``elastic_axis`` is where the beam turns and its deflection is taken.
+    """
+
+    left_out = frozenset({"elastic_axis"})
+
+    span: tuple[float, ...]
+    bending: tuple[tuple[float, ...], ...]
+    torsion: tuple[tuple[float, ...], ...]
+    elastic_axis: float = 0.5  # x/c from the leading edge
+
+
 class EndCriteria(Block):
     """Criteria for the end and the regime of a run, which leave its history as it is.
 
@@ -173,7 +187,7 @@ class EndCriteria(Block):
     history would get another verdict, or get it at another time.
     """
 
-    rules: int = 6
+    rules: int = 7
     settled_amplitude_deg: float
     growing_amplitude_deg: float
     steadiness: float
@@ -191,8 +205,12 @@ class Harmonic(Block):
 class Start(Block):
     """Start of a free motion: twist of the tip until the release (deg), and its heave rate then.
 
-    The beam has them in its first modes, the section by its recovery factors.
+    The beam has them in its first modes, the section by its recovery factors. The twist is that
+    beyond the state: the undeformed beam, or its static equilibrium in the flow.
     """
 
+    left_out = frozenset({"state"})
+
+    state: Literal["rigid", "equilibrium"] = "rigid"
     twist_deg: float = 0.0
     heave_rate: float = 0.0  # over V, up

@@ -18,7 +18,14 @@ from typing import Any, Literal
 from pydantic import model_validator
 
 from equisection.beam.section import Section
-from equisection.cases.case import BeamModes, Case, EndCriteria, Harmonic, Start
+from equisection.cases.case import (
+    BeamModes,
+    Case,
+    EndCriteria,
+    Harmonic,
+    ModeShapes,
+    Start,
+)
 from equisection.errors import CaseFileError
 
 
@@ -82,10 +89,18 @@ class UnsteadyCase(Case):
 
 
 class ForcedCase(Case):
-    """Section that is moved in pitch or heave about a mean incidence (`2d`)."""
+    """Section that is moved in pitch or heave about a mean incidence (`2d`), or beam (`3d`).
+
+    A beam is moved in one of its torsion modes (pitch) or bending modes (heave).
+    """
+
+    left_out = frozenset({"shapes", "mode", "mean_twist_deg"})
 
     kind: Literal["forced"] = "forced"
-    component: Literal["pitch", "heave"]  # of mid-chord
+    component: Literal["pitch", "heave"]  # of mid-chord; of a beam that of its elastic axis
+    shapes: ModeShapes | None = None
+    mode: int = 0  # number of the mode that moves, from 1
+    mean_twist_deg: float = 0.0  # of the first torsion mode where it is largest
     harmonics: tuple[Harmonic, ...]
     ramp: float  # c/V in which the motion sets in
     settling: float  # c/V that are left out of the record
@@ -102,6 +117,16 @@ class ForcedCase(Case):
     def reduced_velocity(self) -> float:
         """V/(f c) of its slowest harmonic."""
         return math.tau / min(one.frequency for one in self.harmonics)
+
+    @model_validator(mode="after")
+    def _mode_of_a_beam(self) -> ForcedCase:
+        if (self.dimension == "3d") != (self.shapes is not None):
+            raise ValueError("a case of dimension 3d holds 'shapes', and no other does")
+        if self.shapes is not None:
+            own = self.shapes.torsion if self.component == "pitch" else self.shapes.bending
+            if not 1 <= self.mode <= len(own):
+                raise ValueError(f"mode is {self.mode}; allowed is 1 to {len(own)}")
+        return self
 
 
 @dataclass(frozen=True)

@@ -161,6 +161,29 @@ def _learnt_without_factors(
         )
 
 
+@check("sweep.onset", "sweep.models", "beam.elastic_axis", "steady.beam_polar")
+def _learnt_on_strips(
+    onset: str, models: tuple[str, ...], elastic_axis: float, beam_polar: str
+) -> Iterator[Problem]:
+    """Refuse a beam whose strips the learnt model does not have: no loads, or another axis."""
+    if onset != "model" or "3d" not in models:
+        return
+    if beam_polar:
+        yield Problem(
+            "steady.beam_polar",
+            beam_polar,
+            "allowed with sweep.onset 'model' and the model 3d is \"\", with which the solver runs "
+            "the rigid beam: the model is learnt on its loads along the span",
+        )
+    if elastic_axis != MID_CHORD:
+        yield Problem(
+            "beam.elastic_axis",
+            elastic_axis,
+            f"allowed with sweep.onset 'model' and the model 3d is {MID_CHORD:g}: the learnt model "
+            "of the strips has no force normal to the chord; or leave 3d out of sweep.models",
+        )
+
+
 @check("run")
 def _not_reserved(run: str) -> Iterator[Problem]:
     if run.lower() == RESERVED_RUN:

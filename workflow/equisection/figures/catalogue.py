@@ -171,6 +171,10 @@ def _moves_section(config: Config) -> bool:
     return config.forced.run
 
 
+def _moves_beam(config: Config) -> bool:
+    return "3d" in plan.forced_dimensions(config)
+
+
 def _has_section_model(config: Config) -> bool:
     return "2d" in plan.dimensions(config)
 
@@ -306,6 +310,16 @@ CATALOGUE = (
         "flutter derivatives",
         {"table": "derivatives/2d.csv"},
         exists=_moves_section,
+    ),
+    Entry(
+        "forces-on-modes",
+        "forces on the modes of the beam",
+        {
+            "forces": "derivatives/3d.csv",
+            "table": "derivatives/2d.csv",
+            "modes": "structure/modes.nc",
+        },
+        exists=_moves_beam,
     ),
     Entry(
         "response",

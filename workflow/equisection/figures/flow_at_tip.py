@@ -21,12 +21,12 @@ from equisection.figures.style import BLACK, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.results.failures import failure_of
 from equisection.results.netcdf import read_dataset
 from equisection.results.tip_flow import TipFlow, tip_flow_from_dataset
+from equisection.results.unsteady_result import BOUNDED
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
 from equisection.study.axes import K_STAR, Point
 
 #: Regimes in which the motion stays bounded.
-BOUNDED = ("settled", "limit-cycle")
 
 
 @dataclass(frozen=True)

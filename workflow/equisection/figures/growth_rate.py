@@ -11,7 +11,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from equisection.figures.models import LOOKS
+from equisection.figures.models import LOOKS, Look
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import letter, say
@@ -25,6 +25,8 @@ _QUANTITIES = {
     "growth_rate": ("growth rate", "growth rate (V/c)"),
     "frequency_strouhal": ("frequency", "$f c/V$"),
 }
+#: Ends of the interval of a growth rate.
+_ENDS = ("growth_low", "growth_high")
 _BAND_OF_FREQUENCY = ("frequency_low", "frequency_high")
 
 
@@ -43,7 +45,7 @@ def draw(
     onsets: pd.DataFrame,
     learnt: Sequence[xr.Dataset] = (),
 ) -> Figure:
-    """Draw growth rates (left) and frequencies (right).
+    """Draw growth rates with their intervals, frequencies, and limit cycles of learnt models.
 
     Parameters
     ----------
@@ -56,10 +58,15 @@ def draw(
     learnt
         Models learnt from releases, ``rom/<model>/model.nc``, drawn without marks and with bands.
     """
+    with_cycles = [data for data in learnt if data.attrs.get("limit_cycles")]
     figure = Figure(figsize=(PAGE_WIDTH, 3.4))
-    panels = figure.subplots(1, 2)
+    panels = figure.subplots(1, 3 if with_cycles else 2)
     along = onset_axis_among(summary.columns)
-    for axes, place, (name, (title, label)) in zip(panels, "ab", _QUANTITIES.items(), strict=True):
+    if with_cycles:
+        _limit_cycles(panels[2], with_cycles, summary, along)
+    for axes, place, (name, (title, label)) in zip(
+        panels[:2], "ab", _QUANTITIES.items(), strict=True
+    ):
         axes.set(xlabel=along.label, ylabel=label)
         letter(axes, place, title)
         _over_study(axes, summary, linear, name, along)
@@ -75,15 +82,46 @@ def draw(
     }
     if entries:
         figure.legend(handles=list(entries.values()), loc="outside upper center", ncols=3)
-    sources = solvers_of(
+    sources: tuple[str, ...] = solvers_of(
         (f"solver '{solver}'", str(resolution))
         for solver, resolution in summary[["solver", "resolution"]].drop_duplicates().values
     )
+    if set(_ENDS) <= set(summary) and summary[list(_ENDS)].notna().any(axis=None):
+        sources += ("bars: 95 % of the fit of twist and deflection; open mark: sign not told",)
     learnt_words = [f"band: {data.attrs['model']}, {data.attrs['words']}" for data in learnt]
+    learnt_words += [
+        f"(c): {data.attrs['model']}, {data.attrs['limit_cycles']}" for data in with_cycles
+    ]
     add_provenance(
         figure, *sources, *learnt_words, "linear: thin plate in free air, Theodorsen, p-k method"
     )
     return figure
+
+
+def _limit_cycles(
+    axes: Axes, learnt: Sequence[xr.Dataset], summary: pd.DataFrame, along: Axis
+) -> None:
+    """Draw the limit cycles of learnt models, dotted beyond what they have seen, and of runs."""
+    axes.set(xlabel=along.label, ylabel="amplitude of the limit cycle (deg)")
+    letter(axes, "c", "limit cycle")
+    for data in learnt:
+        look = LOOKS[str(data.attrs["model"])]
+        at, size = data[along.name].values, data["limit_cycle_deg"].values
+        beyond = data["limit_cycle_extrapolated"].values == 1
+        axes.plot(at, np.where(beyond, np.nan, size), color=look.colour, linewidth=0.8)
+        axes.plot(at, np.where(beyond, size, np.nan), color=look.colour, linewidth=0.8, ls=":")
+        runs = summary[
+            (summary["model"] == data.attrs["model"]) & (summary["regime"] == "limit-cycle")
+        ]
+        axes.plot(
+            runs[along.name],
+            runs["twist_amplitude_deg"],
+            color=look.colour,
+            linestyle="",
+            marker=look.marker,
+        )
+    axes.set_ylim(bottom=0.0)
+    add_other_axis(axes, along, as_given(summary))
 
 
 def _by_learnt_models(
@@ -105,6 +143,22 @@ def _by_learnt_models(
         )
 
 
+def _intervals(axes: Axes, runs: pd.DataFrame, along: Axis, look: Look) -> None:
+    """Draw the intervals of growth rates, and open marks where they hold zero."""
+    ends = list(_ENDS)
+    known = runs[runs[ends].notna().all(axis=1)]
+    axes.vlines(known[along.name], known[ends[0]], known[ends[1]], color=look.colour, linewidth=0.8)
+    unknown = known[(known[ends[0]] <= 0.0) & (known[ends[1]] >= 0.0)]
+    axes.plot(
+        unknown[along.name],
+        unknown["growth_rate"],
+        color=look.colour,
+        linestyle="none",
+        marker=look.marker,
+        markerfacecolor="white",
+    )
+
+
 def _over_study(
     axes: Axes, summary: pd.DataFrame, linear: pd.DataFrame, name: str, along: Axis
 ) -> None:
@@ -123,6 +177,8 @@ def _over_study(
             marker=look.marker,
             label=look.label,
         )
+        if name == "growth_rate" and set(_ENDS) <= set(runs):
+            _intervals(axes, runs, along, look)
     for number, ((reduction, motion), rows) in enumerate(
         linear.groupby(["reduction", "motion"], sort=False), start=1
     ):

@@ -33,6 +33,7 @@ from equisection.figures.panels import in_words, letter, say
 from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import oscillation_factors as factors_of
+from equisection.results.unsteady_result import BOUNDED, Regime
 from equisection.solvers.known_error import side_in_words
 from equisection.store.index import result_files
 from equisection.study.axes import Axis, onset_axis_among
@@ -43,7 +44,6 @@ AT_TIPS = (1.0, 1.0)
 #: Distance z/L below which a place is that of its name.
 _ONE_PLACE = 1e-3
 #: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
-_BOUNDED = ("settled", "limit-cycle")
 #: Marks, on the axis, of runs without a mean.
 _FAILED, _DIVERGED = "x", "+"
 #: Markers of a model at most, but for the few that are of another kind than the rest.
@@ -130,7 +130,7 @@ def read_response(
             if case.exists
         }
         if model == section:
-            bounded = summary[(summary["model"] == model) & summary["regime"].isin(_BOUNDED)]
+            bounded = summary[(summary["model"] == model) & summary["regime"].isin(BOUNDED)]
             apart = -(-len(bounded) // MOST_EXTENTS) or 1
             axis = onset_axis_among(summary.columns)
             values = bounded[axis.name].sort_values().iloc[::apart]
@@ -338,11 +338,15 @@ def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
         for look in (LOOKS[model] for model in models)
     ]
     run = response.summary[response.summary["regime"] != "failed"]
-    drifts = (run["mean_known"] == 0) & run["regime"].isin(_BOUNDED)
-    grows = run["regime"] == "growing"
-    words = [word for word, there in (("growing", grows), ("drifting", drifts)) if there.any()]
+    drifts = (run["mean_known"] == 0) & run["regime"].isin(BOUNDED)
+    marked = (
+        ("still growing", run["regime"] == Regime.GROWING),
+        ("still drifting", drifts),
+        ("undecided", run["regime"] == Regime.UNDECIDED),
+    )
+    words = [word for word, there in marked if there.any()]
     if words:
-        handles.append(_mark("o", f"still {' or '.join(words)}"))
+        handles.append(_mark("o", " or ".join(words).replace("or still ", "or ")))
     labels = {_FAILED: "failed", _DIVERGED: "diverged, no mean"}
     along = onset_axis_among(response.summary.columns)
     handles += [_mark(mark, labels[mark]) for mark in _without_mean(response.summary, along)]

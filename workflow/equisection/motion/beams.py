@@ -236,6 +236,7 @@ def release_beams(
     *,
     tip_twist: float = 0.0,
     tip_heave_rate: float = 0.0,
+    about: Floats | None = None,
     time_step: float = BEAM_TIME_STEP,
     output_interval: float = OUTPUT_INTERVAL,
     monitor: BeamMonitor | None = None,
@@ -245,7 +246,8 @@ def release_beams(
 
     ``tip_twist`` (rad) is that of the first torsion mode in which the beams are held until then,
     ``tip_heave_rate`` (over V, up) the rate of the first bending mode that they get, both at the
-    tip (:func:`equisection.motion.steady_states.release_state`). ``duration``, ``time_step`` and
+    tip, and ``about`` what the twist is beyond
+    (:func:`equisection.motion.steady_states.release_state`). ``duration``, ``time_step`` and
     ``output_interval`` are convective times. A beam on which a bubble leaves the polar ends there
     and is named in ``failures``; the others go on.
     """
@@ -256,6 +258,7 @@ def release_beams(
             system,
             tip_twist / parameters.torsion_at_tip[0],
             tip_heave_rate / parameters.bending_at_tip[0],
+            about,
         ),
         _outputs(parameters, system),
         duration=duration,

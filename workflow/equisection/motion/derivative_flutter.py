@@ -20,9 +20,10 @@ its frequencies: where it ends the answer is ``unknown``.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any, Protocol
 
 import numpy as np
 import scipy
@@ -30,10 +31,10 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.derivatives import Derivatives
+from equisection.aerodynamics.generalised_forces import GeneralisedForces
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
-from equisection.io.derivative_table import DERIVATIVES
 from equisection.motion.beam_flutter import BeamInFlow, reference_speed
 from equisection.motion.linear_flutter import FlutterEquations, Neutral, neutral_oscillations
 from equisection.structure.modal_matrices import ModalMatrices
@@ -97,13 +98,13 @@ class FlowingBody:
     in_vacuum
         Its natural frequencies (rad/s), rising.
     equations
-        Equations of its motions with the loads of a table.
+        Equations of its motions with the loads of a table, of which it takes one kind.
     """
 
     reference_speed: float
     chord: float
     in_vacuum: Floats
-    equations: Callable[[Derivatives], FlutterEquations]
+    equations: Callable[[Any], FlutterEquations]
 
     @classmethod
     def of_section(cls, section: Section, density: float) -> FlowingBody:
@@ -133,11 +134,55 @@ class FlowingBody:
 
         return cls(flow.speed, chord, matrices.natural_frequencies, equations)
 
+    @classmethod
+    def of_moved_beam(
+        cls, matrices: ModalMatrices, chord: float, elastic_axis: float, density: float
+    ) -> FlowingBody:
+        """Body of a beam on its modes (SI) that takes generalised forces on the same modes."""
+        flow = BeamInFlow(matrices, chord, elastic_axis, density)
+
+        def equations(forces: GeneralisedForces) -> FlutterEquations:
+            return FlutterEquations(flow.mass, flow.damping, flow.stiffness, forces.influence)
+
+        return cls(flow.speed, chord, matrices.natural_frequencies, equations)
+
+
+class LoadTable(Protocol):
+    """Loads over the reduced velocity: derivatives of a section, or forces on modes of a beam."""
+
+    @property
+    def reduced_velocity(self) -> Floats:
+        """V/(f c), ascending, shape (n,)."""
+        ...
+
+    @property
+    def spread(self) -> Floats | None:
+        """Standard deviations; None where they are not known."""
+        ...
+
+    @property
+    def frequencies(self) -> tuple[float, float]:
+        """Lowest and highest omega c/V."""
+        ...
+
+    @property
+    def quantities(self) -> int:
+        """Number of quantities that have a spread."""
+        ...
+
+    def thinned(self) -> Sequence[LoadTable]:
+        """Tables of about half the rows."""
+        ...
+
+    def shifted(self, number: int, times: float) -> LoadTable:
+        """Table in which one quantity is moved by some of its standard deviations."""
+        ...
+
 
 class _OfTable:
     """A body in the loads of one table."""
 
-    def __init__(self, body: FlowingBody, table: Derivatives) -> None:
+    def __init__(self, body: FlowingBody, table: LoadTable) -> None:
         self.body = body
         self.equations = body.equations(table)
         self.frequencies = np.geomspace(*table.frequencies, _FREQUENCIES)
@@ -215,7 +260,7 @@ class _OfTable:
 
 
 def derivative_onset(
-    body: FlowingBody, table: Derivatives, speed: tuple[float, float] = (0.0, math.inf)
+    body: FlowingBody, table: LoadTable, speed: tuple[float, float] = (0.0, math.inf)
 ) -> DerivativeOnset:
     """First onset of flutter of a body in the loads of a table.
 
@@ -224,7 +269,7 @@ def derivative_onset(
     body
         Section or beam.
     table
-        Flutter derivatives.
+        Flutter derivatives, or generalised forces of a moved beam.
     speed
         Lowest and highest speed (m/s) looked at.
     """
@@ -260,7 +305,7 @@ def _without_onset(flow: _OfTable, within: tuple[float, float], reason: str) -> 
     return DerivativeOnset(math.nan, stable, math.nan, math.nan, mechanism, reason)
 
 
-def _half_widths(body: FlowingBody, table: Derivatives, found: float) -> tuple[float, float]:
+def _half_widths(body: FlowingBody, table: LoadTable, found: float) -> tuple[float, float]:
     """Return how far the onset (m/s) may be below and above what was found.
 
     The largest change by a table of half the rows, and the root of the sum of squares of the
@@ -268,7 +313,7 @@ def _half_widths(body: FlowingBody, table: Derivatives, found: float) -> tuple[f
     Infinite where another table has no onset.
     """
 
-    def change(other: Derivatives) -> float:
+    def change(other: LoadTable) -> float:
         flow = _OfTable(body, other)
         speeds = [flow.speed(n) for n in flow.neutral if flow.grows(flow.speed(n) * (1 + _ASIDE))]
         return min((one - found for one in speeds), key=abs, default=math.inf)
@@ -276,7 +321,7 @@ def _half_widths(body: FlowingBody, table: Derivatives, found: float) -> tuple[f
     thinned = max((abs(change(one)) for one in table.thinned()), default=0.0)
     below = above = 0.0
     if table.spread is not None:
-        for number in range(len(DERIVATIVES)):
+        for number in range(table.quantities):
             both = [change(table.shifted(number, times)) for times in (-1.0, 1.0)]
             below += max(0.0, *(-one for one in both)) ** 2
             above += max(0.0, *both) ** 2

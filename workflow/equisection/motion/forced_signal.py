@@ -53,6 +53,24 @@ class ForcedSignal:
         angle = np.multiply.outer(s, self.frequencies) + self.phases
         return np.asarray(rise * (np.cos(angle) @ self.amplitudes), dtype=np.float64)
 
+    def moving(self, time: ArrayLike) -> tuple[Floats, Floats, Floats]:
+        """Return the motion with its first and second derivative (per c/V), shape of ``time``."""
+        s = np.asarray(time, dtype=np.float64)
+        u = np.clip(s / self.ramp, 0.0, 1.0)
+        rise = u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
+        first = 30.0 * u**2 * (1.0 - u) ** 2 / self.ramp
+        second = 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / self.ramp**2
+        turning = np.exp(1j * (np.multiply.outer(s, self.frequencies) + self.phases))
+        x, v, a = (
+            np.real(turning @ (self.amplitudes * (1j * self.frequencies) ** order))
+            for order in range(3)
+        )
+        return (
+            np.asarray(rise * x),
+            np.asarray(rise * v + first * x),
+            np.asarray(rise * a + 2.0 * first * v + second * x),
+        )
+
     @property
     def response(self) -> NDArray[np.complex128]:
         """X_i of x = Re sum X_i exp(i omega_i s), when it has set in, shape (n,)."""

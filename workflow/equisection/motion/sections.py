@@ -131,6 +131,7 @@ def release_sections(
     load_factors: Floats | None = None,
     twist: float | Floats = 0.0,
     heave_rate: float | Floats = 0.0,
+    about: Floats | None = None,
     time_step: float = SECTION_TIME_STEP,
     output_interval: float = OUTPUT_INTERVAL,
     monitor: SectionMonitor | None = None,
@@ -138,12 +139,12 @@ def release_sections(
 ) -> SectionHistories:
     """Release N sections from steady flow at theta_0 (rad), at rest and untwisted by default.
 
-    ``twist`` (rad) is that at which the sections are held until then, and ``heave_rate`` (over V,
-    up) the rate that they get (:func:`equisection.motion.steady_states.release_state`), one value
-    or one per section. ``load_factors`` are those of :func:`section_system`; the loads of the
-    histories are without them. ``duration``, ``time_step`` and ``output_interval`` are convective
-    times. A section whose bubble leaves the polar ends there and is named in ``failures``; the
-    others go on.
+    ``twist`` (rad) is that at which the sections are held until then, ``heave_rate`` (over V,
+    up) the rate that they get, and ``about`` what the twist is beyond
+    (:func:`equisection.motion.steady_states.release_state`), one value or one per section.
+    ``load_factors`` are those of :func:`section_system`; the loads of the histories are without
+    them. ``duration``, ``time_step`` and ``output_interval`` are convective times. A section whose
+    bubble leaves the polar ends there and is named in ``failures``; the others go on.
     """
     system = section_system(sections, loads, incidence_rad, load_factors)
     states = np.eye(4, system.rates.shape[2])[None].repeat(system.structure.lanes, axis=0)
@@ -153,7 +154,7 @@ def release_sections(
     outputs = np.concatenate([states, *loads_of_strip], axis=1)
     recording = march(
         system,
-        release_state(system, twist, heave_rate),
+        release_state(system, twist, heave_rate, about),
         outputs,
         duration=duration,
         time_step=time_step,

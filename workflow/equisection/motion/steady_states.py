@@ -37,7 +37,10 @@ def rigid_state(system: StripSystem) -> tuple[Floats, Floats]:
 
 
 def release_state(
-    system: StripSystem, twist: Floats | float = 0.0, heave_rate: Floats | float = 0.0
+    system: StripSystem,
+    twist: Floats | float = 0.0,
+    heave_rate: Floats | float = 0.0,
+    about: Floats | None = None,
 ) -> tuple[Floats, Floats]:
     """States Y (N, n) and deficits u (N, d S) at a release from another twist or with a rate.
 
@@ -52,10 +55,13 @@ def release_state(
         Theta_1 (rad), one value or one per lane.
     heave_rate
         W_1' (chords per c/V, that is over V), up, one value or one per lane.
+    about
+        Structural states, at rest, that the twist is beyond: those of static equilibrium, shape
+        (N, m). None for the undeformed structure.
     """
     layout = system.layout
-    held = np.zeros((system.rates.shape[0], layout.structural))
-    held[:, layout.twist.start] = twist
+    held = np.zeros((system.rates.shape[0], layout.structural)) if about is None else about.copy()
+    held[:, layout.twist.start] += twist
     states, deficits = _steady(system, np.arange(layout.structural, layout.size), held)
     if not np.any(heave_rate):
         return states, deficits

@@ -22,14 +22,23 @@ class Regime(StrEnum):
     """Regime of a run that has ended."""
 
     SETTLED = "settled"
+    DECAYING = "decaying"
     LIMIT_CYCLE = "limit-cycle"
     GROWING = "growing"
+    UNDECIDED = "undecided"
     FAILED = "failed"
 
 
+#: Regimes of a run that has shown the body to be stable.
+STABLE = frozenset({Regime.SETTLED, Regime.DECAYING})
+#: Regimes of a run whose motion has stayed about a mean.
+BOUNDED = STABLE | {Regime.LIMIT_CYCLE}
+#: Regimes of a run that says nothing of the stability of its body.
+UNKNOWN = frozenset({Regime.UNDECIDED, Regime.FAILED})
+
 #: Attributes that carry the verdict, with what they mean.
 VERDICT_ATTRIBUTES = {
-    "regime": "settled, limit-cycle, growing or failed",
+    "regime": "settled, decaying, limit-cycle, growing, undecided or failed",
     "reason": "why, in a sentence",
     "periods_used": "whole periods that the verdict rests on",
     "window_start": "start of the window that the verdict rests on (c/V)",
@@ -38,7 +47,13 @@ VERDICT_ATTRIBUTES = {
     "mean_known": "1 where both means are settled, 0 where the motion still grows or drifts",
     "twist_amplitude_deg": "amplitude of the tip's twist (deg)",
     "frequency_strouhal": "frequency of the twist f c/V",
-    "growth_rate": "growth rate of the twist's amplitude (V/c)",
+    "growth_rate": "growth rate of the motion, of twist and deflection together (V/c)",
+    "growth_standard_error": "its standard error (V/c)",
+    "growth_low": "lower end of its interval of 95 % (V/c)",
+    "growth_high": "upper end of its interval of 95 % (V/c)",
+    "growth_start": "start of the window that it is read from (c/V)",
+    "growth_end": "end of that window (c/V)",
+    "growth_note": "how it was read, or that the window has beats in it; empty without a remark",
     "deflection_amplitude_chords": "amplitude of the deflection as recovered (chords)",
     "heave_grows": "1 where the heave grows beneath a twist that does not",
 }
@@ -54,6 +69,12 @@ VERDICT_UNITS = {
     "twist_amplitude_deg": "deg",
     "frequency_strouhal": "1",
     "growth_rate": "V/c",
+    "growth_standard_error": "V/c",
+    "growth_low": "V/c",
+    "growth_high": "V/c",
+    "growth_start": "c/V",
+    "growth_end": "c/V",
+    "growth_note": "",
     "deflection_amplitude_chords": "c",
     "heave_grows": "1",
 }

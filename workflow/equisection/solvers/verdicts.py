@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, TypeVar
 
 import numpy as np
@@ -19,6 +19,7 @@ from equisection.cases import Case, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady_result import Regime, UnsteadyResult
 from equisection.verdict import Criteria, Verdict, assess, heave_grows, swings_grow
+from equisection.verdict.growth import NO_GROWTH, Growth, growth_window, growths_of
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -30,20 +31,42 @@ LOOK_AGAIN = 1.3
 LOOKS_EVERY = 5.0
 #: Time (c/V) over which a motion beyond the bound is looked for; longer than a slow period.
 LATE = 20.0
+#: Bending modes of a beam that are fitted with its first torsion mode.
+BENDING_MODES = 2
+#: A heave that is this many times faster than the pitch does not beat with it (-).
+FASTEST_HEAVE = 4.0
 
 
 @dataclass(frozen=True)
 class TipMotion:
-    """Twist (rad) and deflection (chords) of the tip over convective time, shape (n,)."""
+    """Motion of the tip over convective time, and of the first modes where they are known.
+
+    Attributes
+    ----------
+    time
+        s (c/V), shape (n,).
+    twist, deflection
+        Of the tip (rad and chords), shape (n,).
+    modes
+        Amplitudes of the first torsion mode and of the first two bending modes, in any unit, shape
+        (C, n); empty of a section, and where they are not known.
+    """
 
     time: Floats
     twist: Floats
     deflection: Floats
+    modes: Floats = field(default_factory=lambda: np.empty((0, 0)))
 
     def until(self, end: float) -> TipMotion:
         """Return the part up to a time (c/V)."""
         kept = self.time <= end * (1 + 1e-9)
-        return TipMotion(self.time[kept], self.twist[kept], self.deflection[kept])
+        modes = self.modes[:, kept] if self.modes.size else self.modes
+        return TipMotion(self.time[kept], self.twist[kept], self.deflection[kept], modes)
+
+    @property
+    def records(self) -> Floats:
+        """Records from which the growth is fitted, that of the torsion first, shape (C, n)."""
+        return self.modes if self.modes.size else np.stack((self.twist, self.deflection))
 
 
 def pitch_frequency(case: UnsteadyCase) -> float:
@@ -59,25 +82,59 @@ def _of_section(section: Section) -> float:
     return math.sqrt(section.torsional_stiffness / section.inertia) / (2 * math.pi)
 
 
+def _heave_of_section(section: Section) -> float:
+    return math.sqrt(section.flexural_stiffness / section.mass) / (2 * math.pi)
+
+
+def _heaves(case: UnsteadyCase) -> tuple[float, ...]:
+    """Return the natural frequencies f c/V of heave or first bending modes in vacuum."""
+    if case.beam is not None:
+        return tuple(one / (2 * math.pi) for one in case.beam.bending_frequency[:BENDING_MODES])
+    return () if case.section is None else (_heave_of_section(case.section),)
+
+
 @dataclass(frozen=True)
 class Judge:
-    """Judge of one motion: its criteria, and the natural frequency f c/V of its pitch in vacuum."""
+    """Judge of one motion.
+
+    Attributes
+    ----------
+    criteria
+        Its criteria.
+    natural_frequency
+        Natural frequency f c/V of its pitch in vacuum.
+    heaves
+        Those of its heave, or of its first bending modes. Without them no growth is fitted, and
+        the twist alone is judged.
+    """
 
     criteria: Criteria
     natural_frequency: float
+    heaves: tuple[float, ...] = ()
 
     @classmethod
     def of(cls, case: UnsteadyCase) -> Judge:
         """Return the judge of a case."""
         criteria = Criteria(**case.criteria.model_dump(exclude={"rules"}))
-        return cls(criteria, pitch_frequency(case))
+        return cls(criteria, pitch_frequency(case), _heaves(case))
 
     @classmethod
     def of_section(cls, section: Section, criteria: Criteria) -> Judge:
         """Return the judge of a section in its flow."""
-        return cls(criteria, _of_section(section))
+        return cls(criteria, _of_section(section), (_heave_of_section(section),))
 
-    def attributes(self, tip: TipMotion, failure: str = "") -> dict[str, Any]:
+    @property
+    def waves(self) -> tuple[float, ...]:
+        """Natural frequencies f c/V of the motions that a fit has, that of the pitch first.
+
+        A heave that is far faster than the pitch does not beat with it and is left out.
+        """
+        fastest = FASTEST_HEAVE * self.natural_frequency
+        return (self.natural_frequency, *(one for one in self.heaves if 0.0 < one <= fastest))
+
+    def attributes(
+        self, tip: TipMotion, failure: str = "", growth: Growth | None = None
+    ) -> dict[str, Any]:
         """Return the attributes of the verdict on a run that has ended.
 
         Parameters
@@ -87,7 +144,11 @@ class Judge:
         failure
             Reason for an early end of the run, if there was one. The regime is then ``failed``,
             unless the motion had grown beyond the bound before.
+        growth
+            Growth of the motion, where it is known already (:func:`growths_of_tips`).
         """
+        if growth is None:
+            (growth,) = growths_of_tips([self], [tip])
         try:
             verdict = assess(
                 tip.time,
@@ -96,6 +157,7 @@ class Judge:
                 self.criteria,
                 final=True,
                 natural_frequency=self.natural_frequency,
+                growth=growth,
             )
         except ResultFileError as error:
             return _without_numbers(Regime.FAILED, failure or str(error))
@@ -111,7 +173,7 @@ class Judge:
             "mean_known": int(verdict.mean_known),
             "twist_amplitude_deg": math.degrees(verdict.twist_amplitude),
             "frequency_strouhal": verdict.frequency if verdict.periods_used else math.nan,
-            "growth_rate": verdict.growth_rate,
+            **_attributes_of(verdict.growth),
             "deflection_amplitude_chords": verdict.deflection_amplitude,
             "heave_grows": int(verdict.heave_grows),
         }
@@ -147,6 +209,53 @@ class Judge:
                 or swings_grow(tip.time, tip.twist, bound)
             )
         )
+
+
+def first_modes(torsion: Floats, bending: Floats) -> Floats:
+    """Return the amplitudes that a growth is fitted to, of all torsion and bending modes (C, n)."""
+    return np.concatenate((torsion[:1], bending[:BENDING_MODES]))
+
+
+def growths_of_tips(judges: Sequence[Judge], tips: Sequence[TipMotion]) -> list[Growth]:
+    """Return the growth of motions that are sampled at the same times, each until its own end.
+
+    Those with as many records and natural frequencies are fitted at once.
+    """
+    groups: dict[tuple[int, int], list[int]] = {}
+    for lane, (judge, tip) in enumerate(zip(judges, tips, strict=True)):
+        if judge.heaves and judge.natural_frequency > 0.0 and np.isfinite(tip.records).all():
+            groups.setdefault((len(tip.records), len(judge.waves)), []).append(lane)
+    found = [NO_GROWTH] * len(tips)
+    for lanes in groups.values():
+        chosen = [tips[lane] for lane in lanes]
+        time = max((tip.time for tip in chosen), key=len)
+        if not time.size:
+            continue
+        records = np.zeros((len(chosen[0].records), len(chosen), time.size))
+        for place, tip in enumerate(chosen):
+            records[:, place, : tip.time.size] = tip.records
+        windows = [
+            growth_window(float(tip.time[-1]) if tip.time.size else 0.0, judges[lane].waves[0])
+            for lane, tip in zip(lanes, chosen, strict=True)
+        ]
+        fits = growths_of(time, records, [judges[lane].waves for lane in lanes], windows)
+        for lane, growth in zip(lanes, fits, strict=True):
+            found[lane] = growth
+    return found
+
+
+def _attributes_of(growth: Growth) -> dict[str, Any]:
+    low, high = growth.interval
+    is_known = math.isfinite(growth.rate)
+    return {
+        "growth_rate": growth.rate,
+        "growth_standard_error": growth.standard_error,
+        "growth_low": low,
+        "growth_high": high,
+        "growth_start": growth.start,
+        "growth_end": growth.end,
+        "growth_note": growth.note if is_known else "",
+    }
 
 
 def judge(case: UnsteadyCase, tip: TipMotion, failure: str = "") -> dict[str, Any]:
@@ -241,7 +350,6 @@ def _without_numbers(regime: Regime, reason: str) -> dict[str, Any]:
         "mean_deflection_chords",
         "twist_amplitude_deg",
         "frequency_strouhal",
-        "growth_rate",
         "deflection_amplitude_chords",
     )
     return {
@@ -251,4 +359,5 @@ def _without_numbers(regime: Regime, reason: str) -> dict[str, Any]:
         "mean_known": 0,
         "heave_grows": 0,
         **dict.fromkeys(unknown, math.nan),
+        **_attributes_of(NO_GROWTH),
     }

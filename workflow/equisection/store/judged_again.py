@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import xarray as xr
+from numpy.typing import NDArray
 
 from equisection.cases import Case, UnsteadyCase
-from equisection.solvers.verdicts import TipMotion, decided_at, is_decided, judge
+from equisection.solvers.verdicts import TipMotion, decided_at, first_modes, is_decided, judge
 
 #: Costs of a run, which grow with its length.
 _COSTS = ("wall_seconds", "cpu_seconds")
@@ -56,7 +58,15 @@ def tip_motion(known: xr.Dataset, end: float = math.inf) -> TipMotion:
     """Return the motion of the tip up to a time (c/V), in chords where the file has metres."""
     part = _upto(known, end)
     deflection = part["tip_deflection"].values / float(known.attrs["chord"])
-    return TipMotion(part["time"].values, part["tip_twist"].values, deflection)
+    return TipMotion(part["time"].values, part["tip_twist"].values, deflection, _first_modes(part))
+
+
+def _first_modes(known: xr.Dataset) -> NDArray[np.float64]:
+    """Return the amplitudes of the modes that a growth is fitted to; none of a section."""
+    names = ("torsion_amplitude", "bending_amplitude")
+    if not all(name in known for name in names):
+        return np.empty((0, 0))
+    return first_modes(*(known[name].values for name in names))
 
 
 def _cut(case: UnsteadyCase, known: xr.Dataset, end: float) -> xr.Dataset:

@@ -1,13 +1,16 @@
-"""Cases of the section that is moved: names, motion and records."""
+"""Cases of the section or beam that is moved: motion and records."""
 
 from __future__ import annotations
 
-import itertools
 import math
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
-from equisection.cases import ForcedCase, Harmonic
+import xarray as xr
+
+from equisection.cases import ForcedCase, Harmonic, ModeShapes
+from equisection.errors import ArgumentError
 from equisection.motion.forced_signal import schroeder_phases
+from equisection.results.modes_dataset import modes_from_dataset
 from equisection.study.assemble import steady_case
 
 if TYPE_CHECKING:
@@ -20,14 +23,30 @@ _RAMP = 1.0 / 6.0
 _SAMPLES = 20
 
 
-def forced_case(config: Config, name: str, solver: Solver) -> ForcedCase:
+def forced_case(
+    config: Config, name: str, solver: Solver, modes: xr.Dataset | None = None
+) -> ForcedCase:
     """Return the case of a name (:func:`equisection.study.plan.forced_names`).
 
-    Heave has the amplitude of incidence of pitch: omega c/V times w/c.
+    Heave has the amplitude of incidence of pitch: omega c/V times w/c. So has a bending mode that
+    of a torsion mode, where each is largest.
+
+    Parameters
+    ----------
+    config
+        The configuration.
+    name
+        Name of the case.
+    solver
+        The solver that is to run it.
+    modes
+        Modes of the beam (``structure/modes.nc``), for a case of the beam.
     """
     keys = config.forced
     component, _, velocity = name.partition("_v")
-    kind: Literal["pitch", "heave"] = "pitch" if component == "pitch" else "heave"
+    moved = component.rstrip("0123456789")
+    kind: Literal["pitch", "heave"] = "pitch" if moved in ("pitch", "torsion") else "heave"
+    dimension = "2d" if moved == component else "3d"
     frequencies = [math.tau / float(velocity)] if velocity else list(keys.frequencies)
     angle = math.radians(keys.amplitude_deg) / math.sqrt(len(frequencies))
     harmonics = tuple(
@@ -43,27 +62,35 @@ def forced_case(config: Config, name: str, solver: Solver) -> ForcedCase:
     every = max(1, math.floor(min(unsteady.output_interval, longest) / unsteady.time_step + 1e-9))
     interval = every * unsteady.time_step
     mean = config.flow.incidence_deg if keys.incidence_deg is None else keys.incidence_deg
-    rigid = steady_case(config, "2d", mean, config.steady.resolution, solver)
+    rigid = steady_case(config, dimension, mean, config.steady.resolution, solver)
     shared = {name: getattr(rigid, name) for name in type(rigid).model_fields if name != "kind"}
     return ForcedCase(
         **shared,
         component=kind,
+        **({} if dimension == "2d" else _of_beam(config, int(component[len(moved) :]), modes)),
         harmonics=harmonics,
         ramp=_RAMP * keys.settling,
         settling=keys.settling,
-        duration=_multiple(keys.settling + record(frequencies, keys.periods), interval),
+        duration=_multiple(keys.settling + keys.record(frequencies), interval),
         time_step=unsteady.time_step,
         output_interval=interval,
     )
 
 
+def _of_beam(config: Config, mode: int, modes: xr.Dataset | None) -> dict[str, Any]:
+    """Return the members of a case of the beam: its shapes, and the mode that moves."""
+    if modes is None:
+        raise ArgumentError("modes is None; wanted structure/modes.nc for a case of the beam")
+    found, number = modes_from_dataset(modes), config.forced.beam_modes
+    shapes = ModeShapes(
+        span=tuple(found.span),
+        bending=tuple(map(tuple, found.bending(number).shape)),
+        torsion=tuple(map(tuple, found.torsion(number).shape)),
+        elastic_axis=config.beam.elastic_axis,
+    )
+    return {"shapes": shapes, "mode": mode, "mean_twist_deg": config.forced.twist_deg}
+
+
 def _multiple(duration: float, interval: float) -> float:
     """Return the multiple of an interval that is next to a duration."""
     return round(math.ceil(duration / interval - 1e-6) * interval, 9)
-
-
-def record(frequencies: list[float], periods: int) -> float:
-    """Return the length of a record (c/V) in whose halves the frequencies are told apart."""
-    apart = [abs(a - b) for a, b in itertools.pairwise(sorted(frequencies))]
-    halves = [math.tau / one for one in apart]
-    return max(periods * math.tau / min(frequencies), *(2.0 * half for half in halves), 0.0)

@@ -25,7 +25,7 @@ if TYPE_CHECKING:  # jobs need not build the models of the configuration
     from equisection.config import Config
 
 #: Patterns of the wildcards of the rules.
-FORCED_PATTERN = r"(?:pitch|heave)(?:_v[0-9.]+)?"
+FORCED_PATTERN = r"(?:pitch|heave|(?:bending|torsion)[1-9][0-9]*)(?:_v[0-9.]+)?"
 MODEL_PATTERN = r"[23]d(-corrected)?(-paper|-consistent)?"
 DIMENSION_PATTERN = r"[23]d"
 #: A batch is what one job of a solver that takes many cases runs: the sweep, or a round of the
@@ -77,10 +77,12 @@ def learns(config: Config) -> bool:
 
 
 def learner(config: Config, name: str) -> str:
-    """Return the model whose releases a model of the section is learnt from: one for all sections.
+    """Return the model whose releases a model is learnt from: one for all sections, or the beam.
 
     The loads under a motion are those of the same flow, whatever the section's mass and springs.
     """
+    if model(name, config.reduction).dimension == "3d":
+        return name
     sections = [
         one for one in config.sweep.models if model(one, config.reduction).dimension == "2d"
     ]
@@ -247,16 +249,32 @@ def planned_cases(config: Config) -> Iterator[PlannedCases]:
         dimension = model(name, config.reduction).dimension
         of_sweep = tuple(sweep_cases(config, name))
         yield PlannedCases(FREE, name, dimension, config.steady.resolution, of_sweep, refined)
-    if config.forced.run:
-        yield PlannedCases(FORCED, "2d", "2d", config.steady.resolution, forced_names(config))
+    for dimension in forced_dimensions(config):
+        names = forced_names(config, dimension)
+        yield PlannedCases(FORCED, dimension, dimension, config.steady.resolution, names)
 
 
-def forced_names(config: Config) -> tuple[str, ...]:
-    """Return the names of the forced cases, such as ``pitch`` or ``heave_v12``."""
+def forced_dimensions(config: Config) -> tuple[str, ...]:
+    """Return the dimensions of the forced motions: the section, and the beam if its modes move."""
+    if not config.forced.run:
+        return ()
+    return ("2d", "3d") if config.forced.beam_modes else ("2d",)
+
+
+def forced_names(config: Config, dimension: str = "2d") -> tuple[str, ...]:
+    """Return the names of the forced cases of a dimension.
+
+    Such as ``pitch`` or ``heave_v12`` of the section, and ``bending1`` or ``torsion2_v12`` of the
+    beam.
+    """
     parts = [""]
     if config.forced.motion == "harmonic":
         parts = [f"_v{velocity:.6g}" for velocity in config.forced.reduced_velocity]
-    return tuple(f"{component}{part}" for component in ("pitch", "heave") for part in parts)
+    moved = ["pitch", "heave"]
+    if dimension == "3d":
+        numbers = range(1, config.forced.beam_modes + 1)
+        moved = [f"{kind}{number}" for kind in ("bending", "torsion") for number in numbers]
+    return tuple(f"{component}{part}" for component in moved for part in parts)
 
 
 def write_refinement(path: Path, points: Sequence[Point]) -> None:

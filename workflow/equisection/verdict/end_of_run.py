@@ -1,4 +1,10 @@
-"""Decide at the end of a run by the trend of its last periods."""
+"""Decide at the end of a run by the growth of its last periods, or say that it does not tell.
+
+A release rings in more motions than one, so its first periods may decay where the motion grows in
+the end. A run is judged from four periods after the release on. The growth that is fitted to twist
+and deflection together decides by its interval, the trend of the twist's amplitude where there is
+no such fit.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +12,7 @@ import math
 
 import numpy as np
 
+from equisection.verdict.growth import DECISIVE_PERIODS, Growth
 from equisection.verdict.observation import GROWN, RUNS_AWAY, UNDIMINISHED, Observation
 from equisection.verdict.verdict import Regime
 from equisection.verdict.wording import change, degrees
@@ -15,34 +22,92 @@ _AT_THE_END = "decided by the trend at the end of the run: "
 _STALLED = 0.3
 # With fewer extrema the swing from the release to the first is needed to compare with.
 _FEWEST_EXTREMA = 3
+# A release swings from rest to about twice its equilibrium: a half swing of more than this many
+# times the first is no part of that.
+_DEPARTS = 2.0
 
 
-def decide_by_trend(seen: Observation) -> tuple[Regime, str]:
+def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     """Decide at the end of a run that showed nothing beyond doubt.
 
-    A clear growth rate makes the run growing or settled. Without one it is a limit cycle, whatever
-    its spread.
+    A growth whose interval has one sign makes the run growing or decaying, and a decaying one that
+    has fallen far enough settled. Without one it is a limit cycle if its amplitude is steady, or
+    has come back to what it was for twice as long as it is judged, or stalls. What is none of
+    these is undecided.
+
+    Parameters
+    ----------
+    seen
+        The history.
+    growth
+        Growth of twist and deflection together.
     """
+    samples = seen.time.size  # the first may be a sample after the release
+    elapsed = float(seen.time[-1] - seen.time[0]) * samples / (samples - 1)
+    if elapsed < seen.criteria.minimal_time:
+        return _too_short(seen, elapsed)
     if not seen.ringing or seen.amplitude.size < 3:
         return _by_swings(seen)
-    amplitude = f"twist amplitude {degrees(float(seen.amplitude[-1]))}"
-    direction = _direction(seen)
-    if direction > 0:
-        slowing = seen.halves[1].growth_rate < UNDIMINISHED * seen.halves[0].growth_rate
-        rate = ", at a falling rate" if slowing else ""
-        return "growing", f"{_AT_THE_END}{amplitude} grows, {change(seen)}{rate}"
-    if direction < 0:
-        return "settled", f"{_AT_THE_END}{amplitude} dies out, {change(seen)}"
-    if float(seen.amplitude[-1]) < math.radians(seen.criteria.settled_amplitude_deg):
-        return "settled", f"{_AT_THE_END}{amplitude} is that of a section at rest"
-    return "limit-cycle", (
-        f"{_AT_THE_END}{amplitude} has no clear trend ({change(seen)}), and its spread is "
-        f"{100.0 * seen.spread:.2g} %"
+    if not growth.decides and seen.used < 2 * DECISIVE_PERIODS:
+        return "undecided", (
+            f"too short to be judged: {seen.used / 2:g} of the {DECISIVE_PERIODS} periods needed "
+            f"after the first {seen.criteria.discard_time:g} c/V; raise the duration"
+        )
+    return _by_growth(seen, growth)
+
+
+def _too_short(seen: Observation, elapsed: float) -> tuple[Regime, str]:
+    """Decide from a record of a time (c/V) in which only what runs away is told."""
+    if seen.faster_by > RUNS_AWAY:
+        return "growing", f"{_AT_THE_END}{_leaves(seen)}"
+    if seen.swings_rise:
+        return "growing", f"{_AT_THE_END}{_rising(seen)}"
+    return "undecided", (
+        f"too short to be judged: {elapsed:.3g} c/V of the {seen.criteria.minimal_time:g} "
+        "needed; raise the duration"
     )
 
 
+def _by_growth(seen: Observation, growth: Growth) -> tuple[Regime, str]:
+    """Decide by the sign of a growth, or by an amplitude that has none."""
+    last = float(seen.amplitude[-1])
+    amplitude = f"twist amplitude {degrees(last)}"
+    by = f"{growth.words}, {change(seen)}" if growth.decides else change(seen)
+    stalls = _stalls(seen)
+    direction = growth.sign if growth.decides and not stalls else _direction(seen)
+    if direction > 0:
+        slowing = seen.halves[1].growth_rate < UNDIMINISHED * seen.halves[0].growth_rate
+        rate = ", at a falling rate" if slowing else ""
+        return "growing", f"{_AT_THE_END}{amplitude} grows, {by}{rate}"
+    if last < math.radians(seen.criteria.settled_amplitude_deg):
+        return "settled", f"{_AT_THE_END}{amplitude} is that of a section at rest"
+    if direction < 0:
+        if seen.fallen:
+            return "settled", f"{_AT_THE_END}{amplitude} dies out, {by}"
+        return "decaying", f"{_AT_THE_END}{amplitude} decays, {by}"
+    words = f"{amplitude} has no clear trend ({by}), and its spread is {100.0 * seen.spread:.2g} %"
+    if seen.spread <= seen.criteria.steadiness or stalls or _comes_back(seen, growth):
+        return "limit-cycle", f"{_AT_THE_END}{words}"
+    return "undecided", f"{words}: a longer run would tell"
+
+
+def _comes_back(seen: Observation, growth: Growth) -> bool:
+    """Tell whether an amplitude that is modulated goes on like that, in its second window or more.
+
+    The waves of a fit leave such a modulation, or it would be a growth whose sign is not told.
+    """
+    return not growth.decides and seen.before.size >= seen.amplitude.size
+
+
+def _stalls(seen: Observation) -> bool:
+    """Tell whether an amplitude changes clearly, and in the last half of the window no more."""
+    rate, late = seen.trend.growth_rate, seen.halves[1]
+    lately = math.copysign(late.growth_rate, rate * late.growth_rate) + 2.0 * late.standard_error
+    return not seen.creeps and seen.trend.clear(0.0) and lately < _STALLED * abs(rate)
+
+
 def _direction(seen: Observation) -> int:
-    """Sign of a clear trend; 0 if there is none.
+    """Sign of a clear trend of the amplitude; 0 if there is none.
 
     A modulated amplitude rises and falls, but it comes back to where it was before, so a trend
     has to reach beyond that. Growth at a rate that does not fall counts in any case: what grows
@@ -72,33 +137,46 @@ def _leaves_all_behind(seen: Observation) -> bool:
 
 
 def _by_swings(seen: Observation) -> tuple[Regime, str]:
-    """Decide from the few swings of a record with hardly a cycle in it."""
+    """Decide from a record with hardly a cycle in it, or that has ceased to oscillate."""
     if seen.half_range < math.radians(seen.criteria.settled_amplitude_deg):
         return "settled", f"{_AT_THE_END}the twist stayed within {degrees(seen.half_range)}"
     departure = _departure(seen)
     if departure:
         return "growing", f"{_AT_THE_END}{departure}"
-    swing = 0.5 * np.abs(np.diff(seen.cycles.value))
-    if not seen.ringing or swing.size < 2:
-        return "settled", f"{_AT_THE_END}the twist moves without oscillating"
-    first, last = float(swing[0]), float(swing[-1])
-    words = (
-        f"{_AT_THE_END}too few periods to judge by, half swings from {degrees(first)} to "
-        f"{degrees(last)}"
-    )
-    if last > GROWN * first:
-        return "growing", words
-    return ("settled" if first > GROWN * last else "limit-cycle"), words
+    if _creeps_to_rest(seen):
+        return "decaying", f"{_AT_THE_END}the twist comes to rest ever more slowly"
+    moves = f"the twist still moves, within {degrees(seen.half_range)}"
+    return "undecided", f"too few periods to be judged, and {moves}; raise the duration"
+
+
+def _creeps_to_rest(seen: Observation) -> bool:
+    """Tell whether a twist goes one way, ever more slowly, for longer than a period of its own."""
+    length = float(seen.time[-1] - seen.time[0])
+    is_long = not seen.natural_frequency * length < 1.0  # where it is known
+    return is_long and 0.0 < seen.faster_by < 1.0 / GROWN
 
 
 def _departure(seen: Observation) -> str:
     """Reason why a twist with hardly a swing has not come to rest, or ''."""
     swings = seen.half_swings
-    is_long = seen.time[-1] - seen.time[0] >= seen.criteria.minimal_time
-    if seen.faster_by > (GROWN if is_long else RUNS_AWAY):
-        return f"the twist leaves ever faster, by {degrees(2.0 * float(swings[-1]))} so far"
+    if seen.faster_by > GROWN:
+        return _leaves(seen)
+    if seen.swings_rise:
+        return _rising(seen)
     if seen.cycles.time.size < _FEWEST_EXTREMA and swings.size > 1:
         first, largest = float(swings[0]), float(swings[1:].max())
-        if largest > GROWN * first:
+        if largest > _DEPARTS * first:
             return f"half swings of {degrees(first)} and then {degrees(largest)}"
     return ""
+
+
+def _rising(seen: Observation) -> str:
+    """Return the last half swings of a twist that swings ever further."""
+    swings = ", ".join(degrees(float(one)) for one in seen.half_swings[-3:])
+    return f"ever larger half swings, the last of {swings}"
+
+
+def _leaves(seen: Observation) -> str:
+    """Return how far a twist has left that has not turned."""
+    far = degrees(2.0 * float(seen.half_swings[-1]))
+    return f"the twist leaves ever faster, by {far} so far"

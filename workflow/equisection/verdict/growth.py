@@ -13,7 +13,8 @@ of two motions as growth or decay.
 
 What the waves leave is no white noise but bends, harmonics and further modes, with a memory of
 about a period. So the standard error is that of a jackknife which leaves out a period at a time
-(Kuensch, Ann. Statist. 17, 1989), each to first order.
+(Kuensch, Ann. Statist. 17, 1989), each to first order. It rests on few periods, so the interval is
+that of Student's distribution with as many degrees of freedom as there are periods, less one.
 """
 
 from __future__ import annotations
@@ -22,6 +23,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.verdict.cycles import Array
@@ -32,6 +34,10 @@ AFTER_RELEASE = 10.0
 MOST_PERIODS = 8.0
 #: Shortest part from which two motions can be told apart (periods of the pitch).
 FEWEST_PERIODS = 2.5
+#: Fewest periods from which the sign of a growth is judged; in fewer the release is still seen.
+DECISIVE_PERIODS = 4
+#: Confidence of the interval of a growth, two-sided (-).
+CONFIDENCE = 0.95
 #: Samples of a period of the faster motion that are enough.
 _SAMPLES_A_PERIOD = 12
 #: Part of the twist's variation that the waves may leave; more, and the window has beats in it.
@@ -62,6 +68,10 @@ class Growth:
         Part of the twist's variation that the waves leave (-).
     nearest
         Distance of its frequency to that of the nearest other motion (f c/V).
+    periods
+        Periods that the standard error rests on.
+    by_amplitude
+        True of a rate that was read off the twist's amplitude alone.
     """
 
     rate: float = math.nan
@@ -71,10 +81,39 @@ class Growth:
     end: float = math.nan
     residue: float = math.nan
     nearest: float = math.nan
+    periods: int = 0
+    by_amplitude: bool = False
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Lower and upper end of the rate (V/c) with a confidence of :data:`CONFIDENCE`."""
+        if self.periods < 2:
+            return math.nan, math.nan
+        errors = float(scipy.special.stdtrit(self.periods - 1, 0.5 + 0.5 * CONFIDENCE))
+        return self.rate - errors * self.standard_error, self.rate + errors * self.standard_error
+
+    @property
+    def sign(self) -> int:
+        """Sign of the rate, 0 if its interval holds both."""
+        low, high = self.interval
+        return int(low > 0.0) - int(high < 0.0)
+
+    @property
+    def decides(self) -> bool:
+        """Tell whether the waves are the motion, over periods enough to judge its sign by."""
+        return self.residue <= LARGEST_RESIDUE and self.periods >= DECISIVE_PERIODS
+
+    @property
+    def words(self) -> str:
+        """Rate with the half-width of its interval, in words."""
+        low, high = self.interval
+        return f"growth {self.rate:+.4f} +- {0.5 * (high - low):.4f} V/c"
 
     @property
     def note(self) -> str:
-        """Warning about beats in the window, or an empty text."""
+        """Warning about how the rate was read, or about beats in its window; or an empty text."""
+        if self.by_amplitude:
+            return "read off the twist's amplitude alone, in which two motions beat"
         if self.residue > LARGEST_RESIDUE:
             return (
                 f"beats in the window: the fitted waves leave {100 * self.residue:.0f} % of the "
@@ -83,6 +122,10 @@ class Growth:
         if self.nearest * (self.end - self.start) < 1.0:
             return "the window is shorter than a beat with the nearest other motion"
         return ""
+
+
+#: Growth of a record that does not tell it.
+NO_GROWTH = Growth()
 
 
 def growth_window(end: float, pitch_frequency: float) -> tuple[float, float]:
@@ -284,31 +327,43 @@ class _Fit:
     def _described(self, rates: Array) -> list[Growth]:
         residual, jacobian = self._projected(rates)
         omega, chosen = rates[:, 1::2] / (2.0 * math.pi), self._of_most_twist(rates)
+        length = self.at[:, -1] - self.at[:, 0]
         found = []
         for lane, wave in enumerate(chosen.tolist()):
             others = np.abs(np.delete(omega[lane], wave) - omega[lane, wave])
+            periods = max(round(float(length[lane] * omega[lane, wave])), 2)
+            errors = _jackknife(residual[lane], jacobian[lane], periods)
             found.append(
                 Growth(
                     rate=float(rates[lane, 2 * wave]),
-                    standard_error=self._errors(lane, rates, residual, jacobian)[2 * wave],
+                    standard_error=errors[2 * wave],
                     frequency=float(omega[lane, wave]),
                     start=float(self.spans[lane, 0]),
                     end=float(self.spans[lane, 1]),
                     residue=float(residual[lane, :, 0].std()),
                     nearest=float(others.min(initial=np.inf)),
+                    periods=periods,
                 )
             )
         return found
 
-    def _errors(self, lane: int, rates: Array, residual: Array, jacobian: Array) -> list[float]:
-        """Return the standard errors of the rates of a lane, by a jackknife over periods."""
-        left, slope = residual[lane], jacobian[lane]
-        length = float(self.at[lane, -1] - self.at[lane, 0])
-        blocks = max(round(length * float(rates[lane, 1]) / (2.0 * math.pi)), 2)
-        parts = np.array_split(np.arange(self.at.shape[1]), blocks)
-        matrices = np.array([np.einsum("skp,skq->pq", slope[part], slope[part]) for part in parts])
-        slopes = np.array([np.einsum("skp,sk->p", slope[part], left[part]) for part in parts])
-        less = matrices.sum(axis=0) - matrices + 1e-12 * np.eye(slopes.shape[1])
-        shifts = np.linalg.solve(less, (slopes.sum(axis=0) - slopes)[..., None])[..., 0]
-        variance = (blocks - 1) / blocks * np.sum((shifts - shifts.mean(axis=0)) ** 2, axis=0)
-        return [float(error) for error in np.sqrt(variance)]
+
+def _jackknife(residual: Array, jacobian: Array, periods: int) -> list[float]:
+    """Return the standard errors of the rates of a lane, by leaving out one period at a time.
+
+    Parameters
+    ----------
+    residual, jacobian
+        Shape (n, C) and (n, C, 2 W).
+    periods
+        Number of periods.
+    """
+    rows = jacobian.reshape(len(jacobian), -1, jacobian.shape[2])
+    first = np.linspace(0, len(rows), periods + 1)[:-1].astype(int)
+    products = np.swapaxes(rows, 1, 2) @ np.concatenate((rows, residual[..., None]), axis=2)
+    parts = np.add.reduceat(products, first)
+    less = parts.sum(axis=0) - parts
+    matrices = less[..., :-1] + 1e-12 * np.eye(rows.shape[2])
+    shifts = np.linalg.solve(matrices, less[..., -1:])[..., 0]
+    variance = (periods - 1) / periods * np.sum((shifts - shifts.mean(axis=0)) ** 2, axis=0)
+    return [float(error) for error in np.sqrt(variance)]

@@ -1,7 +1,9 @@
-"""Judge a history of twist and deflection: settled, limit cycle, growing, or not yet known.
+"""Judge a history of twist and deflection: settled, decaying, limit cycle, growing, or undecided.
 
-The same judgement serves while a run goes on, when it may answer ``undecided``, and at the
-run's end, when it has to decide. In this order:
+The same judgement serves while a run goes on, and at the run's end. In this order:
+
+undecided
+    Nothing has moved: a body at rest in a flow that does not push it says nothing.
 
 growing
     The amplitude is beyond the bound and larger than it has been, or the twist is gone before it
@@ -9,14 +11,18 @@ growing
     while the run goes on: what grows may yet saturate below the bound.
 settled
     The amplitude is below what counts as an oscillation and does not grow, or it has fallen
-    far and goes on falling at an undiminished rate, so that the rest is known, or it has fallen
-    over two windows with no sign of a limit cycle beneath.
+    far and goes on falling at an undiminished rate, so that the rest is known.
+decaying
+    The amplitude has fallen over two windows with no sign of a limit cycle beneath, but not that
+    far yet.
 limit cycle
     The amplitude has been steady over the last periods and does not creep on steadily.
 at the end of the run
-    The trend of the last periods decides, as the reason then states.
+    The growth of the last periods decides, as the reason then states
+    (equisection.verdict.end_of_run). A run that is too short, or whose growth has no sign within
+    its error, is undecided.
 
-No run is settled or in a limit cycle before its slow heave has been seen to decay
+No run is settled, decaying or in a limit cycle before its slow heave has been seen to decay
 (equisection.verdict.heave). It also goes on until the means are known: the heave of a released
 section is 3 to 8 times slower than its pitch, and its last swings lie beneath the twist's.
 
@@ -34,7 +40,8 @@ from numpy.typing import ArrayLike
 
 from equisection.errors import ResultFileError
 from equisection.verdict.cycles import Array
-from equisection.verdict.end_of_run import decide_by_trend
+from equisection.verdict.end_of_run import decide_at_end
+from equisection.verdict.growth import NO_GROWTH, Growth
 from equisection.verdict.heave import growing_heave, unseen_decay
 from equisection.verdict.history import checked
 from equisection.verdict.means import Means, means, window_means
@@ -43,6 +50,10 @@ from equisection.verdict.verdict import Criteria, Regime, Verdict
 from equisection.verdict.wording import change, degrees
 
 _FEWEST_SAMPLES = 8
+_UNMOVED = (
+    "nothing has moved, so nothing is known: give the body a start (unsteady.start), or an "
+    "incidence"
+)
 # The spread is counted net of noise, so noise may hide a change of the amplitude: more than
 # this many times the steadiness must not be possible within the error of the trend.
 _HIDDEN_CHANGE = 3.0
@@ -54,6 +65,8 @@ _NO_SLOWING = 0.5
 _DEPARTS = 2.0
 # Fall of ln A between two windows from which the slowing can be told.
 _FALL_TO_TELL = 0.1
+# What may not be called so while the heave grows.
+_BOUNDED = frozenset({"settled", "decaying", "limit-cycle"})
 
 
 def assess(
@@ -64,6 +77,7 @@ def assess(
     *,
     final: bool = False,
     natural_frequency: float = math.nan,
+    growth: Growth = NO_GROWTH,
 ) -> Verdict:
     """Judge a history.
 
@@ -77,9 +91,12 @@ def assess(
         Deflection (chords).
     criteria : Criteria, optional
     final : bool
-        The run has ended: decide, from the trend if need be.
+        The run has ended: decide, from the growth if need be.
     natural_frequency : float
         f c/V of the pitch, for a twist that does not oscillate.
+    growth : Growth
+        Growth of twist and deflection together (:func:`equisection.verdict.growth.growth_of`),
+        for the end of a run; without it the trend of the twist's amplitude decides.
 
     Raises
     ------
@@ -97,19 +114,20 @@ def assess(
             )
         return Verdict("undecided", f"only {s.size} samples so far", end_time=_last(s))
     seen = observe(s, theta, w, criteria, natural_frequency)
+    if not seen.has_moved:
+        return _verdict(seen, "undecided", _UNMOVED, growth)
     regime, reason = _while_running(seen)
     if regime == "undecided" and final:
-        regime, reason = decide_by_trend(seen)
+        regime, reason = decide_at_end(seen, growth)
     by_heave = False
-    if regime in {"settled", "limit-cycle"}:
-        if final and (heave := growing_heave(seen)):
+    is_long = float(s[-1] - s[0]) >= criteria.minimal_time
+    if final and (regime in _BOUNDED or (regime == "undecided" and is_long)):
+        if heave := growing_heave(seen):
             regime, reason, by_heave = "growing", heave, True
-        elif not final and (heave := unseen_decay(seen)):
-            regime, reason = "undecided", f"looks {regime} ({reason}), but {heave}"
-    if regime == "undecided":
-        return _verdict(seen, regime, reason)
-    if regime == "growing":
-        found = replace(_verdict(seen, regime, reason), heave_grows=by_heave)
+    elif regime in _BOUNDED and (heave := unseen_decay(seen)):
+        regime, reason = "undecided", f"looks {regime} ({reason}), but {heave}"
+    if regime in {"growing", "undecided"}:
+        found = replace(_verdict(seen, regime, reason, growth), heave_grows=by_heave)
         return _with_means(found, window_means(seen))
     average = means(seen)
     heave = unseen_decay(seen) if final else ""
@@ -122,7 +140,7 @@ def assess(
         else:
             reason += "; the mean still drifted, so it is no better than the window's average"
     known = average.known and not heave
-    return _with_means(_verdict(seen, regime, reason), replace(average, known=known))
+    return _with_means(_verdict(seen, regime, reason, growth), replace(average, known=known))
 
 
 def heave_grows(
@@ -151,8 +169,8 @@ def swings_grow(time: ArrayLike, twist: ArrayLike, bound: float) -> bool:
         A value is not finite or time does not increase.
     """
     s, theta, _ = checked(time, twist, np.zeros_like(time))
-    swings = observe(s, theta, np.zeros_like(s), Criteria(), math.nan).half_swings[-3:]
-    return bool(swings.size == 3 and (np.diff(swings) > 0.0).all() and swings[-1] > bound)
+    criteria = Criteria(growing_amplitude_deg=math.degrees(bound))
+    return observe(s, theta, np.zeros_like(s), criteria, math.nan).swings_rise
 
 
 def _last(time: Array) -> float:
@@ -178,18 +196,20 @@ def _while_running(seen: Observation) -> tuple[Regime, str]:
     tests: tuple[tuple[Regime, Callable[[Observation], str]], ...] = (
         ("settled", _at_rest),
         ("settled", _decaying),
-        ("settled", _dying_out),
+        ("decaying", _dying_out),
         ("limit-cycle", _steady),
     )
     for regime, test in tests:
         reason = test(seen)
         if reason:
-            return regime, reason
+            return ("settled" if regime == "decaying" and seen.little_is_left else regime), reason
     return "undecided", f"twist amplitude {degrees(_last(seen.amplitude))}, {change(seen)}"
 
 
 def _without_oscillation(seen: Observation) -> tuple[Regime, str]:
     """Judge a twist without an extremum in the last period and a half."""
+    if seen.natural_frequency * float(seen.time[-1] - seen.time[0]) < 1.0:
+        return "undecided", "less than a natural period so far"
     if seen.half_range < math.radians(seen.criteria.settled_amplitude_deg):
         return "settled", (
             f"the twist stayed within {degrees(seen.half_range)} of its mean and does not oscillate"
@@ -246,7 +266,7 @@ def _decaying(seen: Observation) -> str:
     criteria = seen.criteria
     last, largest = float(seen.amplitude[-1]), float(seen.cycles.amplitude.max())
     early, late = seen.halves
-    if last * criteria.decay_factor > largest or not (
+    if not seen.fallen or not (
         seen.trend.growth_rate < 0.0
         and seen.trend.clear(criteria.steadiness)
         and late.growth_rate < UNDIMINISHED * early.growth_rate < 0.0
@@ -288,7 +308,7 @@ def _steady(seen: Observation) -> str:
     )
 
 
-def _verdict(seen: Observation, regime: Regime, reason: str) -> Verdict:
+def _verdict(seen: Observation, regime: Regime, reason: str, growth: Growth) -> Verdict:
     """Put the window's numbers beside the decision."""
     start, end = seen.window
     verdict = Verdict(
@@ -308,7 +328,20 @@ def _verdict(seen: Observation, regime: Regime, reason: str) -> Verdict:
         periods_used=seen.used / 2,
         twist_amplitude=float(amplitude),
         frequency=1.0 / seen.period,
-        growth_rate=seen.trend.growth_rate,
+        growth=_of_amplitude(seen) if math.isnan(growth.rate) else growth,
+    )
+
+
+def _of_amplitude(seen: Observation) -> Growth:
+    """Growth of the twist's amplitude, where there is none of twist and deflection together."""
+    return Growth(
+        rate=seen.trend.growth_rate,
+        standard_error=seen.trend.standard_error,
+        frequency=1.0 / seen.period,
+        start=seen.window[0],
+        end=seen.window[1],
+        periods=seen.used // 2,
+        by_amplitude=True,
     )
 
 

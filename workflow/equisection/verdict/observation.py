@@ -26,6 +26,8 @@ RUNS_AWAY = 4.0
 _NEGLIGIBLE_CREEP = 0.25
 # Largest of some hundred samples of white noise, in standard deviations.
 _LARGEST_NOISE = 4.0
+# A range of less than this part of what counts as an oscillation is rounding.
+_UNMOVED = 1e-6
 # The oscillation has died when no extremum stands out for this many periods.
 _SILENT_PERIODS = 1.5
 
@@ -89,6 +91,29 @@ class Observation:
         """Standard deviation (rad) that noise gives an amplitude."""
         return _AMPLITUDE_NOISE * self.cycles.noise
 
+    @property
+    def fallen(self) -> bool:
+        """Tell whether the amplitude has fallen from its largest by the factor that is enough."""
+        largest = float(self.cycles.amplitude.max())
+        return float(self.amplitude[-1]) * self.criteria.decay_factor <= largest
+
+    @property
+    def little_is_left(self) -> bool:
+        """Tell whether a decaying amplitude has fallen far enough, or counts as none."""
+        least = math.radians(self.criteria.settled_amplitude_deg)
+        return self.fallen or float(self.amplitude[-1]) < least
+
+    @property
+    def has_moved(self) -> bool:
+        """Tell whether twist or deflection has changed by enough to be told from nothing."""
+        criteria = self.criteria
+        least = (
+            _UNMOVED * math.radians(criteria.settled_amplitude_deg),
+            _UNMOVED * criteria.mean_tolerance_chords,
+        )
+        motions = (self.twist, self.deflection)
+        return any(float(np.ptp(one)) > some for one, some in zip(motions, least, strict=True))
+
     @cached_property
     def ringing(self) -> bool:
         """Tell whether the twist still oscillates at the end of the record."""
@@ -103,6 +128,13 @@ class Observation:
         turns = np.concatenate((self.twist[:1], self.cycles.value, self.twist[-1:]))
         swings: Array = 0.5 * np.abs(np.diff(turns))
         return swings
+
+    @property
+    def swings_rise(self) -> bool:
+        """Tell whether each of the last three half swings is larger, the last beyond the bound."""
+        last = self.half_swings[-3:]
+        bound = math.radians(self.criteria.growing_amplitude_deg)
+        return bool(last.size == 3 and (np.diff(last) > 0.0).all() and last[-1] > bound)
 
     @property
     def faster_by(self) -> float:

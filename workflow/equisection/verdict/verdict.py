@@ -10,7 +10,9 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-Regime = Literal["settled", "limit-cycle", "growing", "undecided"]
+from equisection.verdict.growth import NO_GROWTH, Growth
+
+Regime = Literal["settled", "decaying", "limit-cycle", "growing", "undecided"]
 
 
 @dataclass(frozen=True)
@@ -29,16 +31,16 @@ class Criteria:
     growing_amplitude_deg : float
         Twist amplitude (deg) beyond which a growing oscillation is called so.
     decay_factor : float
-        An oscillation still above ``settled_amplitude_deg`` may be called settled while the
-        run goes on once its amplitude has fallen from its largest by this factor.
+        An oscillation still above ``settled_amplitude_deg`` may be called settled once its
+        amplitude has fallen from its largest by this factor.
     mean_tolerance_deg, mean_tolerance_chords : float
         Tolerances within which the means of twist (deg) and deflection (chords) must be known
         before a run may end.
     discard_time : float
         Time from the release (c/V) whose cycles are not judged.
     minimal_time : float
-        Time from the release (c/V) before which only ``growing`` is called: a section
-        released from rest looks settled at first.
+        Time from the release (c/V) before which only ``growing`` is called, at the end of a
+        run too: a section released from rest looks settled at first.
     """
 
     periods: int = 5
@@ -79,8 +81,8 @@ class Verdict:
 
     Attributes
     ----------
-    regime : {'settled', 'limit-cycle', 'growing', 'undecided'}
-        ``undecided`` only while a run may go on.
+    regime : {'settled', 'decaying', 'limit-cycle', 'growing', 'undecided'}
+        ``undecided`` at the end of a run that does not tell.
     reason : str
         A sentence for the person who reads it.
     periods_used : float
@@ -102,8 +104,10 @@ class Verdict:
         straight drift taken out.
     frequency : float
         f c/V of the twist; the hint given, or NaN, without an oscillation.
-    growth_rate : float
-        d ln A/ds of the twist amplitude A (per c/V); NaN without an oscillation.
+    growth : Growth
+        Growth rate (per c/V) of the motion with its standard error and window: fitted to twist and
+        deflection together where that is known (:mod:`equisection.verdict.growth`), else
+        d ln A/ds of the twist amplitude A; NaN without an oscillation.
     heave_grows : bool
         True where the motion is growing by its heave, beneath a twist that does not grow.
     """
@@ -119,8 +123,13 @@ class Verdict:
     twist_amplitude: float = math.nan
     deflection_amplitude: float = math.nan
     frequency: float = math.nan
-    growth_rate: float = math.nan
+    growth: Growth = NO_GROWTH
     heave_grows: bool = False
+
+    @property
+    def growth_rate(self) -> float:
+        """Growth rate (per c/V); NaN without an oscillation."""
+        return self.growth.rate
 
     @property
     def decided(self) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -43,6 +43,17 @@ class ForcedKeys(KeyGroup):
         description="Amplitude of the incidence (deg), by pitch or by the speed of heave: of a "
         "harmonic, or root mean square times the root of 2 of a multi-sine.",
     )
+    beam_modes: Annotated[int, Field(ge=0, le=12), WHOLE] = Field(
+        0,
+        description="Bending modes, and as many torsion modes, of the beam that are moved too, "
+        "each by itself: the loads on these modes come to `derivatives/3d.csv`, and their onset "
+        "takes the place of strips with the loads of the section (-). 0: the section alone.",
+    )
+    twist_deg: Angle = Field(
+        0.0,
+        description="Mean twist of the moved beam where that is largest (deg), in its first "
+        "torsion mode, beyond `incidence_deg`: that of its static equilibrium.",
+    )
     periods: Annotated[int, Field(ge=2, le=100), WHOLE] = Field(
         4,
         description="Periods of the slowest harmonic that are recorded, or more where it takes "
@@ -58,6 +69,21 @@ class ForcedKeys(KeyGroup):
         """Reduced frequencies omega c/V, descending."""
         return tuple(math.tau / one for one in self.reduced_velocity)
 
+    def record(self, frequencies: Sequence[float]) -> float:
+        """Length of a record (c/V) in whose halves frequencies (omega c/V) are told apart."""
+        apart = [abs(a - b) for a, b in itertools.pairwise(sorted(frequencies))]
+        halves = [math.tau / one for one in apart]
+        return max(
+            self.periods * math.tau / min(frequencies), *(2.0 * half for half in halves), 0.0
+        )
+
+    @property
+    def longest(self) -> float:
+        """Duration of the longest run (c/V), but for its last step."""
+        together = self.motion == "multi-sine"
+        slowest = self.frequencies if together else self.frequencies[-1:]
+        return self.settling + self.record(slowest)
+
 
 @check("forced.reduced_velocity")
 def _ascending_velocities(velocities: tuple[float, ...]) -> Iterator[Problem]:
@@ -68,6 +94,17 @@ def _ascending_velocities(velocities: tuple[float, ...]) -> Iterator[Problem]:
                 high,
                 f"allowed is a number that is 2 % or more above the one before it, {low:g}",
             )
+
+
+@check("forced.beam_modes", "structure.bending_modes", "structure.torsion_modes")
+def _modes_that_there_are(moved: int, bending: int, torsion: int) -> Iterator[Problem]:
+    if moved > min(bending, torsion):
+        yield Problem(
+            "forced.beam_modes",
+            moved,
+            f"allowed is 0 to {min(bending, torsion)}, what structure.bending_modes and "
+            "structure.torsion_modes are",
+        )
 
 
 @check("forced.run", "derivatives.table")

@@ -80,7 +80,7 @@ class Sweep(KeyGroup):
         description="`refine` runs further values inside the bracket of the onset of each model "
         "until it is narrower than `onset_tolerance`; where all values are stable, or all "
         "unstable, it looks beyond their end first. `model` runs the releases of "
-        "`rom` in their place, and learns a model that predicts the others (sections alone).",
+        "`rom` in their place, and learns a model that predicts the others.",
     )
     onset_tolerance: Positive = Field(
         0.02, description="Width of the onset's bracket, relative to its unstable side (-)."
@@ -195,18 +195,6 @@ def _two_to_refine(
                 list(given),
                 f"allowed with sweep.onset 'refine' are two {word} or more",
             )
-
-
-@check("sweep.models", "sweep.onset")
-def _sections_to_learn(models: tuple[str, ...], onset: str) -> Iterator[Problem]:
-    beams = [name for name in models if name.startswith("3d")]
-    if onset == "model" and beams:
-        yield Problem(
-            "sweep.models",
-            list(models),
-            f"allowed with sweep.onset 'model' are models of the section, without {beams[0]}: a "
-            "model of the loads is learnt from a section alone",
-        )
 
 
 @check("sweep.models", "sweep.taken")

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -33,13 +33,19 @@ class VerdictKeys(KeyGroup):
 
 
 class StartKeys(KeyGroup):
-    """Start of the unsteady runs; both 0 is a release at rest and untwisted."""
+    """Start of the unsteady runs; by default they are released at rest and untwisted."""
 
+    state: Literal["rigid", "equilibrium"] = Field(
+        "rigid",
+        description="`rigid`: the undeformed section or beam; `equilibrium`: its static "
+        "equilibrium in the flow, from which `twist_deg` or `heave_rate` push it (solver "
+        "`embedded`).",
+    )
     twist_deg: Angle = Field(
         0.0,
         description="Twist of the tip (deg), nose up, in which section and beam (in its first "
-        "torsion mode) are held until the flow is steady. The springs' zero stays at "
-        "`flow.incidence_deg`.",
+        "torsion mode) are held until the flow is steady, beyond that of `state`. The springs' "
+        "zero stays at `flow.incidence_deg`.",
     )
     heave_rate: Annotated[float, Field(gt=-1, lt=1, allow_inf_nan=False), NUMBER] = Field(
         0.0,
@@ -57,7 +63,9 @@ class Unsteady(KeyGroup):
     """Runs of the free section and of the free beam, from a steady state."""
 
     duration: Positive = Field(
-        400.0, description="The longest a run may take (c/V), ten output intervals or more."
+        400.0,
+        description="The longest a run may take (c/V), ten output intervals or more. One shorter "
+        "than 30 c/V, or than four periods of the pitch after 10 c/V, is undecided.",
     )
     time_step: Positive = Field(0.05, description="Time step (c/V).")
     output_interval: Positive = Field(
@@ -65,6 +73,27 @@ class Unsteady(KeyGroup):
     )
     start: StartKeys = Field(StartKeys(), description="What the runs start from.")
     verdict: VerdictKeys = Field(VerdictKeys(), description="How a run is judged.")
+
+
+@check("unsteady.start", "solver")
+def _equilibrium_is_pushed(start: StartKeys, solver: str) -> Iterator[Problem]:
+    """Refuse an equilibrium that nothing leaves, and solvers that do not know it beforehand."""
+    if start.state != "equilibrium":
+        return
+    if solver != "embedded":
+        yield Problem(
+            "unsteady.start.state",
+            start.state,
+            f"allowed is 'rigid' with solver '{solver}', which does not know the equilibrium "
+            "before the release; or give that twist as unsteady.start.twist_deg",
+        )
+    elif not start.is_given:
+        yield Problem(
+            "unsteady.start.state",
+            start.state,
+            "allowed is 'equilibrium' with unsteady.start.twist_deg, such as 0.2, or heave_rate: "
+            "nothing else sets the beam in motion",
+        )
 
 
 @check(

@@ -18,6 +18,7 @@ from equisection.paper.claims_page.findings import (
 )
 from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
 from equisection.paper.printed_values import PUBLISHED
+from equisection.results.unsteady_result import STABLE
 
 _SECTION, _CORRECTED, _BEAM = "2d", "2d-corrected", "3d"
 #: Twist amplitude (deg) up to which a run has means that are compared, growing or not.
@@ -280,7 +281,7 @@ def decay_at_high_stiffness(evidence: Evidence) -> Finding:
         stiff = runs[runs["k_star"] >= _HIGH]
         if len(stiff):
             run = stiff.iloc[-1]
-            settled.append(run["regime"] == "settled")
+            settled.append(run["regime"] in STABLE)
             parts.append(f"{model} at k* = {run['k_star']:g}: {_in_words(run)}")
         else:
             parts.append(f"{model}: not run from k* = {_HIGH:g} on")

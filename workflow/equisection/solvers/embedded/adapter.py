@@ -153,14 +153,20 @@ class Adapter:
     def run_forced(
         self, cases: Sequence[ForcedCase], work: Path, progress: Progress
     ) -> list[ForcedResult]:
-        """Follow the loads of each section in its prescribed motion."""
+        """Follow the loads of each section or beam in its prescribed motion."""
+        from equisection.aerodynamics.finite_span import FiniteSpan  # noqa: PLC0415
+        from equisection.solvers.embedded.forced_beams import forced_beam  # noqa: PLC0415
         from equisection.solvers.embedded.forced_sections import forced_section  # noqa: PLC0415
 
         del work
         loads = self._loads()
         total, done, results = sum(case.duration for case in cases), 0.0, []
         for case in cases:
-            results.append(forced_section(case, loads))
+            if case.dimension == "2d":
+                results.append(forced_section(case, loads))
+            else:
+                strips, span = self._span(case.geometry)
+                results.append(forced_beam(case, loads, strips, FiniteSpan.of(span)))
             done += case.duration
             progress(done, total)
         return results

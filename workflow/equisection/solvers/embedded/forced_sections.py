@@ -15,9 +15,8 @@ from equisection.aerodynamics.wake_lags import WakeLags, accurate_lags
 from equisection.cases import ForcedCase
 from equisection.errors import IncidenceOutOfRangeError
 from equisection.results.forced_result import ForcedResult, motion_of
+from equisection.solvers.embedded.job_work import STEPS
 
-#: Steps in the shortest period: the rates by differences are then known to 4e-5.
-_STEPS = 400
 #: Steps beyond the end, where differences are one-sided.
 _BEYOND = 4
 
@@ -36,7 +35,7 @@ def forced_section(
     wake
         Lags of the circulation; Theodorsen's with None.
     """
-    longest = math.tau / max(one.frequency for one in case.harmonics) / _STEPS
+    longest = math.tau / max(one.frequency for one in case.harmonics) / STEPS
     every = max(1, math.ceil(case.output_interval / longest - 1e-9))
     step = case.output_interval / every
     number = round(case.duration / case.output_interval) * every + 1

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import TypedDict
+from dataclasses import replace
+from typing import Any, TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +20,13 @@ from equisection.motion.beams import BeamHistories, BeamParameters, Fittings, re
 from equisection.motion.march import Failure
 from equisection.motion.sections import SectionHistories, release_sections
 from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.embedded.equilibrium_start import (
+    WITHOUT,
+    equilibria_of_beams,
+    equilibria_of_sections,
+)
 from equisection.solvers.protocol import Progress
-from equisection.solvers.verdicts import Judge, TipMotion, judge, monitor_of
+from equisection.solvers.verdicts import Judge, TipMotion, first_modes, growths_of_tips, monitor_of
 
 Floats = NDArray[np.float64]
 
@@ -48,6 +54,7 @@ def release_judged(
     *,
     progress: Progress | None = None,
     load_factors: Floats | None = None,
+    from_equilibrium: bool = False,
 ) -> list[UnsteadyResult]:
     """Release sections in their flow, each until its own judge has decided.
 
@@ -63,11 +70,18 @@ def release_judged(
         Called with the time that has been reached and the last one (c/V).
     load_factors
         Factors of c_l and c_m of each (:func:`equisection.motion.sections.section_system`).
+    from_equilibrium
+        Start from static equilibrium, where there is one, in the place of the undeformed section.
     """
 
     def tip_of(histories: SectionHistories, lane: int, part: slice) -> TipMotion:
         return _section_tip(histories, sections[lane], lane, part)
 
+    about, is_without = None, np.zeros(len(sections), dtype=bool)
+    if from_equilibrium:
+        about, is_without = _with_rigid(
+            equilibria_of_sections(sections, loads, settings["incidence_rad"], load_factors)
+        )
     histories = release_sections(
         sections,
         loads,
@@ -79,13 +93,42 @@ def release_judged(
         twist=settings["tip_twist"] * np.array([each.twist_recovery for each in sections]),
         heave_rate=settings["tip_heave_rate"]
         * np.array([each.deflection_recovery for each in sections]),
+        about=about,
         monitor=monitor_of(judges, tip_of),
         progress=progress,
     )
+    ends = map(int, histories.samples)
+    tips = [tip_of(histories, lane, slice(end)) for lane, end in enumerate(ends)]
+    growths = growths_of_tips(judges, tips)
     return [
-        _section_result(histories, section, judge, lane, settings["incidence_rad"])
-        for lane, (section, judge) in enumerate(zip(sections, judges, strict=True))
+        _saying(
+            _section_result(
+                histories,
+                section,
+                lane,
+                settings["incidence_rad"],
+                judge.attributes(tip, _failure(histories.failures, lane), growth),
+            ),
+            bool(is_without[lane]),
+        )
+        for lane, (section, judge, tip, growth) in enumerate(
+            zip(sections, judges, tips, growths, strict=True)
+        )
     ]
+
+
+def _with_rigid(equilibria: Floats) -> tuple[Floats, NDArray[np.bool_]]:
+    """Return structural states, undeformed where there is no equilibrium, and where that is."""
+    is_without = np.asarray(~np.isfinite(equilibria).all(axis=1), dtype=np.bool_)
+    return np.where(is_without[:, None], 0.0, equilibria), is_without
+
+
+def _saying(result: UnsteadyResult, is_without: bool) -> UnsteadyResult:
+    """Return a result whose verdict says that it has no equilibrium, if it has none."""
+    if not is_without:
+        return result
+    reason = f"{result.verdict['reason']}; {WITHOUT}"
+    return replace(result, verdict={**result.verdict, "reason": reason})
 
 
 def release_all_sections(
@@ -97,7 +140,13 @@ def release_all_sections(
     factors = np.array([(case.lift_factor, case.moment_factor) for case in cases])
     settings = _common_settings(cases[0])
     return release_judged(
-        sections, judges, loads, settings, progress=progress, load_factors=factors
+        sections,
+        judges,
+        loads,
+        settings,
+        progress=progress,
+        load_factors=factors,
+        from_equilibrium=cases[0].start.state == "equilibrium",
     )
 
 
@@ -112,21 +161,45 @@ def release_all_beams(
 
     ``finite_span`` is what the ``strips`` do to each other.
     """
-    parameters = beam_parameters([case.beam for case in cases if case.beam], strips, finite_span)
+    judges = [Judge.of(case) for case in cases]
+    modes = [case.beam for case in cases if case.beam]
+    parameters = beam_parameters(modes, strips, finite_span)
+    about, is_without = None, np.zeros(len(cases), dtype=bool)
+    if cases[0].start.state == "equilibrium":
+        alone = [beam_parameters([one], strips, finite_span) for one in modes]
+        rigid = math.radians(cases[0].incidence_deg)
+        about, is_without = _with_rigid(equilibria_of_beams(alone, loads, rigid))
     histories = release_beams(
         parameters,
         loads,
         **_common_settings(cases[0]),
-        monitor=monitor_of([Judge.of(case) for case in cases], _beam_tip),
+        about=about,
+        monitor=monitor_of(judges, _beam_tip),
         progress=progress,
     )
-    return [_beam_result(case, histories, lane) for lane, case in enumerate(cases)]
+    ends = map(int, histories.samples)
+    tips = [_beam_tip(histories, lane, slice(end)) for lane, end in enumerate(ends)]
+    growths = growths_of_tips(judges, tips)
+    return [
+        _saying(
+            _beam_result(
+                case,
+                histories,
+                lane,
+                judge.attributes(tip, _failure(histories.failures, lane), growth),
+            ),
+            bool(is_without[lane]),
+        )
+        for lane, (case, judge, tip, growth) in enumerate(
+            zip(cases, judges, tips, growths, strict=True)
+        )
+    ]
 
 
 def beam_parameters(
-    modes: list[BeamModes], strips: SpanStrips, finite_span: FiniteSpan
+    modes: list[BeamModes], strips: SpanStrips, finite_span: FiniteSpan | None
 ) -> BeamParameters:
-    """Return the modes of some beams at the strips, with what these do to each other."""
+    """Return the modes of some beams at strips, with what these do to each other, if anything."""
     return BeamParameters.from_modes(
         span=np.array(modes[0].span),
         torsion_shapes=np.array(modes[0].torsion_shape),
@@ -181,12 +254,21 @@ def _section_tip(
 
 def _beam_tip(histories: BeamHistories, lane: int, part: slice) -> TipMotion:
     return TipMotion(
-        histories.time[part], histories.tip_twist[part, lane], histories.tip_deflection[part, lane]
+        histories.time[part],
+        histories.tip_twist[part, lane],
+        histories.tip_deflection[part, lane],
+        first_modes(
+            histories.torsion_amplitudes[part, lane].T, histories.bending_amplitudes[part, lane].T
+        ),
     )
 
 
 def _section_result(
-    histories: SectionHistories, section: Section, judge: Judge, lane: int, incidence_rad: float
+    histories: SectionHistories,
+    section: Section,
+    lane: int,
+    incidence_rad: float,
+    verdict: dict[str, Any],
 ) -> UnsteadyResult:
     end = int(histories.samples[lane])
     tip = _section_tip(histories, section, lane, slice(end))
@@ -202,12 +284,14 @@ def _section_result(
         lift=histories.lift_coefficient[:end, lane],
         moment=histories.moment_coefficient[:end, lane],
         incidence=incidence_rad + twist,
-        verdict=judge.attributes(tip, _failure(histories.failures, lane)),
+        verdict=verdict,
         axis_moment=about_axis[:end, lane] if is_offset and about_axis is not None else np.empty(0),
     )
 
 
-def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> UnsteadyResult:
+def _beam_result(
+    case: UnsteadyCase, histories: BeamHistories, lane: int, verdict: dict[str, Any]
+) -> UnsteadyResult:
     end = int(histories.samples[lane])
     about_axis = histories.axis_moment_coefficient
     tip = _beam_tip(histories, lane, slice(end))
@@ -220,7 +304,7 @@ def _beam_result(case: UnsteadyCase, histories: BeamHistories, lane: int) -> Uns
         lift=histories.lift_coefficient[:end, lane],
         moment=histories.moment_coefficient[:end, lane],
         incidence=math.radians(case.incidence_deg) + tip.twist,
-        verdict=judge(case, tip, _failure(histories.failures, lane)),
+        verdict=verdict,
         axis_moment=np.empty(0) if about_axis is None else about_axis[:end, lane],
         torsion_amplitudes=histories.torsion_amplitudes[:end, lane].T,
         bending_amplitudes=histories.bending_amplitudes[:end, lane].T,

@@ -38,6 +38,7 @@ def release(
     duration: float = _DEFAULTS.duration,
     start_twist_deg: float = 0.0,
     start_heave_rate: float = 0.0,
+    from_equilibrium: bool = False,
 ) -> xr.Dataset:
     """Motion of a section after its release in the steady flow around it.
 
@@ -68,6 +69,10 @@ def release(
         Twist (deg) of the tip in which the section is held until the flow is steady.
     start_heave_rate
         Rate of the deflection (over V) of the tip at the release, up.
+    from_equilibrium
+        Start from the static equilibrium in the flow, which one of the two above has to disturb.
+        Where the branch from rest has none the section is released undeformed, and ``reason`` says
+        so.
 
     Returns
     -------
@@ -75,7 +80,8 @@ def release(
         Over ``time`` (s) and ``convective_time`` (c/V): ``twist`` (rad) and ``deflection`` (m) of
         the section, ``tip_twist`` (rad) and ``tip_deflection`` (m) of its beam, ``cl``, ``cm``,
         ``incidence`` (rad). The verdict is in the attributes:
-        ``regime`` (`settled`, `limit-cycle`, `growing`, `failed`), ``reason`` and its numbers.
+        ``regime`` (`settled`, `decaying`, `limit-cycle`, `growing`, `undecided`, `failed`),
+        ``reason`` and its numbers.
 
     Raises
     ------
@@ -98,6 +104,11 @@ def release(
     ):
         if not math.isfinite(value):
             raise ArgumentError(f"{name} is {value!r}; wanted a number ({units})")
+    if from_equilibrium and not (start_twist_deg or start_heave_rate):
+        raise ArgumentError(
+            "from_equilibrium is True; wanted start_twist_deg, such as 0.2, or start_heave_rate "
+            "with it: nothing else sets the section in motion"
+        )
     rigid = math.radians(incidence_deg)
     polar.require([rigid, rigid + math.radians(start_twist_deg) * section.twist_recovery])
     flowing = section.in_flow(density, speed)
@@ -118,7 +129,9 @@ def release(
         output_interval=interval,
     )
     loads = UnsteadyLoads.from_polar(polar, lags)
-    result = release_judged([flowing], [judge], loads, settings)[0]
+    result = release_judged([flowing], [judge], loads, settings, from_equilibrium=from_equilibrium)[
+        0
+    ]
     dataset = result.to_dataset(section.chord)
     convective = dataset["time"].variable
     seconds = convective.values * section.chord / speed
@@ -129,6 +142,7 @@ def release(
         incidence_deg=incidence_deg,
         start_twist_deg=start_twist_deg,
         start_heave_rate=start_heave_rate,
+        start_state="equilibrium" if from_equilibrium else "rigid",
         speed=speed,
         density=density,
         k_star=section.k_star(density, speed),

@@ -166,7 +166,7 @@ class Adapter:
         mesh, coupling = self._beam_mesh(case), self._settings.coupling
         return PlateFlow(installation, case, mesh, coupling, self._ranks, place)
 
-    def _beam_mesh(self, case: SteadyCase | UnsteadyCase) -> BeamCells:
+    def _beam_mesh(self, case: SteadyCase | UnsteadyCase | ForcedCase) -> BeamCells:
         """Return the mesh of a beam."""
         from equisection.solvers.openfoam.beam import rigid_beam  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
@@ -202,8 +202,8 @@ class Adapter:
     def run_forced(
         self, cases: Sequence[ForcedCase], work: Path, progress: Progress
     ) -> list[ForcedResult]:
-        """Move sections one after the other, each in a folder of its own."""
-        return self._in_turn(cases, work, progress, self._forced_section)
+        """Move sections or plates one after the other, each in a folder of its own."""
+        return self._in_turn(cases, work, progress, self._forced)
 
     def _in_turn(
         self,
@@ -226,6 +226,21 @@ class Adapter:
             results.append(run(installation, case, work / f"case{number}", tell))
             done += case.duration
         return results
+
+    def _forced(
+        self, installation: Installation, case: ForcedCase, place: Path, tell: Progress
+    ) -> ForcedResult:
+        run = self._forced_section if case.dimension == "2d" else self._forced_plate
+        return run(installation, case, place, tell)
+
+    def _forced_plate(
+        self, installation: Installation, case: ForcedCase, place: Path, tell: Progress
+    ) -> ForcedResult:
+        from equisection.solvers.openfoam.beam.forced_beam import ForcedPlateRun  # noqa: PLC0415
+
+        mesh = self._beam_mesh(case)
+        coupling, ranks = self._settings.coupling, self._ranks
+        return ForcedPlateRun(installation, case, mesh, coupling, place, ranks).run(tell)
 
     def _forced_section(
         self, installation: Installation, case: ForcedCase, place: Path, tell: Progress

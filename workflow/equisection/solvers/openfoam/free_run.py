@@ -82,6 +82,11 @@ class MovingRun(Generic[CaseT, MeshT]):
     coupling: flow.Coupling
     work: Path
 
+    @property
+    def folder(self) -> Path:
+        """Folder of the moving run, next to that of the steady flow that it starts from."""
+        return self.work / "forced"
+
     def before_release(self, tell: Tell) -> Tell:
         """Return the progress callback of the steady flow, during which the run is at 0."""
 

@@ -35,9 +35,9 @@ def unsteady_work(config: Config, dimension: str, resolution: str, cases: int) -
 
 def forced_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
     """Return the work of a case in prescribed motion, with the steady flow that it starts from."""
-    section, forced = config.openfoam, config.forced
-    duration = forced.settling + forced.periods * max(forced.reduced_velocity)
-    steps = duration / config.unsteady.time_step * iterations_of(section.outer_correctors)
+    section = config.openfoam
+    steps = config.forced.longest / config.unsteady.time_step
+    steps *= iterations_of(section.outer_correctors)
     return Work(cells_of(section.meshes[resolution], dimension) * cases, MOST, steps)
 
 

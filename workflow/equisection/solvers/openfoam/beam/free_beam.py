@@ -51,7 +51,14 @@ from equisection.solvers.openfoam.case_folder import (
     states,
 )
 from equisection.solvers.openfoam.dictionaries import write_system
-from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
+from equisection.solvers.openfoam.free_run import (
+    STATE_INTERVAL,
+    CaseT,
+    FreeRun,
+    IterationsCheck,
+    MovingRun,
+)
+from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.outline_beam_mesh import OutlineBeamMesh
 from equisection.solvers.openfoam.process import (
     SILENCE,
@@ -70,6 +77,7 @@ from equisection.solvers.verdicts import (
     LOOKS_EVERY,
     TipMotion,
     decided_at,
+    first_modes,
     is_decided,
     judge,
     last_look,
@@ -131,16 +139,11 @@ class PlateRun(FreeRun[BeamCells]):
             motion had grown beyond the bound before.
         """
         case, failure = self.case, ""
-        if self.installation.version() != _VERSION:
-            raise SolverError(
-                f"OpenFOAM {self.installation.version()}: the coupled plate is written for "
-                f"{_VERSION}, whose lumpedPointMovement reads other dictionaries than later ones; "
-                "run it there, or leave the model 3d out of sweep.models"
-            )
+        require_version(self.installation)
         try:
             if not is_ready(self.folder):
                 self._set_up(tell)
-            start = self._last_common_state()
+            start = last_common_state(self.folder)
             if start < case.duration and not (start and self._is_over()):
                 self._go_on(start, tell)
         except BlowUpError as error:
@@ -189,27 +192,6 @@ class PlateRun(FreeRun[BeamCells]):
     def _is_of_outline(self) -> bool:
         return isinstance(self.mesh, OutlineBeamMesh)
 
-    def _write_system(self) -> None:
-        """Write what controls the run; its end may differ from that of an earlier start."""
-        case = self.case
-        entries = plate_control(
-            "pimpleFoam", case.duration, case.time_step, STATE_INTERVAL, self.mesh.span
-        )
-        entries["libs"] = ['"liblumpedPointMotion.so"']
-        solution = flow.unsteady_solution(self.coupling)
-        solution["solvers"] |= motion_solvers(of_outline=self._is_of_outline)
-        schemes = flow.schemes(steady=False)
-        schemes["laplacianSchemes"] |= motion_schemes()
-        write_system(self.folder, entries, schemes, solution)
-
-    def _last_common_state(self) -> float:
-        """Return the time of the last state that is whole on all ranks; drop what is later."""
-        start = min(drop_broken_states(part) for part in parts(self.folder))
-        for part in parts(self.folder):
-            drop_states_after(part, start)
-        drop_histories_after(self.folder, start)
-        return start
-
     def _is_over(self) -> bool:
         """Tell whether the verdict is in."""
         case = self.case
@@ -217,7 +199,7 @@ class PlateRun(FreeRun[BeamCells]):
         return math.isfinite(decided_at(case, self.tip_motion(history)))
 
     def _go_on(self, start: float, tell: Tell) -> None:
-        self._write_system()
+        write_coupled_system(self)
         # a case that was divided stays so, on however many ranks its job runs now
         ranks = len(parts(self.folder))
         if ranks != self.ranks:
@@ -298,7 +280,9 @@ class PlateRun(FreeRun[BeamCells]):
 
     def tip_motion(self, history: PlateHistory) -> TipMotion:
         """Return the motion of the tip."""
-        return TipMotion(history.time, *self.points.tip(history.position))
+        torsion = self.points.torsion_modes
+        modes = first_modes(history.position[:, :torsion].T, history.position[:, torsion:].T)
+        return TipMotion(history.time, *self.points.tip(history.position), modes)
 
     def _result(self, failure: str) -> UnsteadyResult:
         case = self.case
@@ -325,6 +309,46 @@ class PlateRun(FreeRun[BeamCells]):
             bending_loads=history.load[:, torsion:].T,
             loads_zigzag=zigzag_of(every_step.time, every_step.lift, every_step.moment),
         )
+
+
+def require_version(installation: Installation) -> None:
+    """Refuse a version of OpenFOAM whose lumped points read other dictionaries.
+
+    Raises
+    ------
+    SolverError
+        It is another one than the dictionaries are written for.
+    """
+    if installation.version() != _VERSION:
+        raise SolverError(
+            f"OpenFOAM {installation.version()}: the coupled plate is written for "
+            f"{_VERSION}, whose lumpedPointMovement reads other dictionaries than later ones; "
+            "run it there, or leave the model 3d out of sweep.models"
+        )
+
+
+def write_coupled_system(run: MovingRun[CaseT, BeamCells]) -> None:
+    """Write what controls a run; its end may differ from that of an earlier start."""
+    case = run.case
+    entries = plate_control(
+        "pimpleFoam", case.duration, case.time_step, STATE_INTERVAL, run.mesh.span
+    )
+    entries["libs"] = ['"liblumpedPointMotion.so"']
+    solution = flow.unsteady_solution(run.coupling)
+    of_outline = isinstance(run.mesh, OutlineBeamMesh)
+    solution["solvers"] |= motion_solvers(of_outline=of_outline)
+    schemes = flow.schemes(steady=False)
+    schemes["laplacianSchemes"] |= motion_schemes()
+    write_system(run.folder, entries, schemes, solution)
+
+
+def last_common_state(folder: Path) -> float:
+    """Return the time of the last state that is whole on all ranks; drop what is later."""
+    start = min(drop_broken_states(part) for part in parts(folder))
+    for part in parts(folder):
+        drop_states_after(part, start)
+    drop_histories_after(folder, start)
+    return start
 
 
 class _Exchange:

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from equisection.cases import Geometry, SteadyCase, UnsteadyCase
+from equisection.cases import ForcedCase, Geometry, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.steady_result import SteadyResult
@@ -73,7 +73,7 @@ RECORD = RigidFlowRecord(10.0, 20.0, 60.0)
 
 
 def plate_mesh_of(
-    case: SteadyCase | UnsteadyCase, refinement: float, spacing: Spacing = OF_PLATE
+    case: SteadyCase | UnsteadyCase | ForcedCase, refinement: float, spacing: Spacing = OF_PLATE
 ) -> PlateMesh:
     """Return the mesh of blocks of a case of the beam.
 
@@ -88,7 +88,7 @@ def plate_mesh_of(
 
 
 def outline_beam_mesh_of(
-    case: SteadyCase | UnsteadyCase, refinement: float, far_field: float = 0.0
+    case: SteadyCase | UnsteadyCase | ForcedCase, refinement: float, far_field: float = 0.0
 ) -> OutlineBeamMesh:
     """Return the mesh of a case of the beam around its outline, or that of its rectangle.
 
@@ -131,7 +131,7 @@ class PlateFlow:
     """
 
     installation: Installation
-    case: SteadyCase | UnsteadyCase
+    case: SteadyCase | UnsteadyCase | ForcedCase
     mesh: BeamCells
     coupling: flow.Coupling
     ranks: int

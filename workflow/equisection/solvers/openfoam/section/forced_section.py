@@ -11,7 +11,6 @@ from __future__ import annotations
 import logging
 import math
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -51,11 +50,6 @@ _NOTHING = np.empty(0)
 @dataclass(frozen=True)
 class ForcedRun(MovingRun[ForcedCase, SectionCells]):
     """The run of one case of the section in prescribed motion."""
-
-    @property
-    def folder(self) -> Path:
-        """Folder of the moving run, next to that of the steady flow that it starts from."""
-        return self.work / "forced"
 
     def run(self, tell: Tell) -> ForcedResult:
         """Move the section and record its loads.

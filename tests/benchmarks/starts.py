@@ -1,0 +1,127 @@
+"""Releases of the embedded solver from rest and from equilibrium, and their eigenvalues.
+
+    python -m tests.benchmarks.starts
+
+prints verdict, growth and time to the verdict of both starts, for the sections and the beams of the
+kept releases.
+"""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from equisection.cases import EndCriteria, Start, UnsteadyCase
+from equisection.config import load_config
+from equisection.motion.equilibrium_path import path_from_rest
+from equisection.motion.steady_states import least_stable
+from equisection.results.netcdf import read_dataset
+from equisection.results.unsteady_result import UnsteadyResult
+from equisection.solvers.embedded.adapter import Adapter
+from equisection.solvers.registry import solver_from_config
+from tests.benchmarks.measure import Row
+from tests.workflow.project import ROOT
+
+KEPT = ROOT / "results/reference"
+SOURCES = {
+    "2d": KEPT / "paper-plate-openfoam/unsteady/2d",
+    "3d": KEPT / "paper-plate-openfoam-3d/unsteady/3d",
+}
+#: Twist (deg) of the tip by which the equilibrium is disturbed.
+PUSH = 0.3
+STARTS = {"rigid": Start(), "equilibrium": Start(state="equilibrium", twist_deg=PUSH)}
+
+
+@dataclass(frozen=True)
+class Compared:
+    """Results of one case from both starts, and the growth (V/c) of its eigenvalue."""
+
+    model: str
+    k_star: float
+    eigenvalue: float
+    results: dict[str, UnsteadyResult]
+
+    def error(self, start: str) -> float:
+        """Return how far the growth of a result is from the eigenvalue (V/c)."""
+        return abs(self.results[start].verdict["growth_rate"] - self.eigenvalue)
+
+
+def cases(model: str) -> list[UnsteadyCase]:
+    """Return the kept cases of a model with the times and criteria of the default configuration."""
+    unsteady = load_config({}).unsteady
+    found = []
+    for path in SOURCES[model].glob("k*.nc"):
+        case = UnsteadyCase.model_validate(json.loads(read_dataset(path).attrs["case"]))
+        update = {
+            "duration": unsteady.duration,
+            "time_step": unsteady.time_step,
+            "output_interval": unsteady.output_interval,
+            "criteria": EndCriteria(**unsteady.verdict.model_dump()),
+        }
+        found.append(case.model_copy(update=update))
+    return sorted(found, key=lambda case: case.k_star)
+
+
+@cache
+def compared(model: str) -> tuple[Compared, ...]:
+    """Return the results of a model."""
+    solver = solver_from_config(load_config({}), "coarse")
+    assert isinstance(solver, Adapter)
+    own = cases(model)
+    results = {}
+    for name, start in STARTS.items():
+        started = [case.model_copy(update={"start": start}) for case in own]
+        results[name] = solver.run_unsteady(started, Path(), lambda now, end: None)
+    return tuple(
+        Compared(
+            model,
+            case.k_star,
+            _growth(solver, case),
+            {name: results[name][place] for name in STARTS},
+        )
+        for place, case in enumerate(own)
+    )
+
+
+def _growth(solver: Adapter, case: UnsteadyCase) -> float:
+    """Return the growth (V/c) of a small motion about static equilibrium."""
+    body, speed = solver.body(case), case.medium.speed
+    path = path_from_rest(body, np.radians(case.incidence_deg), 1.01 * speed)
+    return float(least_stable(*path.system(np.array([speed])))[0].real)
+
+
+def agrees(one: Compared, start: str) -> bool:
+    """Tell whether a verdict is that of the eigenvalue: growing or settled."""
+    wanted = "growing" if one.eigenvalue > 0.0 else "settled"
+    return bool(one.results[start].verdict["regime"] == wanted)
+
+
+def rows() -> Iterator[Row]:
+    """Yield how many verdicts of either start are those of the eigenvalues."""
+    for model in SOURCES:
+        own = compared(model)
+        for start in STARTS:
+            right = sum(agrees(one, start) for one in own)
+            wanted = len(own) if start == "equilibrium" else 0
+            what = f"verdicts of {model} as the eigenvalue, from {start}"
+            yield Row(what, f"{right} of {len(own)}", f">= {wanted}", right >= wanted)
+
+
+def main() -> None:
+    """Print the table."""
+    print("model k*    eigenvalue  start        regime       growth    c/V")
+    for model in SOURCES:
+        for one in compared(model):
+            for name, result in one.results.items():
+                verdict = result.verdict
+                print(
+                    f"{model:5} {one.k_star:<5g} {one.eigenvalue:+10.4f}  {name:12} "
+                    f"{verdict['regime']:12} {verdict['growth_rate']:+.4f} {result.time[-1]:6.0f}"
+                )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,102 @@
+r"""Unsteady loads of the strips of a beam, learnt from one release of it.
+
+With the incidence at three quarters of the chord, counted from the rigid one, of a strip
+
+    a = theta - w' + theta'/4,    alpha = theta_0 + a,
+
+and a lag x of it, x' = g (a - x) with h = a - x, the loads of every strip are
+
+    c_m = c_m,polar(alpha) + B_m . T(a, theta', h) - (pi/64) theta'',
+    c_l = c_l,polar(alpha) + B_l . T(a, theta', h) + (pi/2) (theta' - w''),
+    T   = (theta', a theta', h, a h, a).
+
+The polar is that of the rigid beam at the station of the strip, so that the wake of the finite span
+is in it, at rest. The incidence is taken where the circulation of a thin plate depends on it, and
+the last terms are its apparent mass (Theodorsen, NACA Report 496, 1935). The last term of T
+corrects the slope of the steady loads, which a polar of few incidences leaves open; it is zero
+unless it is asked for. The strips share the coefficients and have their own lags.
+
+A beam has fewer terms than a section (:mod:`..aerodynamics.learnt_loads`): what is learnt from are
+the loads of two modes, which mix the incidences of all strips.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from equisection.aerodynamics.strip_polars import StripPolars
+
+Floats = NDArray[np.float64]
+
+#: Place of three quarters of the chord, chords behind mid-chord.
+REAR_POINT = 0.25
+STRIP_TERMS = ("theta'", "a theta'", "h", "a h", "a")
+#: Terms that vanish at rest.
+UNSTEADY_TERMS = 4
+
+
+@dataclass(frozen=True, eq=False)
+class LearntStrips:
+    """Loads of the strips of a beam, learnt from a release.
+
+    Attributes
+    ----------
+    polars
+        Steady loads along the span.
+    incidence_rad
+        Rigid incidence theta_0 (rad) that the model was learnt at.
+    rate
+        g, rate of the lags (V/c).
+    moment, lift
+        B_m and B_l, shape (5,).
+    residual_moment, residual_lift
+        Standard deviation of what the model leaves of the loads of the first torsion and the first
+        bending mode, over that of what polars and apparent mass leave (-).
+    seen
+        Least and greatest incidence alpha (rad) of what it was learnt from.
+    learnt_until
+        End of the record (c/V).
+    """
+
+    polars: StripPolars
+    incidence_rad: float
+    rate: float
+    moment: Floats
+    lift: Floats
+    residual_moment: float
+    residual_lift: float
+    seen: tuple[float, float]
+    learnt_until: float
+
+    def coefficients(self, a: Floats, twist_rate: Floats, lag: Floats) -> tuple[Floats, Floats]:
+        """Return c_l and c_m of the strips without apparent mass; NaN beyond the polars.
+
+        Parameters
+        ----------
+        a, twist_rate, lag
+            alpha - theta_0 (rad), theta' and x (rad), shape (..., S).
+        """
+        lift, moment = self.polars.loads(self.incidence_rad + a)
+        terms = strip_terms(a, twist_rate, a - lag)
+        return lift + np.tensordot(self.lift, terms, 1), moment + np.tensordot(
+            self.moment, terms, 1
+        )
+
+    def slopes(self, a: Floats) -> tuple[Floats, Floats]:
+        """Return the slopes of c_l and c_m by (a, theta', x) at rest at incidences a, (3, S)."""
+        found = []
+        for steady, b in zip(
+            self.polars.slopes(self.incidence_rad + a), (self.lift, self.moment), strict=True
+        ):
+            by_lag = b[2] + a * b[3]
+            corrected = steady + b[4]
+            found.append(np.stack([corrected + by_lag, b[0] + a * b[1], -by_lag]))
+        return found[0], found[1]
+
+
+def strip_terms(a: Floats, twist_rate: Floats, h: Floats) -> Floats:
+    """Return T, shape (5, ...), of incidence a (rad), theta' and h (rad)."""
+    return np.stack([twist_rate, a * twist_rate, h, a * h, a])
