@@ -6,8 +6,14 @@ The free section is an oscillator under loads that its motion damps. Rows and st
 piece by piece, so that a kill leaves what kills leave. ``STAND_IN_FAULT`` names what
 goes wrong, ``STAND_IN_SOFTEST`` the torsional stiffness k*/2 below which it does, ``STAND_IN_PACE``
 the seconds of a time step, ``STAND_IN_WRONG_FROM`` the time of the fault.
+
+``STAND_IN_HOLD``, as ``pimpleFoam:17:/tmp/held``, holds the program behind the 17th piece that it
+writes: half a row, or half a state. It writes its number to the file and waits to be killed, or for
+``/tmp/held.go``. Where the file is there already nothing is held.
 """
 
+import contextlib
+import itertools
 import json
 import os
 import re
@@ -34,6 +40,9 @@ FAULT = os.environ.get("STAND_IN_FAULT", "")
 #: Time (c/V) from which a fault is due.
 WRONG_FROM = float(os.environ.get("STAND_IN_WRONG_FROM", "7"))
 PACE = float(os.environ.get("STAND_IN_PACE", "0"))
+HOLD = os.environ.get("STAND_IN_HOLD", "::").split(":", 2)
+#: Pieces that have been written.
+written = itertools.count(1)
 
 
 def main(program: str, arguments: list[str]) -> None:
@@ -159,6 +168,16 @@ def pieces(file: TextIO, text: str) -> None:
     for part in (text[: len(text) // 2], text[len(text) // 2 :]):
         file.write(part)
         file.flush()
+        if HOLD[:2] == [sys.argv[1], str(next(written))]:
+            hold(Path(HOLD[2]))
+
+
+def hold(place: Path) -> None:
+    with contextlib.suppress(FileExistsError), place.open("x") as opened:
+        opened.write(f"{os.getpid()}\n")
+        opened.flush()
+        while not Path(f"{place}.go").exists():
+            time.sleep(0.02)
 
 
 def write_state(now: str, motion: dict[str, float]) -> None:

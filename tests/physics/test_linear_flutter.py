@@ -11,6 +11,7 @@ from equisection.aerodynamics.indicial import theodorsen
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
 from equisection.beam.section import Section
 from equisection.errors import EquisectionError
+from equisection.motion.exact_roots import exact_growth_and_frequency
 from equisection.motion.linear_flutter import (
     divergence_scale,
     flutter,
@@ -52,6 +53,40 @@ HODGES_PIERCE = textbook(-1 / 5, -1 / 10, 20, 6 / 25, 2 / 5)
 PLATE = section(9.12 * 6.67, 6.67, 0.183, 1.0)
 
 
+def test_no_stiffness_is_too_far_off_to_be_answered():
+    """Where the air is a mass and no more, or springs are nothing to it; else NaN, and at once.
+
+    Stiff springs turn the section at sqrt(s) times its frequencies in still air.
+    """
+    for given in (PLATE, HODGES_PIERCE):
+        scales = np.array([0.0, 1e-300, 1e-18, 1.0, 1e18, 1e300, math.inf])
+        usual = growth_and_frequency(given, scales[3:4])[0]
+        p = growth_and_frequency(given, scales)
+        assert np.isnan(p[[0, 1, 5, 6]]).all()
+        assert p[3] == pytest.approx(usual, rel=1e-12)
+        mass = given.mass_matrix + air(given).apparent_mass
+        squares = np.linalg.eigvals(np.linalg.solve(mass, given.stiffness_matrix)).real
+        assert np.sort(p[4].imag) == pytest.approx(1e9 * np.sqrt(np.sort(squares)), rel=1e-6)
+        exact = exact_growth_and_frequency(given, scales)
+        assert np.isnan(exact[[0, 1, 5, 6]]).all()
+        alone = exact_growth_and_frequency(given, scales[3:4])[0]
+        assert exact[3] == pytest.approx(alone, rel=1e-9, nan_ok=True)
+
+
+def test_no_section_is_too_light_or_soft_to_be_answered():
+    odd = (
+        section(1e-100, 1.0, 1.0, 1.0),
+        section(1.0, 1e300, 1.0, 1.0),
+        section(1.0, 1.0, 1e-300, 1.0),
+        section(1.0, 1.0, 1.0, 1e300),
+    )
+    for given in odd:
+        for of in (growth_and_frequency, exact_growth_and_frequency):
+            assert of(given, np.array([1.0])).shape == (1, 2)
+        found = flutter(given)
+        assert found is None or math.isfinite(found.scale)
+
+
 def flutter_determinant(k, squares, numbers):
     """Return the determinant of heave h/b and pitch; ``squares`` is (omega_theta/omega)^2."""
     axis, centre, mass_ratio, gyration_2, ratio = numbers
@@ -79,6 +114,7 @@ class TestTheodorsensFunction:
     def test_limits(self):
         assert theodorsen(1e-6) == pytest.approx(1.0, abs=2e-5)
         assert theodorsen(1e5) == pytest.approx(0.5, abs=1e-5)
+        np.testing.assert_allclose(theodorsen([1e-300, 1e12, 1e300]), [1.0, 0.5, 0.5], atol=2e-9)
 
     @pytest.mark.parametrize(
         ("k", "real", "imaginary"),

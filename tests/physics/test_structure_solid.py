@@ -14,9 +14,11 @@ from skfem.models.elasticity import lame_parameters, linear_elasticity
 from tests.sample_cases import PAPER, altered
 
 from equisection.beam.beam import torsion_series_factor
+from equisection.errors import ModesError
 from equisection.structure.classify import KINDS, classify
 from equisection.structure.mode_set import ModeSet, frequency_constants
 from equisection.structure.modes import compute_modes, mesh_study, modes_of_kinds
+from equisection.structure.slenderness import most_slender
 from equisection.structure.solid import solid_modes
 from equisection.structure.span import gram
 
@@ -95,6 +97,19 @@ def test_a_slender_bar_bends_as_euler_and_bernoulli_have_it():
     exact = compute_modes(slender, "analytic", (2, 80, 1), 4)
     assert solid.bending(2).frequency == pytest.approx(exact.bending(2).frequency, rel=2e-3)
     assert solid.kind[0] == "bending"
+
+
+def test_a_plate_keeps_its_modes_until_it_is_too_thin_for_rounding():
+    """The lowest frequency over h does not change; beyond the bound it would, by a multiple."""
+    elements = (2, 8, 1)
+    thickest, thinnest = PAPER.length / 300.0, 1.001 * PAPER.length / most_slender(elements[2])
+    first = [
+        solid_modes(altered(PAPER, thickness=h), elements, 1).frequency[0] / h
+        for h in (thickest, thinnest)
+    ]
+    assert first[1] == pytest.approx(first[0], rel=2e-3)
+    with pytest.raises(ModesError, match=r"as long as thick; .* up to 819, .* use method 'beam'"):
+        solid_modes(altered(PAPER, thickness=0.99 * thinnest), elements, 1)
 
 
 def test_a_slender_bar_twists_as_saint_venant_has_it():

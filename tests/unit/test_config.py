@@ -8,7 +8,7 @@ import yaml
 
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS
 from equisection.beam.beam import BOUNDARIES
-from equisection.config import Config, check_files, load_config, resolve_config
+from equisection.config import Config, check_files, input_files, load_config, resolve_config
 from equisection.config.__main__ import COMMAND, MARK, README, SCHEMA, main
 from equisection.config.groups import Range
 from equisection.errors import ConfigError
@@ -223,6 +223,20 @@ def test_folder_to_reuse_that_is_not_there_is_refused(tmp_path):
     with pytest.raises(ConfigError, match=r'reuse: .results/refrence.: no such folder.* or ""'):
         check_files(config, tmp_path)
     (tmp_path / "results/refrence").mkdir(parents=True)
+    check_files(config, tmp_path)
+
+
+def test_folder_to_reuse_that_holds_far_too_much_is_asked_back(tmp_path, monkeypatch):
+    """A whole disk (`reuse: /`) would be looked through at each start and by each job."""
+    monkeypatch.setattr(input_files, "MOST_KEPT", 3)
+    kept = tmp_path / "kept"
+    (kept / "deep/er").mkdir(parents=True)
+    (kept / "a.nc").touch()
+    (kept / "deep/round").symlink_to(kept)
+    config = load_config({"solver": "openfoam", "unsteady": STEP, "reuse": str(kept)})
+    with pytest.raises(ConfigError, match=r"more than 3 files and folders, .* with results alone"):
+        check_files(config, tmp_path)
+    (kept / "a.nc").unlink()
     check_files(config, tmp_path)
 
 

@@ -400,6 +400,14 @@ MALFORMED = [
         "above settled_amplitude_deg, 0.05 deg",
     ),
     ({"unsteady": {"duration": 0.5}}, "unsteady.duration", "0.5", "ten output intervals"),
+    ({"unsteady": {"duration": 1e9}}, "unsteady.duration", "1e+09", "up to 10,000,000 time steps"),
+    (
+        {"flow": {"channel": {"height_chords": 1e9}}},
+        "flow.channel.height_chords",
+        "1e+09",
+        "a number above 1 and of at most 1e+06",
+    ),
+    ({"beam": {"thickness": 1e-6}}, "beam.thickness", "1e-06", "0.000452 m or more, 1/819 of the"),
     (
         {"unsteady": {"output_interval": 0.12}},
         "unsteady.output_interval",
@@ -548,7 +556,7 @@ def test_junk_at_known_keys_is_refused_in_words(values):
 
 @given(
     chord=st.floats(0.01, 10),
-    aspect=st.floats(1.1, 50),
+    aspect=st.floats(1.1, 30),
     k_star=st.lists(st.integers(1, 500), min_size=1, unique=True),
     channel=st.none() | st.fixed_dictionaries({"tip_gap_chords": st.floats(0.01, 3)}),
     incidence_deg=st.floats(0.01, 10),

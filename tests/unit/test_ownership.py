@@ -5,10 +5,11 @@ import os
 import signal
 import subprocess
 import sys
-import threading
 import time
+from collections.abc import Callable
 from dataclasses import asdict, replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -63,6 +64,19 @@ def start(work: Path) -> subprocess.Popen[str]:
     return holder
 
 
+def clock(monkeypatch: pytest.MonkeyPatch, look: Callable[[float], None]) -> None:
+    """Let the clock of a job that waits go on by its looks alone, and do something at each."""
+    now = 0.0
+
+    def sleep(seconds: float) -> None:
+        nonlocal now
+        now += seconds
+        look(now)
+
+    told = SimpleNamespace(sleep=sleep, monotonic=lambda: now, time=time.time)
+    monkeypatch.setattr(ownership, "time", told)
+
+
 def written(work: Path, owner: Owner) -> Path:
     folder = work / FOLDER
     folder.mkdir()
@@ -86,18 +100,20 @@ def test_owners_stand_in_a_row_and_say_who_ran_when(tmp_path: Path) -> None:
 
 
 def test_second_job_waits_for_the_first_and_says_for_whom(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     holder = start(tmp_path)
-    may_end = threading.Event()
+    looks = 0
 
-    def let_it_end() -> None:
-        may_end.set()
-        holder.communicate()  # closes what it reads
+    def look(now: float) -> None:
+        nonlocal looks
+        looks += 1
+        if looks == 3:
+            holder.communicate()  # closes what it reads, so that it ends
 
-    threading.Timer(0.5, let_it_end).start()
+    clock(monkeypatch, look)
     with claimed(tmp_path):
-        assert may_end.is_set()
+        assert looks == 3
     said = capsys.readouterr().err
     assert said.count("waiting") == 1
     assert f"process {holder.pid} on " in said
@@ -124,20 +140,20 @@ def test_number_of_a_process_that_another_has_now_is_not_its_life(tmp_path: Path
 def test_owner_on_another_machine_is_succeeded_once_it_is_silent(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    """Another job beats for five times as long as it may be silent, by this job's clock."""
     monkeypatch.setattr(ownership, "SILENCE", 2.0)
     path = written(tmp_path, ELSEWHERE)
-    alive = threading.Event()
+    looked = [0.0]
 
-    def beats() -> None:
-        for _ in range(50):  # 2.5 s, longer than the silence
-            os.utime(path)
-            time.sleep(0.05)
-        alive.set()
+    def look(now: float) -> None:
+        looked.append(now)
+        if now < 10.0:
+            os.utime(path, ns=(0, len(looked)))
 
-    threading.Thread(target=beats).start()
+    clock(monkeypatch, look)
     with claimed(tmp_path) as claim:
-        assert alive.is_set()
         assert claim.number == 2
+    assert looked[-1] == pytest.approx(12.0, abs=0.1)
 
 
 def test_clock_of_the_other_machine_does_not_matter(tmp_path: Path) -> None:

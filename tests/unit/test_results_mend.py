@@ -153,6 +153,27 @@ def test_table_that_was_edited_is_made_again(run: Path) -> None:
     assert not table.exists()
 
 
+@pytest.mark.parametrize(("age", "again"), [(3600, True), (-3600, False)])
+def test_table_made_from_a_file_that_was_exchanged_for_an_older_one_is_made_again(
+    run: Path, age: float, again: bool
+) -> None:
+    """Snakemake goes by times: it sees the exchange for a younger one by itself."""
+    polar, table = run.parent / "polar.csv", run / "comparison" / "summary.csv"
+    table.parent.mkdir()
+    for path in (polar, table):
+        path.write_text("a\n1\n")
+    write_record(run / "logs" / "summary.log", [polar], [table])
+    os.utime(polar, (table.stat().st_mtime - 3600, table.stat().st_mtime - 3600))
+    assert mend(run) == []
+    polar.write_text("a\n2\n")
+    os.utime(polar, (table.stat().st_mtime - age, table.stat().st_mtime - age))
+    said = mend(run)
+    assert [f"made from another {polar} than there is, whose time is older" in s for s in said] == [
+        True
+    ] * again
+    assert table.exists() is not again
+
+
 def test_table_that_was_only_touched_stays(run: Path) -> None:
     table = edited_table(run)
     table.write_text("model,k_star\n2d,5\n")

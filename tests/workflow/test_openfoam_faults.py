@@ -12,8 +12,9 @@ import pytest
 
 from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from tests.conftest import ROOT
+from tests.processes import wait_until
 from tests.workflow.project import Project, has_nothing_to_do, jobs_run, small
-from tests.workflow.test_kills import kill_while_working
+from tests.workflow.test_kills import kill_family
 
 SUMMARY = "comparison/summary.csv"
 #: k* of the soft case is 5, that of the stiff one 20; the spring of the section is k*/2 or less.
@@ -105,13 +106,15 @@ def test_sweep_killed_at_random_moments_comes_to_the_results_of_an_undisturbed_o
     undisturbed = Project.fresh(tmp_path / "undisturbed", sweep.config)
     undisturbed.run(undisturbed.target(SUMMARY))
 
-    monkeypatch.setenv("STAND_IN_PACE", "0.03")
     moments = random.Random(1)
-    for _ in range(3):  # within 24 s, of runs whose 1,000 steps take 30 s and more
+    for kill in range(3):  # a run of 1,000 steps is 4,000 pieces
+        held = tmp_path / f"held {kill}"
+        monkeypatch.setenv("STAND_IN_HOLD", f"pimpleFoam:{moments.randint(1, 1200)}:{held}")
         run = sweep.start("--rerun-incomplete", target)
-        assert kill_while_working(run, moments.uniform(1.0, 8.0))
+        wait_until(lambda: held.exists() or run.poll() is not None, 600)  # noqa: B023
+        kill_family(run)
         sweep.run("--unlock")
-    monkeypatch.delenv("STAND_IN_PACE")
+    monkeypatch.delenv("STAND_IN_HOLD")
     sweep.run("--rerun-incomplete", target)
 
     cost = ["cpu_seconds", "wall_seconds"]

@@ -49,6 +49,27 @@ def second_name(path: Path, further: Path) -> None:
             shutil.copyfile(path, aside)
 
 
+def holds_more_than(folder: Path, most: int) -> bool:
+    """Tell whether a folder holds more files and folders than so many, at any depth.
+
+    Links are not followed, and what may not be read counts as empty. The search ends with one more
+    than ``most``, however large the folder is.
+    """
+    found, waiting = 0, [str(folder)]
+    while waiting:
+        try:
+            with os.scandir(waiting.pop()) as entries:
+                for entry in entries:
+                    found += 1
+                    if found > most:
+                        return True
+                    if entry.is_dir(follow_symlinks=False):
+                        waiting.append(entry.path)
+        except OSError:
+            continue
+    return False
+
+
 #: Names of files that stay in their folder, whatever reads them.
 _PLAIN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.+-]*")
 

@@ -8,7 +8,7 @@ RULES = Path(str(workflow.current_basedir))
 try:
     from equisection.config import check_config_files
     from equisection.errors import ConfigError
-    from equisection.run import start
+    from equisection.run import alive, start
 except ModuleNotFoundError as error:
     if error.name != "equisection":
         raise
@@ -32,3 +32,12 @@ try:
 except ConfigError as error:
     print(error, file=sys.stderr)
     sys.exit(1)
+
+if workflow.is_main_process:
+    # Another run that is alive here keeps its lock.
+    refusal = alive.refusal_to_unlock(sys.argv[1:])
+    if refusal:
+        print(refusal, file=sys.stderr)
+        sys.exit(1)
+    start.say(alive.elsewhere(sys.argv[1:]))
+    alive.announce(sys.argv[1:])

@@ -25,6 +25,8 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 
 JONES_AMPLITUDES = (0.165, 0.335)
+#: Reduced frequencies between which C(k) can be computed.
+_LEAST_K, _LARGEST_K = 1e-200, 1e8
 """A_1, A_2 of R. T. Jones."""
 
 JONES_RATES_SEMICHORD = (0.0455, 0.3)
@@ -47,9 +49,10 @@ def wagner(time: ArrayLike) -> Floats:
 def theodorsen(reduced_frequency: ArrayLike) -> NDArray[np.complex128]:
     """Theodorsen's C(k), exact, at k = omega c/(2 V) > 0, any shape.
 
-    C = H_1/(H_1 + i H_0) with Hankel functions of the second kind (NACA Report 496).
+    C = H_1/(H_1 + i H_0) with Hankel functions of the second kind (NACA Report 496). Beyond the k
+    at which these can be computed it is within 2e-9 of its limits, 1 and 1/2.
     """
-    k = np.asarray(reduced_frequency, dtype=np.float64)
+    k = np.clip(np.asarray(reduced_frequency, dtype=np.float64), _LEAST_K, _LARGEST_K)
     first, zeroth = scipy.special.hankel2(1, k), scipy.special.hankel2(0, k)
     return np.asarray(first / (first + 1j * zeroth), dtype=np.complex128)
 

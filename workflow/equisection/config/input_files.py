@@ -14,10 +14,13 @@ from pathlib import Path
 from equisection.config.groups import FLAT_PLATE, Beam
 from equisection.config.model import Config
 from equisection.errors import ConfigError
+from equisection.files import holds_more_than
 from equisection.keys.checks import Problem
 
 #: Key of the outline's file.
 OUTLINE = "beam.outline.file"
+#: Most files and folders below that of kept results, all of which are looked through for results.
+MOST_KEPT = 100_000
 #: May be missing where cases are computed: a project need not keep any.
 _USUAL_REUSE = Config.model_fields["reuse"].default
 
@@ -121,12 +124,13 @@ def check_files(
     runs' results. An index of this run, in ``results``, is made by its rules and may be missing.
     ``project`` is the folder that :func:`find_files` has searched as well.
 
-    Braces in a path are refused too, since Snakemake would read them as a wildcard.
+    Refused are also braces in a path, since Snakemake would read them as a wildcard, and a folder
+    to take results from that holds far more than results.
 
     Raises
     ------
     ConfigError
-        With one line for each missing file, and each path with braces.
+        With one line for each of them.
     """
     directory = directory or Path.cwd()
     elsewhere = project is not None and not _is_same(project, directory)
@@ -148,6 +152,15 @@ def check_files(
                     f"{otherwise}",
                 )
             )
+    elif config.reuse and holds_more_than(directory / config.reuse, MOST_KEPT):
+        problems.append(
+            Problem(
+                "reuse",
+                config.reuse,
+                f"holds more than {MOST_KEPT:,} files and folders, which would all be looked "
+                "through; allowed is a folder with results alone, as results/reference is",
+            )
+        )
     own = directory / results / config.run
     problems += [
         Problem(

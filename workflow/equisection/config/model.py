@@ -63,7 +63,8 @@ class Config(KeyGroup):
     reuse: Annotated[str, EMPTY] = Field(
         "results/reference",
         description="Folder with results of earlier runs: a case that one of them is the result "
-        "of, by its hash, is not computed again. Empty to compute every case.",
+        "of, by its hash, is not computed again. It is looked through at every depth and may hold "
+        "100,000 files and folders. Empty to compute every case.",
     )
     compute: bool = Field(
         True,

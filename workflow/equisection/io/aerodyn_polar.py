@@ -15,7 +15,7 @@ from pathlib import Path
 from equisection.errors import PolarFileError
 from equisection.io.polar_columns import COLUMNS, quantities
 from equisection.io.polar_rows import PolarFormat, Row
-from equisection.io.polar_text import Lines, is_number, number
+from equisection.io.polar_text import Lines, decimal, is_number, number
 
 #: Columns of a row by their places in it.
 _PLACES = {"alpha": 0, "Cl": 1, "Cm": 3, "Cd": 2}
@@ -85,7 +85,7 @@ def _row(path: Path, line: int, fields: list[str]) -> Row:
 
 def _reynolds_number(lines: Lines) -> float:
     values = [value for _, _, value in _named(lines, _REYNOLDS) if is_number(value)]
-    return 1e6 * float(values[0]) if values and float(values[0]) > 0.0 else math.nan
+    return 1e6 * decimal(values[0]) if values and decimal(values[0]) > 0.0 else math.nan
 
 
 def aerodyn_text(

@@ -9,7 +9,7 @@ import math
 from pathlib import Path
 
 from equisection.io.polar_rows import PolarFormat, Row
-from equisection.io.polar_text import Lines, is_number
+from equisection.io.polar_text import Lines, decimal, is_number
 from equisection.io.program_table import table_rows
 
 #: Lines at the top that are looked through.
@@ -29,7 +29,7 @@ def _reynolds_number(lines: Lines) -> float:
     for _, text in lines[:_TOP]:
         key, _, value = text.partition(",")
         if key.lower() == "reynolds number" and is_number(value.strip()):
-            return float(value)
+            return decimal(value.strip())
     return math.nan
 
 

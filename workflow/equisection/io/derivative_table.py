@@ -33,6 +33,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.errors import DerivativesFileError
+from equisection.io.polar_text import decimal
 
 #: Names of the derivatives, in the order of every table here.
 DERIVATIVES = ("H1", "H2", "H3", "H4", "A1", "A2", "A3", "A4")
@@ -222,7 +223,7 @@ def _convention(path: Path, said: dict[str, str]) -> tuple[float, float, float, 
 
 def _said_number(path: Path, said: dict[str, str], key: str) -> float:
     try:
-        return float(said[key])
+        return decimal(said[key])
     except ValueError as error:
         raise DerivativesFileError(f"{path}: {key} is {said[key]!r}; wanted a number") from error
 
@@ -244,7 +245,7 @@ def _numbers(path: Path, line: int, text: str, names: list[str]) -> dict[str, fl
     for name, field in zip(names, fields, strict=True):
         if name in wanted:
             try:
-                row[name] = float(field)
+                row[name] = decimal(field)
             except ValueError:
                 row[name] = math.nan
             if not math.isfinite(row[name]):

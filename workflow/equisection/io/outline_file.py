@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.errors import OutlineError
-from equisection.io.polar_text import decoded
+from equisection.io.polar_text import decimal, decoded
 
 #: Suffixes of the formats.
 AIRFOIL, POLYGON = ".dat", ".csv"
@@ -106,14 +106,14 @@ def _is_count(value: float) -> bool:
 
 def _is_row(line: str) -> bool:
     try:
-        return len([float(part) for part in re.split(r"[\s,]+", line.strip(" ,"))]) == 2
+        return len([decimal(part) for part in re.split(r"[\s,]+", line.strip(" ,"))]) == 2
     except ValueError:
         return False
 
 
 def _numbers(path: Path, line: int, parts: list[str]) -> list[float]:
     try:
-        values = [float(part) for part in parts]
+        values = [decimal(part) for part in parts]
     except ValueError:
         raise OutlineError(
             f"{path}, line {line}: {' '.join(parts)[:60]!r}: allowed are two numbers, x and y"

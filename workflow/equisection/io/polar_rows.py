@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from equisection.errors import PolarFileError
-from equisection.io.polar_text import Lines, quoted, text_lines
+from equisection.io.polar_text import Lines, decimal, quoted, text_lines
 
 #: x/c from the leading edge of the point that every polar here has its moment about.
 MID_CHORD = 0.5
@@ -211,7 +211,7 @@ def validity(path: Path, lines: Lines) -> dict[str, float | bool]:
         for entry in filter(None, map(str.strip, text.removeprefix(_VALID_FOR).split(","))):
             name, _, value = entry.rpartition(" ")
             try:
-                valid[name] = _TRUTH[value] if value in _TRUTH else float(value)
+                valid[name] = _TRUTH[value] if value in _TRUTH else decimal(value)
             except ValueError:
                 raise PolarFileError(
                     f"{path}, line {number}: {quoted(entry)} behind '{_VALID_FOR}'; wanted a "

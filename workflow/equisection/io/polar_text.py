@@ -126,6 +126,21 @@ def is_number(text: str) -> bool:
     return _NUMBER.fullmatch(text) is not None
 
 
+def decimal(text: str) -> float:
+    """Return the number that a text is in decimal digits.
+
+    Python's own reading takes underscores and the digits of any script as well.
+
+    Raises
+    ------
+    ValueError
+        It is none.
+    """
+    if not is_number(text):
+        raise ValueError(f"{quoted(text)} is no number in decimal digits")
+    return float(text.lower().replace("d", "e"))
+
+
 def number(path: Path, line: int, name: str, text: str) -> float:
     """Return a value of a row as a finite number.
 
@@ -135,9 +150,7 @@ def number(path: Path, line: int, name: str, text: str) -> float:
         The value is not one.
     """
     text = text.strip()
-    value = math.nan
-    if is_number(text):
-        value = float(text.lower().replace("d", "e"))
+    value = decimal(text) if is_number(text) else math.nan
     if not math.isfinite(value):
         raise PolarFileError(
             f"{path}, line {line}: {name} is {quoted(text)}; wanted a finite number in digits, as "

@@ -14,7 +14,7 @@ from pathlib import Path
 from equisection.errors import PolarFileError
 from equisection.io import program_table
 from equisection.io.polar_rows import PolarFormat, Row
-from equisection.io.polar_text import Lines, is_number, number
+from equisection.io.polar_text import Lines, decimal, is_number, number
 
 #: Columns of a row of a polar file by their places in it.
 _PLACES = {"alpha": 0, "Cl": 1, "Cm": 3, "Cd": 2}
@@ -90,7 +90,7 @@ def _reynolds_number(lines: Lines) -> float:
     if not _is_polar_file(lines):
         return program_table.reynolds_number(lines)
     _, values = _values(lines, _KEY)
-    return float(values[0]) if values and is_number(values[0]) else math.nan
+    return decimal(values[0]) if values and is_number(values[0]) else math.nan
 
 
 QBLADE = PolarFormat("QBlade", _recognises, _read, 0.25, _reynolds_number)

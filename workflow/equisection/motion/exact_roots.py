@@ -44,6 +44,8 @@ _RATIO, _MOST_HALVINGS = 1.2, 14
 _CLEAR_PART = 0.2
 #: Lowest frequency (V/c) of a section so stiff that the air is a mass and little more.
 _STIFF = 50.0
+#: Least and largest s that the roots are followed to: beyond, their squares are no numbers.
+_SOFTEST, _STIFFEST = 1e-100, 1e100
 #: p (V/c) between which diverging roots are looked for, fast ones first.
 _DIVERGING = np.geomspace(1e3, 1e-9, 1200)
 
@@ -109,7 +111,10 @@ class GrowingMotion:
         """
         size = len(self.mass)
         p = complex(guess)
-        motion = np.conj(np.linalg.svd(self.matrix(p, scale))[2][-1])
+        there = self.matrix(p, scale)
+        if not np.isfinite(there).all():
+            return _LOST
+        motion = np.conj(np.linalg.svd(there)[2][-1])
         kept = motion.conj()
         for _ in range(_MOST_STEPS):
             left, slope = self.matrix(p, scale), self.slope(p, scale)
@@ -138,10 +143,11 @@ class GrowingMotion:
         roots
             The m roots p there (V/c).
         scales
-            s > 0, shape (n,), in any order.
+            s > 0, shape (n,), in any order; NaN comes back where it is beyond 1e-100 or 1e100.
         """
         found = np.full((len(scales), len(roots)), _LOST)
-        descending = [int(place) for place in np.argsort(scales)[::-1]]
+        within = (scales > _SOFTEST) & (scales < _STIFFEST)
+        descending = [int(place) for place in np.argsort(scales)[::-1] if within[place]]
         below = [place for place in descending if scales[place] <= start]
         above = [place for place in reversed(descending) if scales[place] > start]
         for places in (below, above):
@@ -220,7 +226,10 @@ def growth_and_frequency_of(
     scales
         s > 0, shape (n,), in any order.
     """
-    start = (_STIFF / float(np.min(in_still_air))) ** 2
+    slowest = np.min(in_still_air)
+    if not _SOFTEST < slowest < math.sqrt(_STIFFEST):
+        return np.full((len(scales), len(in_still_air)), _LOST)
+    start = float((_STIFF / slowest) ** 2)
     roots = [equations.root(start, 1j * omega * math.sqrt(start)) for omega in in_still_air]
     return equations.followed(start, roots, np.asarray(scales, dtype=np.float64))
 

@@ -23,6 +23,7 @@ p-k method
 from __future__ import annotations
 
 import cmath
+import contextlib
 import itertools
 import math
 from collections.abc import Callable
@@ -51,6 +52,11 @@ _CONVERGED, _NEAR = 1e-10, 1e-4
 _STEP = 1.1
 #: Loads but the apparent mass, over the inertia forces, at which they are followed from.
 _SMALL_LOADS = 0.1
+#: Times that the loads are looked up, at most, for the start and for each s that is asked for; a
+#: plate at 1e-18 of its stiffness takes 5,000. What is beyond reach is NaN.
+_MOST_LOOKS, _MOST_LOOKS_OF_ONE = 20_000, 1_000
+#: Least and largest s to which the motions are followed: beyond, their squares are no numbers.
+_SOFTEST, _STIFFEST = 1e-100, 1e100
 #: Difference of two p, of 1 + |p|, below which they are one.
 _ONE_ROOT = 1e-3
 #: A step on which a motion goes further than this part of what separates both is halved.
@@ -67,6 +73,10 @@ _LEAST_PART, _LARGEST_PART = 0.25, 1.5
 
 class FlutterIterationError(EquisectionError):
     """The p-k iteration found no frequency that its loads belong to."""
+
+
+class _OutOfReachError(ArithmeticError):
+    """The motions cannot be followed as far as an s that is asked for."""
 
 
 @dataclass(frozen=True)
@@ -93,9 +103,10 @@ class FlutterEquations:
 
 
 class _Flow:
-    """A section in its flow: the matrices and the loads, made once."""
+    """A section in its flow: the matrices and the loads, made once, and looked up so often."""
 
-    def __init__(self, section: Section) -> None:
+    def __init__(self, section: Section, most_looks: int = _MOST_LOOKS) -> None:
+        self._looks_left = most_looks
         section.require_in_flow()
         section.require_defaults(_THEORY, but=_OF_THEORY)
         self.mass = section.mass_matrix
@@ -104,6 +115,20 @@ class _Flow:
         self.is_damped = bool(self.damping.any())
         self.stiffness = section.stiffness_matrix
         self.air = ThinAirfoil(section.axis_behind_mid_chord)
+
+    def loads(self, omega: float) -> Complexes:
+        """Return Q at a frequency omega c/V, shape (2, 2).
+
+        Raises
+        ------
+        _OutOfReachError
+            It is no number, or has been looked up too often.
+        """
+        self._looks_left -= 1
+        found = self.air.influence(omega)
+        if self._looks_left < 0 or not np.isfinite(found).all():
+            raise _OutOfReachError
+        return found
 
 
 @dataclass(frozen=True)
@@ -215,6 +240,8 @@ def _scales(flow: FlutterEquations, omega: float) -> Complexes:
     """Return the s of the k method at a frequency, by ascending absolute value."""
     matrix = omega**2 * flow.mass + flow.influence(omega)
     by_place = np.asarray(np.linalg.solve(flow.stiffness, matrix), dtype=np.complex128)
+    if not np.isfinite(by_place).all():  # so soft or heavy that no s is a number
+        return np.full(len(by_place), complex(math.nan, math.nan))
     if flow.is_damped:
         by_rate = -1j * omega * np.linalg.inv(flow.stiffness) @ flow.damping
         values = _of_positive_real_part(_quadratic_roots(by_rate, by_place)) ** 2
@@ -243,7 +270,7 @@ def growth_and_frequency(section: Section, scales: Floats) -> Complexes:
 
     Re p is the growth rate (V/c), Im p = omega c/V >= 0. The first column is the motion that is
     heave in vacuum, the second the one that is pitch. The result at one s does not depend on the
-    others that are asked for.
+    others that are asked for. NaN at an s so far off that the motions cannot be followed to it.
 
     Parameters
     ----------
@@ -259,13 +286,21 @@ def growth_and_frequency(section: Section, scales: Floats) -> Complexes:
     FlutterIterationError
         The iteration did not converge.
     """
-    flow = _Flow(section)
-    found = np.empty((len(scales), 2), dtype=np.complex128)
+    flow = _Flow(section, _MOST_LOOKS + _MOST_LOOKS_OF_ONE * len(scales))
+    found = np.full((len(scales), 2), complex(math.nan, math.nan))
+    with contextlib.suppress(_OutOfReachError, OverflowError):
+        _follow(flow, scales, found)
+    return found
+
+
+def _follow(flow: _Flow, scales: Floats, found: Complexes) -> None:
+    """Write p of both motions at each s into an array: the stiff ones first, then ever softer."""
     start, roots_there = _start(flow)
-    descending = [int(place) for place in np.argsort(scales)[::-1]]
+    within = (scales > _SOFTEST) & (scales < _STIFFEST)
+    descending = [int(place) for place in np.argsort(scales)[::-1] if within[place]]
     below = [place for place in descending if scales[place] <= start]
     above = [place for place in reversed(descending) if scales[place] > start]
-    for places, step in ((below, 1.0 / _STEP), (above, _STEP)):
+    for places, step in ((above, _STEP), (below, 1.0 / _STEP)):
         scale, roots = start, roots_there
         for place in places:
             wanted = float(scales[place])
@@ -273,7 +308,6 @@ def growth_and_frequency(section: Section, scales: Floats) -> Complexes:
                 roots = _followed(flow, scale, scale * step, roots)
                 scale *= step
             found[place] = _both(flow, wanted, _followed(flow, scale, wanted, roots), True)
-    return found
 
 
 def _start(flow: _Flow) -> tuple[float, Pair]:
@@ -285,8 +319,10 @@ def _start(flow: _Flow) -> tuple[float, Pair]:
     inertia = np.sqrt(np.outer(np.diag(mass), np.diag(mass)))
     scale = 1.0
     while True:
-        omega = slow * math.sqrt(scale)
-        loads = flow.air.influence(omega) / omega**2 - flow.air.apparent_mass
+        omega = float(slow) * math.sqrt(scale)
+        if not (omega > 0.0 and scale < _STIFFEST):
+            raise _OutOfReachError
+        loads = flow.loads(omega) / omega**2 - flow.air.apparent_mass
         if np.max(np.abs(loads) / inertia) <= _SMALL_LOADS:
             break
         scale *= 2.0
@@ -358,7 +394,7 @@ def _root(
 
 def _roots(flow: _Flow, scale: float, p: complex) -> Pair:
     """Return both p under the loads of the frequency of one."""
-    loads = flow.air.influence(max(p.imag, 0.0)) - scale * flow.stiffness
+    loads = flow.loads(max(p.imag, 0.0)) - scale * flow.stiffness
     if flow.is_damped:
         by_rate = -math.sqrt(scale) * flow.inverse_mass @ flow.damping
         return _oscillating(_quadratic_roots(by_rate, flow.inverse_mass @ loads))

@@ -21,6 +21,8 @@ from equisection.store.made_from import FOLDER, read_record
 CASES = "cases"
 #: Cheap files that jobs make besides results and figures; they are made again if they were edited.
 _CHEAP = {".csv", ".json", ".yaml"}
+#: Files that a person gives: polars, outlines, tables and histories.
+_GIVEN = {".csv", ".dat", ".pol", ".txt"}
 
 
 @dataclass(frozen=True)
@@ -83,8 +85,9 @@ def unsound_files(run: Path) -> list[Unsound]:
     They are NetCDF files that are not as they were written; results that were exchanged after the
     index that names them and are not of that case; indices that name a file that is not there, for
     the job that writes one takes sound results from the store; and tables, indices and case files
-    that were edited since their job made them. Files that a job is writing at this moment
-    (``.tmp-...``) are left alone.
+    that were edited since their job made them, or were made from a file outside of the run in whose
+    place another one is of an older time. Files that a job is writing at this moment (``.tmp-...``)
+    are left alone.
     """
     found = [
         Unsound(path, fault, kept=True)
@@ -93,6 +96,9 @@ def unsound_files(run: Path) -> list[Unsound]:
     ]
     found += _edited(run)
     unsound = {file.path for file in found}
+    outdated = {file.path: file for file in _outdated(run) if file.path not in unsound}
+    found += outdated.values()
+    unsound |= outdated.keys()
     for index in indices_of_run(run):
         if run / CASES / index.relative_to(run) in unsound:
             found.append(Unsound(index, "its cases are made again, and so is it", kept=False))
@@ -134,6 +140,38 @@ def _belongs(path: Path, case_hash: str) -> bool:
     except ResultFileError:
         return False
     return True
+
+
+def _outdated(run: Path) -> Iterator[Unsound]:
+    """Yield the outputs of jobs that were given a file in whose place another one is.
+
+    They are those that are younger than that file, which Snakemake takes for made from it: a copy
+    keeps its time (``cp -p``, ``rsync -a``, a clock that was wrong).
+    """
+    hashes: dict[Path, str] = {}
+    for path in sorted((run / FOLDER).glob("*.json")):
+        try:
+            record = read_record(path)
+        except ResultFileError:
+            continue  # 'equisection verify' names it
+        made = {run / name: digest for name, digest in record.outputs.items()}
+        for name, digest in record.inputs.items():
+            given = Path(name)
+            of_run = not given.is_absolute() and (run / given).exists()
+            if of_run or given.suffix not in _GIVEN or not given.is_file():
+                continue
+            if hashes.setdefault(given, file_hash(given)) == digest:
+                continue
+            time = given.stat().st_mtime_ns
+            why = f"made from another {given} than there is, whose time is older"
+            for file, before in made.items():
+                if file.is_file() and time < file.stat().st_mtime_ns and _is_as_made(file, before):
+                    yield Unsound(file, f"{why}; it is made again", kept=False)
+
+
+def _is_as_made(file: Path, digest: str) -> bool:
+    """Tell whether a file is that of a record: another job may have made it since."""
+    return file_hash(file) == digest
 
 
 def _edited(run: Path) -> Iterator[Unsound]:

@@ -27,6 +27,7 @@ from skfem.models.elasticity import lame_parameters
 
 from equisection.beam.beam import Beam
 from equisection.errors import ModesError
+from equisection.structure.slenderness import most_slender
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -82,6 +83,12 @@ def solid_modes(beam: Beam, elements: tuple[int, int, int], count: int) -> Solid
         Elements along chord, span and thickness.
     count : int
         Number of modes n.
+
+    Raises
+    ------
+    ModesError
+        The boundary or the mesh is none, the eigensolver did not converge, or the plate is so
+        slender that rounding would decide (:mod:`equisection.structure.slenderness`).
     """
     if beam.boundary not in SOLID_BOUNDARIES:
         raise ModesError(
@@ -91,6 +98,13 @@ def solid_modes(beam: Beam, elements: tuple[int, int, int], count: int) -> Solid
     if min(elements) < 1 or len(elements) != 3:
         raise ModesError(
             f"elements is {elements}; give three counts of at least 1 (chord, span, thickness)"
+        )
+    slender, most = beam.length / beam.thickness, most_slender(elements[2])
+    if slender > most:
+        raise ModesError(
+            f"the plate is {slender:.3g} times as long as thick; on {elements[2]} solid elements "
+            f"through its thickness allowed is up to {most:.0f}, beyond which rounding decides the "
+            "frequencies; use method 'beam' or 'analytic'"
         )
     element = _one_element(beam, elements)
     frequencies: list[Floats] = []

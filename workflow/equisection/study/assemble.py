@@ -23,7 +23,7 @@ from equisection.cases import (
 )
 from equisection.cases.beam_in_flow import beam_modes_in_flow
 from equisection.config import Config
-from equisection.errors import ConfigError, DivergenceError, EquisectionError, ReductionError
+from equisection.errors import DivergenceError, EquisectionError, ReductionError
 from equisection.reduction.correction import corrected_equilibrium
 from equisection.reduction.flutter_bias import refusal as bias_refusal
 from equisection.reduction.flutter_bias import unlike
@@ -95,12 +95,8 @@ def unsteady_case(
     Notes
     -----
     A corrected section without a static equilibrium inside the polars is not run: its case has the
-    reason, and the other k* go on. Its result is ``growing`` if it diverges, else ``failed``.
-
-    Raises
-    ------
-    ConfigError
-        The history would be written too seldom to tell an oscillation.
+    reason, and the other k* go on. Its result is ``growing`` if it diverges, else ``failed``. So it
+    is with one so stiff that its history would be written too seldom to tell an oscillation.
     """
     stiffness_scale = k_star / k_star_as_given(config, data["equivalent"])
     section, beam, refusal, diverges = None, None, "", False
@@ -134,19 +130,21 @@ def unsteady_case(
         refusal=refusal,
         diverges=diverges,
     )
-    _require_samples(case)
+    if reason := "" if case.not_run else _seldom(case):
+        return case.model_copy(update={"section": None, "beam": None, "refusal": reason})
     return case
 
 
-def _require_samples(case: UnsteadyCase) -> None:
-    """Refuse a history without enough samples in a period of the pitch, which looks at rest."""
+def _seldom(case: UnsteadyCase) -> str:
+    """Return why a history would be written so seldom that an oscillation looks at rest."""
     most = 1.0 / (FEWEST_SAMPLES_A_PERIOD * pitch_frequency(case))
-    if case.output_interval > most:
-        raise ConfigError(
-            f"config: unsteady.output_interval: {case.output_interval:g}: allowed is up to "
-            f"{most:.2g} c/V at k* = {case.k_star:g}, {FEWEST_SAMPLES_A_PERIOD} samples a period "
-            "of the pitch; or leave out the stiffest k*"
-        )
+    if case.output_interval <= most:
+        return ""
+    return (
+        f"unsteady.output_interval is {case.output_interval:g} c/V; allowed is up to {most:.2g} "
+        f"c/V at k* = {case.k_star:g}, {FEWEST_SAMPLES_A_PERIOD} samples a period of the pitch; "
+        "give it so, or leave out this k*"
+    )
 
 
 def _geometry(config: Config) -> Geometry:

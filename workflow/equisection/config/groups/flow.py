@@ -18,8 +18,10 @@ LARGEST_MACH = 0.3
 class Channel(KeyGroup):
     """The channel around the beam, in chords; its walls are slip walls."""
 
-    height_chords: Annotated[float, Field(gt=1, allow_inf_nan=False), NUMBER] = Field(
-        4.0, description="Distance of floor and ceiling H (chords); the beam is half way."
+    height_chords: Annotated[float, Field(gt=1, le=1e6, allow_inf_nan=False), NUMBER] = Field(
+        4.0,
+        description="Distance of floor and ceiling H (chords); the beam is half way. Free air is "
+        "`flow.channel: null`.",
     )
     tip_gap_chords: NotNegative = Field(
         0.3,

@@ -13,6 +13,7 @@ from equisection.beam.supports import Lump, Support
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.values import WHOLE
+from equisection.structure.slenderness import most_slender
 
 #: Boundaries that a solid plate has no counterpart of.
 NOT_OF_SOLID: frozenset[str] = frozenset({"one-fork", "spring-root"})
@@ -67,6 +68,25 @@ def _finer_and_finer(meshes: tuple[Elements, ...]) -> Iterator[Problem]:
                 fine.model_dump(),
                 "allowed is a mesh with no fewer elements in any direction than the one before",
             )
+
+
+@check(
+    *("beam.thickness", "beam.length", "structure.method"),
+    *("structure.elements", "structure.mesh_study"),
+)
+def _thick_enough(
+    thickness: float, length: float, method: str, elements: Elements, study: tuple[Elements, ...]
+) -> Iterator[Problem]:
+    """Refuse a plate whose modes by solid elements would be rounding."""
+    most = most_slender(max(mesh.thickness for mesh in (elements, *study)))
+    if method == "solid" and length > most * thickness:
+        yield Problem(
+            "beam.thickness",
+            thickness,
+            f"allowed with structure.method 'solid' is {length / most:.3g} m or more, 1/{most:.0f} "
+            "of the length: rounding decides the modes of a thinner one; or give "
+            "structure.method: beam",
+        )
 
 
 @check("beam.boundary", "structure.method")

@@ -11,6 +11,9 @@ from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.values import NUMBER, WHOLE, Angle, Positive
 
+#: Most time steps of a run.
+MOST_STEPS = 10_000_000
+
 
 class VerdictKeys(KeyGroup):
     """Criteria for the end and the regime of an unsteady run; amplitudes are those of the tip."""
@@ -126,6 +129,16 @@ def _long_enough(duration: float, interval: float) -> Iterator[Problem]:
             "unsteady.duration",
             duration,
             f"allowed are ten output intervals, {interval:g} c/V each, or more",
+        )
+
+
+@check("unsteady.duration", "unsteady.time_step")
+def _not_too_many_steps(duration: float, step: float) -> Iterator[Problem]:
+    if duration > MOST_STEPS * step:
+        yield Problem(
+            "unsteady.duration",
+            duration,
+            f"allowed are up to {MOST_STEPS:,} time steps, {step:g} c/V each",
         )
 
 

@@ -58,7 +58,7 @@ class Pipes:
 
     def __init__(self, case: Path, silence: float) -> None:
         self._folder = case / FOLDER
-        self._silence = silence
+        self.silence = silence
         shutil.rmtree(self._folder, ignore_errors=True)
         self._folder.mkdir(parents=True)
         for name in (LOADS, PLACES):
@@ -147,8 +147,8 @@ class Pipes:
         return True
 
     def _require_sign_of_life(self, since: float) -> None:
-        if time.monotonic() - since > self._silence:
+        if time.monotonic() - since > self.silence:
             raise SolverError(
-                f"the solver has exchanged nothing with the structure for {self._silence:g} s and "
+                f"the solver has exchanged nothing with the structure for {self.silence:g} s and "
                 f"was ended; see the logs beside {self._folder}"
             )
