@@ -70,7 +70,10 @@ def test_supports_at_the_ends_are_the_boundary_of_that_name():
     ("more", "error", "words"),
     [
         ({"modes": (0, 1)}, ArgumentError, "modes is"),
+        ({"modes": 3}, ArgumentError, "modes is 3"),
         ({"strips": 2}, ArgumentError, "strips is 2"),
+        ({"strips": 12.5}, ArgumentError, "strips is 12.5"),
+        ({"density": float("inf")}, ArgumentError, "density is inf"),
         ({"channel": (0.5, 0.0)}, ArgumentError, "channel is"),
         ({"method": "solid"}, ModesError, "method='beam'"),
     ],

@@ -40,8 +40,9 @@ class TestOnset:
         assert lines[0].endswith("between 35.6 m/s (stable) and 39.1 m/s (unstable), at 2.5 deg")
         assert lines[1].endswith("flutter at 8.03 Hz")
         assert lines[2].endswith("1.19 times the design speed")
-        assert "off CFD by 0.005 V/c" in lines[3]
-        assert lines[3].endswith("the true speed is probably lower")
+        assert "such growth rates are off by 0.005 V/c" in lines[3]
+        assert lines[3].endswith("so that the speed is too high")
+        assert "by runs in time below and above it" in lines[3]
         assert "2d 39.54 m/s (eigenvalue)" in lines[4]
         assert len(lines) == 5
 
@@ -52,6 +53,54 @@ class TestOnset:
         )
         first = next(answer_of(run).lines())
         assert "21 m/s, at 0 deg, the lowest of 3 incidences from -5 to 5 deg" in first
+
+    def test_eigenvalues_find_what_is_below_all_runs(self, tmp_path: Path) -> None:
+        run = run_with(
+            tmp_path / "run",
+            "3d,0,6.4,6.4,6.4,divergence,0,1,1.28,eigenvalue,,,",
+            "3d,0,,,10,divergence,,,,time,,,",
+            "3d,5,3.4,3.4,3.4,flutter,1.7,4,0.68,eigenvalue,,,",
+            "3d,5,,,10,divergence,,,,time,,,",
+        )
+        lines = list(answer_of(run).lines())
+        assert "3.4 m/s, at 5 deg, the lowest of 2 incidences from 0 to 5 deg" in lines[0]
+        assert "0.68 times the design speed" in lines[2]
+        assert "3d below 10 m/s, where it is unstable already (time)" in lines[4]
+
+    def test_eigenvalues_do_not_overrule_an_unstable_run(self, tmp_path: Path) -> None:
+        run = run_with(
+            tmp_path / "run",
+            "3d,0,12,12,12,flutter,2,1,,eigenvalue,,,",
+            "3d,0,,,10,flutter,2,,,time,,,",
+        )
+        lines = list(answer_of(run).lines())
+        assert "below 10 m/s" in lines[0]
+        assert lines[2].endswith("no speed is known to be stable")
+
+    def test_bases_of_one_incidence_leave_the_others_in(self, tmp_path: Path) -> None:
+        run = run_with(
+            tmp_path / "run",
+            "3d,2.5,32,31,33,flutter,2,1,,time,,,",
+            "3d,5,23,23,23,flutter,2,1,,eigenvalue,,,",
+            "3d,6,,,,unknown,,,,eigenvalue,,,",
+        )
+        first = next(answer_of(run).lines())
+        assert "23 m/s, at 5 deg, the lowest of 3 incidences" in first
+        assert first.endswith("at 1 of them nothing is known")
+
+    def test_a_model_of_which_nothing_is_known_gives_way(self, tmp_path: Path) -> None:
+        run = run_with(
+            tmp_path / "run", "3d,0,,,,unknown,,,,time,,,", "2d,0,30,29,31,flutter,2,1,,time,,,"
+        )
+        lines = list(answer_of(run).lines())
+        assert "between 29 m/s (stable) and 31 m/s (unstable)" in lines[0]
+        assert "3d unknown: no run has a verdict (time)" in lines[4]
+
+    def test_an_onset_without_an_upper_end_is_no_stable_speed(self, tmp_path: Path) -> None:
+        run = run_with(tmp_path / "run", "3d,0,32,19,inf,flutter,2,1,,model,,,")
+        answer = answer_of(run)
+        assert "32 m/s, from 19 m/s, open beyond" in next(answer.lines())
+        assert json.loads(answer.as_json())["answer"]["speed_high"] is None
 
     @pytest.mark.parametrize(
         ("low", "high", "words"),
@@ -74,7 +123,16 @@ class TestOnset:
         assert answer["run"] == "run"
         assert (answer["answer"]["speed_low"], answer["answer"]["speed_high"]) == (24.0, None)
 
-    @pytest.mark.parametrize("text", ["", "model,speed\n3d,2\n", HEADER])
+    @pytest.mark.parametrize(
+        "text",
+        [
+            "",
+            "model,speed\n3d,2\n",
+            HEADER,
+            HEADER + "3d,0,fast,,,none,,,,time,,,\n",
+            HEADER + "3d,,1,1,1,flutter,,,,time,,,\n",
+        ],
+    )
     def test_what_is_no_such_table_is_named(
         self, tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str
     ) -> None:
@@ -130,6 +188,26 @@ class TestInit:
         assert "mine.yaml: is there already" in capsys.readouterr().err
         assert Path("mine.yaml").read_text() == "run: precious\n"
 
+    def test_the_name_may_be_that_of_the_file(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
+        assert main(["init", "mine.yaml", "--like", "plate"]) == 0
+        assert yaml.safe_load(Path("mine.yaml").read_text())["run"] == "mine"
+
+    @pytest.mark.parametrize("value", ["-1", "0", "nan", "inf"])
+    def test_a_dimension_that_none_has_is_refused(
+        self,
+        value: str,
+        tmp_path: Path,
+        monkeypatch: pytest.MonkeyPatch,
+        capsys: pytest.CaptureFixture[str],
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
+        assert main(["init", "mine", "--like", "plate", f"--chord={value}"]) == 1
+        assert f"chord {value}: allowed is" in capsys.readouterr().err
+        assert not list(tmp_path.iterdir())
+
     @pytest.mark.parametrize("name", ["", "..", "a/b", "a b", "-x\n"])
     def test_a_name_that_is_no_folder_is_refused(
         self, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -147,11 +225,28 @@ class TestRun:
         here = launch.snakemake_command([Path("a.yaml")], ["-n"])
         assert here[1:3] == ["-m", "snakemake"]
         assert "--snakefile" not in here
-        assert here[-3:] == ["--configfile", "a.yaml", "-n"]
+        assert here[3:5] == ["--configfile", "a.yaml"]
+        assert here[5].startswith("--")  # what has no dash would be a further configuration
+        assert here[-1] == "-n"
         monkeypatch.chdir(tmp_path)
         there = launch.snakemake_command([], ["-j4"])
         assert there[there.index("--snakefile") + 1] == str(ROOT / "Snakefile")
         assert "--cores" not in there
+
+    @pytest.mark.parametrize(
+        ("further", "whole"),
+        [
+            ("", True),
+            ("--cores 1 -k --profile=x", True),
+            ("-j4", True),
+            ("-n", False),
+            ("--cores 1 results/a/x.csv", False),
+            ("--config run=other", False),
+            ("--unlock", False),
+        ],
+    )
+    def test_a_run_answers_only_where_it_is_whole(self, further: str, whole: bool) -> None:
+        assert launch.is_whole(further.split()) == whole
 
     def test_lines_of_jobs_that_go_well_give_way_to_the_bar(self, tmp_path: Path) -> None:
         says = ["Finished jobid: 3 (Rule: x)", "warning: wind", "2 of 5 steps (40%) done"]
@@ -195,6 +290,12 @@ class TestShow:
     def test_copies_have_every_format(self, run: Path, tmp_path: Path) -> None:
         assert main(["show", str(run), "--to", str(tmp_path / "there")]) == 0
         assert {path.name for path in (tmp_path / "there").iterdir()} == {"a.png", "a.svg", "b.png"}
+
+    def test_a_run_that_is_not_there_is_said_so(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        assert main(["show", str(tmp_path / "no")]) == 1
+        assert "no such folder" in capsys.readouterr().err
 
     def test_an_unknown_figure_is_named_with_those_that_there_are(
         self, run: Path, capsys: pytest.CaptureFixture[str]

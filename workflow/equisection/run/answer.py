@@ -7,7 +7,8 @@ the table does not say.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -21,21 +22,24 @@ if TYPE_CHECKING:  # what reads a table is imported where it is needed
 CRITICAL_SPEEDS = Path("comparison") / "critical_speed.csv"
 #: Columns without which a table is none of critical speeds.
 _NEEDED = ("model", "incidence_deg", "speed", "speed_low", "speed_high", "mechanism", "basis")
+#: Columns of numbers.
+_NUMBERS = ("incidence_deg", "speed", "speed_low", "speed_high")
+_OPTIONAL_NUMBERS = ("frequency_hz", "k_star", "margin", "growth_error", "growth_error_rms")
 #: Models and what they rest on, the nearest to the beam in its flow first.
 _MODELS = ("3d", "2d-corrected", "2d")
 _BASES = ("experiment", "cfd", "time", "model", "eigenvalue", "derivatives")
 _BASIS_WORDS = {
     "experiment": "histories of an experiment",
-    "cfd": "CFD runs below and above it",
-    "time": "runs in time below and above it",
+    "cfd": "CFD runs",
+    "time": "runs in time",
     "model": "a model learnt from a release",
-    "eigenvalue": "eigenvalues of the section's equations",
+    "eigenvalue": "eigenvalues of small motions",
     "derivatives": "flutter derivatives",
 }
 _SIDES = {
-    "unsafe": "the true speed is probably lower",
-    "safe": "the true speed is probably higher",
-    "either": "on either side",
+    "unsafe": ", so that the speed is too high",
+    "safe": ", so that the speed is too low",
+    "either": ", to either side",
 }
 
 
@@ -55,8 +59,10 @@ class Answer:
         Lines of the table: names of columns and values (speeds in m/s, frequencies in Hz), None
         where a value is not there.
     chosen
-        The line that answers: of the model nearest to the beam (the beam itself, then the corrected
-        section), on its strongest basis, at the incidence with the lowest speed.
+        The line that answers: of the model nearest to the beam of which something is known (the
+        beam itself, then the corrected section), at the incidence with the lowest speed. At each
+        incidence the strongest basis answers; where it knows no stable speed, the next one that
+        has an onset below its unstable speed.
     """
 
     run: str
@@ -65,34 +71,51 @@ class Answer:
 
     def lines(self) -> Iterator[str]:
         """Yield the answer, a line each: speed, mechanism, margin, how sure, other models."""
-        yield f"critical speed  {_speed(self.chosen)}{self._incidence()}"
+        is_open = self.chosen["speed"] is None and self.chosen["speed_low"] is None
+        lower = is_open and self.chosen["speed_high"] is not None
+        hint = "; run lower speeds to find it" if lower else ""
+        yield f"critical speed  {_speed(self.chosen)}{self._incidence()}{hint}"
         yield f"mechanism       {_mechanism(self.chosen)}"
-        yield f"margin          {_margin(self.chosen)}"
+        yield f"margin          {self._margin()}"
         yield f"how sure        {_sure(self.chosen)}"
-        others = [row for row in self.rows if self._is_of_another_model(row)]
+        others = [row for row in self.rows if self._is_another_there(row)]
         if others:
-            yield "other models    " + "; ".join(
+            yield "others          " + "; ".join(
                 f"{row['model']} {_speed(row)} ({row['basis']})" for row in others
             )
 
     def as_json(self) -> str:
         """Return run, the line that answers, and all lines of the table as JSON."""
-        return json.dumps({"run": self.run, "answer": self.chosen, "all": self.rows}, indent=2)
-
-    def _incidence(self) -> str:
-        angles = sorted({row["incidence_deg"] for row in self.rows})
-        at = f", at {self.chosen['incidence_deg']:g} deg"
-        if len(angles) == 1:
-            return at
-        return (
-            f"{at}, the lowest of {len(angles)} incidences from {angles[0]:g} to {angles[-1]:g} deg"
+        return json.dumps(
+            {"run": self.run, "answer": self.chosen, "all": self.rows}, indent=2, allow_nan=False
         )
 
-    def _is_of_another_model(self, row: Mapping[str, Any]) -> bool:
+    def _incidence(self) -> str:
+        answers = _answers(self.rows, self.chosen["model"])
+        at = f", at {self.chosen['incidence_deg']:g} deg"
+        if len(answers) == 1:
+            return at
+        angles = [row["incidence_deg"] for row in answers]
+        unknown = sum(not _is_known(row) for row in answers)
+        return (
+            f"{at}, the lowest of {len(answers)} incidences from {min(angles):g} to "
+            f"{max(angles):g} deg" + (f"; at {unknown} of them nothing is known" if unknown else "")
+        )
+
+    def _is_another_there(self, row: Mapping[str, Any]) -> bool:
         return row["incidence_deg"] == self.chosen["incidence_deg"] and (
             row["model"],
             row["basis"],
         ) != (self.chosen["model"], self.chosen["basis"])
+
+    def _margin(self) -> str:
+        margin = self.chosen.get("margin")
+        if margin is not None:
+            side = "" if margin >= 1.0 else ": NOT REACHED by the stable speeds"
+            return f"{margin:.3g} times the design speed{side}"
+        if self.chosen["speed_low"] is None:
+            return "unknown: no speed is known to be stable"
+        return "not asked for: flow.design_speed (m/s) is not given"
 
 
 def answer_of(run: Path) -> Answer:
@@ -118,10 +141,15 @@ def answer_of(run: Path) -> Answer:
         )
     table = _table(path)
     rows = tuple(
-        {name: None if value != value else value for name, value in row.items()}  # noqa: PLR0124
+        {name: _known(value) for name, value in row.items()}
         for row in table.astype(object).to_dict("records")
     )
-    return Answer(run.resolve().name, rows, min(rows, key=_rank))
+    return Answer(run.resolve().name, rows, _chosen(rows))
+
+
+def _known(value: Any) -> Any:
+    """Return a value of the table, None for an empty one and for a speed without a bound."""
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _table(path: Path) -> pd.DataFrame:
@@ -136,26 +164,87 @@ def _table(path: Path) -> pd.DataFrame:
     if missing or table.empty:
         what = f"has no column {missing[0]!r}" if missing else "has no line"
         raise AnswerError(f"{path}: {what}; delete it and run again")
+    for name in (*_NUMBERS, *(one for one in _OPTIONAL_NUMBERS if one in table)):
+        try:
+            table[name] = table[name].astype(float)
+        except ValueError as error:
+            raise AnswerError(
+                f"{path}: column {name!r}: {error}; delete the file and run again"
+            ) from None
+    if table["incidence_deg"].isna().any():
+        raise AnswerError(f"{path}: a line has no incidence_deg; delete the file and run again")
     return table
 
 
-def _rank(row: Mapping[str, Any]) -> tuple[int, int, float]:
-    """Order of a line: nearness of its model, strength of its basis, then the lowest speed."""
-    model, basis = row["model"], row["basis"]
-    lowest = next((row[name] for name in ("speed_low", "speed") if row[name] is not None), 0.0)
-    return (
-        _MODELS.index(model) if model in _MODELS else len(_MODELS),
-        _BASES.index(basis) if basis in _BASES else len(_BASES),
-        lowest,
+def _chosen(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
+    """Return the line that answers, as :class:`Answer` says."""
+    models = sorted(
+        dict.fromkeys(row["model"] for row in rows),
+        key=lambda one: _MODELS.index(one) if one in _MODELS else len(_MODELS),
     )
+    for model in models:
+        known = [row for row in _answers(rows, model) if _is_known(row)]
+        if known:
+            return min(known, key=lambda row: _or(_lowest(row), 0.0))
+    return _answers(rows, models[0])[0]
+
+
+def _answers(rows: Sequence[Mapping[str, Any]], model: str) -> list[Mapping[str, Any]]:
+    """Return the line of a model that answers at each incidence."""
+    found: dict[float, list[Mapping[str, Any]]] = {}
+    for row in rows:
+        if row["model"] == model:
+            found.setdefault(row["incidence_deg"], []).append(row)
+    return [_answer_at(lines) for lines in found.values()]
+
+
+def _answer_at(lines: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
+    ordered = sorted(
+        lines, key=lambda row: _BASES.index(row["basis"]) if row["basis"] in _BASES else len(_BASES)
+    )
+    first = next(filter(_is_known, ordered), ordered[0])
+    if _lowest(first) is not None or first["speed_high"] is None:
+        return first
+    # it is unstable at all speeds of the strongest basis: another may know where that begins
+    below = [
+        row
+        for row in ordered
+        if _lowest(row) is not None
+        and max(_or(row[name], 0.0) for name in _SPEEDS) <= first["speed_high"]
+        and (row["speed"] is not None or row["speed_high"] is not None)
+    ]
+    return below[0] if below else first
+
+
+_SPEEDS = ("speed", "speed_low", "speed_high")
+
+
+def _lowest(row: Mapping[str, Any]) -> float | None:
+    """Return the lower end (m/s) of an onset, or the onset itself where it has no interval."""
+    return next((row[name] for name in ("speed_low", "speed") if row[name] is not None), None)
+
+
+def _or(value: float | None, other: float) -> float:
+    return other if value is None else value
+
+
+def _is_known(row: Mapping[str, Any]) -> bool:
+    """Tell whether a line has any speed."""
+    return any(row[name] is not None for name in _SPEEDS)
 
 
 def _speed(row: Mapping[str, Any]) -> str:
     low, high, speed = row["speed_low"], row["speed_high"], row["speed"]
     if low is not None and high is not None:
         if high - low < 0.005 * high:
-            return f"{speed:.4g} m/s"
+            return f"{_or(speed, low):.4g} m/s"
         return f"between {low:.3g} m/s (stable) and {high:.3g} m/s (unstable)"
+    if speed is not None:
+        ends = (("from", low), ("up to", high))
+        known = [f"{word} {end:.3g} m/s" for word, end in ends if end is not None]
+        return f"{speed:.4g} m/s, " + (
+            f"{known[0]}, open beyond" if known else "without an interval"
+        )
     if low is not None:
         return f"above {low:.3g} m/s, up to which it is stable"
     if high is not None:
@@ -164,26 +253,30 @@ def _speed(row: Mapping[str, Any]) -> str:
 
 
 def _mechanism(row: Mapping[str, Any]) -> str:
-    words = {"none": "none found", "unknown": "unknown: beyond the stable speeds runs failed"}
+    words = {"none": "none found", "unknown": f"unknown: {_why_unknown(row)}"}
     name = words.get(row["mechanism"], row["mechanism"])
     frequency = row.get("frequency_hz")
-    return f"{name} at {frequency:.3g} Hz" if frequency else name
+    return f"{name} at {frequency:.3g} Hz" if frequency else str(name)
 
 
-def _margin(row: Mapping[str, Any]) -> str:
-    margin = row.get("margin")
-    if margin is None:
-        return "not asked for: flow.design_speed (m/s) is not given"
-    side = "" if margin >= 1.0 else ": NOT REACHED by the stable speeds"
-    return f"{margin:.3g} times the design speed{side}"
+def _why_unknown(row: Mapping[str, Any]) -> str:
+    if row["speed"] is not None or row["speed_high"] is not None:
+        return "what is unstable does not say by what"
+    if row["speed_low"] is not None:
+        return "what is beyond the stable speeds failed or is undecided"
+    return "no run has a verdict"
 
 
 def _sure(row: Mapping[str, Any]) -> str:
-    basis = _BASIS_WORDS.get(row["basis"], row["basis"])
+    basis = f"by {_BASIS_WORDS.get(row['basis'], row['basis'])}"
+    if row["speed_low"] is not None and row["speed_high"] is not None:
+        basis += " below and above it" if row["basis"] in ("cfd", "time") else ""
+    error = "the error of polar, lags and mesh is not in it"
     known = row.get("growth_error_rms")
     if known is None:
-        error = "the error of polar, lags and mesh is not known and not in it"
-    else:
-        error = f"its growth rates are off CFD by {known:.2g} V/c (rms)"
+        return f"{basis}; {error}, and not known"
     side = _SIDES.get(row.get("errs") or "", "")
-    return f"by {basis}; {error}" + (f"; {side}" if side else "")
+    return (
+        f"{basis}; {error}; of kept CFD, on one plate, such growth rates are off by "
+        f"{known:.2g} V/c (rms){side}"
+    )

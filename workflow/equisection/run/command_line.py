@@ -220,7 +220,7 @@ def _add_start(commands: Any) -> None:
         "run",
         help="run the workflow",
         description="Start snakemake with config/config.yaml and the files given, with the cores "
-        "and the profile of 'make run', show its progress, and say what came out.",
+        "and the profile of 'make run', show its progress, and say what came out of a whole run.",
     )
     run.add_argument("configfile", nargs="*", type=Path, metavar="CONFIGFILE")
     run.add_argument(
@@ -277,8 +277,9 @@ def _init(options: argparse.Namespace) -> None:
         if not sys.stdin.isatty():
             raise StarterError(f"--like is missing; allowed are {', '.join(LIKE)}")
         like, values = asked(values)
-    file = Path(f"{options.name}.yaml")
-    text = starter(like, options.name, file, examples_folder(start.project_of_package()), values)
+    name = options.name.removesuffix(".yaml")
+    file = Path(f"{name}.yaml")
+    text = starter(like, name, file, examples_folder(start.project_of_package()), values)
     try:
         with file.open("x", encoding="utf-8") as written:
             written.write(text)
@@ -299,12 +300,12 @@ def _run(files: Sequence[Path], further: Sequence[str]) -> int:
 
     from equisection.run import start  # noqa: PLC0415
     from equisection.run.answer import CRITICAL_SPEEDS, answer_of  # noqa: PLC0415
-    from equisection.run.launch import launch, snakemake_command  # noqa: PLC0415
+    from equisection.run.launch import is_whole, launch, snakemake_command  # noqa: PLC0415
 
     config = start.checked_config(_keys(files), start.project_of_package() or Path.cwd())
     status = launch(snakemake_command(files, further), Console(highlight=False))
     folder = start.RESULTS / config.run
-    if status == 0 and (folder / CRITICAL_SPEEDS).is_file():
+    if status == 0 and is_whole(further) and (folder / CRITICAL_SPEEDS).is_file():
         print("\n".join(answer_of(folder).lines()))
         print(f"files           {folder}; figures: equisection show {folder}")
     return status

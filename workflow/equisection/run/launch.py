@@ -17,6 +17,15 @@ from equisection.run.start import project_of_package
 _STEPS = re.compile(r"^(\d+) of (\d+) steps \(\d+%\) done$")
 #: What Snakemake says of jobs that go well, which the bar stands for.
 _ROUTINE = re.compile(r"^(\[.*\]|Finished jobid: .*|Select jobs to execute.*|Execute \d+ jobs?.*)$")
+#: Words for ``snakemake`` with which the run is the whole one of its configurations: those that
+#: have a value, and those that have none.
+_WITH_VALUE = frozenset(
+    ("--cores", "-c", "--jobs", "-j", "--profile", "--workflow-profile", "--latency-wait", "-w")
+)
+_ALONE = frozenset(
+    ("--keep-going", "-k", "--rerun-incomplete", "--ri", "--printshellcmds", "-p", "--forceall")
+)
+_NUMBERED = re.compile(r"-[cjw]\d+")
 
 
 def snakemake_command(configfiles: Iterable[Path], further: Sequence[str]) -> list[str]:
@@ -30,7 +39,9 @@ def snakemake_command(configfiles: Iterable[Path], further: Sequence[str]) -> li
         Further words for ``snakemake``. Cores and profile are those of ``make run`` where they
         are not among them.
     """
-    command = [sys.executable, "-m", "snakemake"]
+    files = [str(path) for path in configfiles]
+    # before all else, for it would take what follows it without a dash as a further file
+    command = [sys.executable, "-m", "snakemake", *(["--configfile", *files] if files else [])]
     project = project_of_package()
     elsewhere = project is not None and project != Path.cwd().resolve()
     if elsewhere and not _given(further, "--snakefile", "-s"):
@@ -43,8 +54,24 @@ def snakemake_command(configfiles: Iterable[Path], further: Sequence[str]) -> li
             "--workflow-profile",
             str(profile if elsewhere else "workflow/profiles/default"),
         ]
-    files = [str(path) for path in configfiles]
-    return [*command, *(["--configfile", *files] if files else []), *further]
+    return [*command, *further]
+
+
+def is_whole(further: Sequence[str]) -> bool:
+    """Tell whether a run with further words makes all that its configurations ask for.
+
+    A dry run, a target or other keys (``--config``) leave the tables that are there as they were,
+    or make those of another run.
+    """
+    words = iter(further)
+    for word in words:
+        option, equals, _ = word.partition("=")
+        if option in _WITH_VALUE:
+            if not equals:
+                next(words, None)
+        elif word not in _ALONE and not _NUMBERED.fullmatch(word):
+            return False
+    return True
 
 
 def launch(command: Sequence[str], console: Console) -> int:

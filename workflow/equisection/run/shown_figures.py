@@ -25,8 +25,10 @@ def figures_of(run: Path, names: Sequence[str] = ()) -> list[Path]:
     Raises
     ------
     NoFigureError
-        There is no figure yet, or none of a name.
+        There is no such folder, no figure yet, or none of a name.
     """
+    if not run.is_dir():
+        raise NoFigureError(f"{run}: no such folder; 'equisection status' lists the runs")
     there = {path.stem: path for path in sorted((run / FIGURES).glob(f"*{SHOWN}"))}
     if not there:
         raise NoFigureError(

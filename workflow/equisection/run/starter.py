@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from pathlib import Path
@@ -83,22 +84,27 @@ def starter(like: str, name: str, file: Path, examples: Path, values: Mapping[st
     Raises
     ------
     StarterError
-        The name is no name of a folder.
+        The name is no name of a folder, or a value is not above 0.
     """
     if not _NAME.fullmatch(name):
         raise StarterError(
             f"name {name!r}: allowed are letters, digits, '-', '_' and '.', the first of them a "
             "letter or digit"
         )
+    for key, value in values.items():
+        if not (value > 0.0 and math.isfinite(value)):
+            raise StarterError(f"{key.replace('_', ' ')} {value:g}: allowed is a number above 0")
     text = (examples / EXAMPLES[like]).read_text(encoding="utf-8")
     old = re.search(r"^run: *([^ #\n]+)", text, flags=re.MULTILINE)
     assert old is not None, "an example names its run"
     text = text.replace(f"config/examples/{EXAMPLES[like]}", str(file))
+    head = f"# Begun from the example {EXAMPLES[like]}: what comments say of numbers is of that."
+    text = f"{head}\n{text}"
     text = text.replace(f"results/{old.group(1)}/", f"results/{name}/")
     text = re.sub(r"^run: *[^ #\n]+", f"run: {name}", text, count=1, flags=re.MULTILINE)
     for section, key, _, unit in QUESTIONS:
         if key in values:
-            text = _with_value(text, section, key, f"{values[key]:g} # {unit}")
+            text = _with_value(text, section, key, f"{values[key]:.12g} # {unit}")
     return text
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from typing import Literal
 
@@ -114,8 +115,8 @@ def stability_map(
     rises = speeds.ndim == 1 and speeds.size > 1 and bool((np.diff(speeds) > 0.0).all())
     if not (rises and speeds[0] > 0.0 and np.isfinite(speeds).all()):
         raise ArgumentError(f"speed is {speed!r}; wanted two rising numbers above 0 (m/s) or more")
-    if not density > 0.0:
-        raise ArgumentError(f"density is {density!r}; wanted a number above 0 (kg/m3)")
+    if not 0.0 < density < math.inf:
+        raise ArgumentError(f"density is {density!r}; wanted a finite number above 0 (kg/m3)")
     if isinstance(body, Section):
         flowing = BodyInFlow.of_section(body, UnsteadyLoads.from_polar(polar, lags), density)
     else:
@@ -137,18 +138,28 @@ def stability_map(
 def _require_numbers(
     modes: tuple[int, int], strips: int, channel: tuple[float, float] | None
 ) -> None:
-    if len(modes) != 2 or min(modes) < 1:
+    if not (_is_pair(modes) and all(_is_whole(one) and one >= 1 for one in modes)):
         raise ArgumentError(
             f"modes is {modes!r}; wanted two whole numbers from 1 on, of bending and of torsion"
         )
-    if not FEWEST_STRIPS <= strips <= MOST_STRIPS:
+    if not (_is_whole(strips) and FEWEST_STRIPS <= strips <= MOST_STRIPS):
         raise ArgumentError(
             f"strips is {strips!r}; wanted a whole number from {FEWEST_STRIPS} to {MOST_STRIPS}"
         )
-    if channel is not None and not (len(channel) == 2 and channel[0] > 1.0 and channel[1] >= 0.0):
+    if channel is not None and not (
+        _is_pair(channel) and 1.0 < channel[0] < math.inf and 0.0 <= channel[1] < math.inf
+    ):
         raise ArgumentError(
             f"channel is {channel!r}; wanted a height above 1 and a tip gap from 0 on (chords)"
         )
+
+
+def _is_pair(value: object) -> bool:
+    return isinstance(value, tuple | list) and len(value) == 2
+
+
+def _is_whole(value: object) -> bool:
+    return isinstance(value, int | np.integer) and not isinstance(value, bool)
 
 
 def _of_beam(
