@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Polygon
@@ -22,6 +23,7 @@ from equisection.analysis.grid_study import grid_study
 from equisection.analysis.summary import summarise
 from equisection.figures import (
     courant_number,
+    critical_speed,
     flow_at_tip,
     growth_rate,
     hysteresis,
@@ -783,6 +785,27 @@ def test_model_with_a_frequency_alone_is_in_the_legend_and_one_point_is_seen():
     lines = [line for line in figure.axes[0].get_lines() if str(line.get_label())[0] != "_"]
     assert len(lines) == 2
     assert all(line.get_marker() == "." for line in lines)
+
+
+def test_what_is_below_the_design_speed_ends_with_the_interval():
+    angles = {"incidence_deg": [0.0, 5.0]}
+    speeds = np.array([[12.0, 4.0]])
+    data = xr.Dataset(
+        {
+            "critical_speed": (("model", "incidence_deg"), speeds),
+            "speed_low": (("model", "incidence_deg"), speeds),
+            "critical_mechanism": (("model", "incidence_deg"), [["flutter", "flutter"]]),
+        },
+        {"model": ["3d"], **angles},
+        {"basis": "eigenvalue", "polar": "plate"},
+    )
+    ends = {"speed": speeds[0], "speed_low": speeds[0], "speed_from": [9.0, 3.0]}
+    table = pd.DataFrame({"model": "3d", **angles, **ends, "speed_to": [15.0, 5.0]})
+    figure = critical_speed.draw(data, table, 10.0)
+    marked = [line for line in figure.axes[0].collections if isinstance(line, LineCollection)][-1]
+    tops = [float(segment[:, 1].max()) for segment in marked.get_segments()]
+    assert tops == [10.0, 5.0]
+    assert "interval below the design speed" in words(figure)
 
 
 def test_limit_cycles_of_a_learnt_model_have_a_panel_and_words():

@@ -129,7 +129,8 @@ def _interval(
                 linewidth=0.0,
             )
         under = low < design_speed
-        axes.vlines(angle[under], low[under], design_speed, color=ORANGE, linewidth=2.0)
+        ends_there = np.minimum(drawn[under], design_speed)
+        axes.vlines(angle[under], low[under], ends_there, color=ORANGE, linewidth=2.0)
         seen.add(_BELOW_DESIGN)
     return seen
 
