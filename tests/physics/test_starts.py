@@ -207,9 +207,11 @@ def test_section_without_equilibrium_is_released_undeformed_and_says_so():
     beyond, before = speed_of(PLATE, 1.2), speed_of(PLATE, 8.0)
     lost = release(PLATE, polar, speed=beyond, from_equilibrium=True, **settings)
     assert WITHOUT in lost.attrs["reason"]
+    assert lost.attrs["start_state"] == "rigid"
     assert np.degrees(lost["twist"].values[0]) == pytest.approx(0.2)
     kept = release(PLATE, polar, speed=before, from_equilibrium=True, **settings)
     assert WITHOUT not in kept.attrs["reason"]
+    assert kept.attrs["start_state"] == "equilibrium"
     assert np.degrees(kept["twist"].values[0]) > 0.3
     with pytest.raises(ArgumentError, match="from_equilibrium is True; wanted start_twist_deg"):
         release(PLATE, polar, speed=before, incidence_deg=1.0, from_equilibrium=True)

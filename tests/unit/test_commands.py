@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import sys
 from pathlib import Path
@@ -187,6 +188,17 @@ class TestInit:
         assert main(["init", "mine", "--like", "plate"]) == 1
         assert "mine.yaml: is there already" in capsys.readouterr().err
         assert Path("mine.yaml").read_text() == "run: precious\n"
+
+    def test_answers_that_end_before_the_questions_write_nothing(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
+        terminal = io.StringIO("")
+        monkeypatch.setattr(terminal, "isatty", lambda: True)
+        monkeypatch.setattr(sys, "stdin", terminal)
+        assert main(["init", "mine"]) == 1
+        assert "nothing is written" in capsys.readouterr().err
+        assert not list(tmp_path.iterdir())
 
     def test_the_name_may_be_that_of_the_file(
         self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

@@ -272,13 +272,15 @@ def _init(options: argparse.Namespace) -> None:
 
     given = {"chord": options.chord, "length": options.length, "design_speed": options.design_speed}
     values = {name: value for name, value in given.items() if value is not None}
+    name = options.name.removesuffix(".yaml")
+    file = Path(f"{name}.yaml")
     like = options.like
     if like is None:
         if not sys.stdin.isatty():
             raise StarterError(f"--like is missing; allowed are {', '.join(LIKE)}")
+        if file.exists():
+            raise StarterError(f"{file}: is there already; give another name")
         like, values = asked(values)
-    name = options.name.removesuffix(".yaml")
-    file = Path(f"{name}.yaml")
     text = starter(like, name, file, examples_folder(start.project_of_package()), values)
     try:
         with file.open("x", encoding="utf-8") as written:

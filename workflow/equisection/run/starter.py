@@ -47,7 +47,20 @@ def examples_folder(project: Path | None) -> Path:
 
 
 def asked(known: Mapping[str, float]) -> tuple[str, dict[str, float]]:
-    """Ask at the terminal what the beam is like, and for the dimensions that are not known."""
+    """Ask at the terminal what the beam is like, and for the dimensions that are not known.
+
+    Raises
+    ------
+    StarterError
+        The answers end before the questions.
+    """
+    try:
+        return _answers(known)
+    except EOFError:
+        raise StarterError("no answer; nothing is written (--like asks for nothing)") from None
+
+
+def _answers(known: Mapping[str, float]) -> tuple[str, dict[str, float]]:
     # Imported here, for only a terminal needs it.
     from rich.prompt import FloatPrompt, Prompt  # noqa: PLC0415
 

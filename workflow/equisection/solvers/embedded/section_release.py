@@ -13,6 +13,7 @@ from equisection.beam.section import Section
 from equisection.config.groups import Unsteady
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
+from equisection.solvers.embedded.equilibrium_start import WITHOUT
 from equisection.solvers.embedded.releases import ReleaseSettings, release_judged
 from equisection.solvers.verdicts import Judge
 from equisection.verdict import Criteria
@@ -132,6 +133,7 @@ def release(
     result = release_judged([flowing], [judge], loads, settings, from_equilibrium=from_equilibrium)[
         0
     ]
+    is_rigid = not from_equilibrium or WITHOUT in result.verdict["reason"]
     dataset = result.to_dataset(section.chord)
     convective = dataset["time"].variable
     seconds = convective.values * section.chord / speed
@@ -142,7 +144,7 @@ def release(
         incidence_deg=incidence_deg,
         start_twist_deg=start_twist_deg,
         start_heave_rate=start_heave_rate,
-        start_state="equilibrium" if from_equilibrium else "rigid",
+        start_state="rigid" if is_rigid else "equilibrium",
         speed=speed,
         density=density,
         k_star=section.k_star(density, speed),
