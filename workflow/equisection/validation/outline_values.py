@@ -105,8 +105,8 @@ def _moved_plate() -> list[KnownValue]:
             _THEODORSEN,
             partial(_size_of_moved, load, row),
             0.05 if load.startswith("lift") else 0.1,
-            "coarse mesh, a plate of 2 % thickness with a boundary layer; the moment hangs on where "
-            "the lift acts, too",
+            "coarse mesh, a plate of 2 % thickness with a boundary layer; the moment hangs on "
+            "where the lift acts, too",
         )
         for row, velocity in enumerate(VELOCITIES)
         if velocity in (3.0, 12.0)
