@@ -20,5 +20,5 @@ ENV PATH=/opt/equisection/.venv/bin:$PATH \
     PYTHONDONTWRITEBYTECODE=1 \
     MPLCONFIGDIR=/tmp/matplotlib \
     XDG_CACHE_HOME=/tmp/cache
-WORKDIR /work
+WORKDIR /study
 CMD ["equisection", "--help"]

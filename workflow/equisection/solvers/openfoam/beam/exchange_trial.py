@@ -1,7 +1,7 @@
 """One step of a coupled beam, which shows that OpenFOAM and the structure understand each other.
 
 OpenFOAM's ``lumpedPointMovement`` was written anew after v1912. Its later forms are known here from
-their published sources (OpenCFD, 2023 and 2026) and were not run. So the first step of each run
+their published sources (OpenCFD, v2312 and later) and were not run. So the first step of each run
 shows that loads and places mean the same on both sides: the lumped points add up to the lift and
 the moment of the steady flow, and the faces of the beam go where the points carry them.
 """
