@@ -292,7 +292,7 @@ MALFORMED = [
         {"compute": False, "sweep": {"onset": "refine"}},
         "sweep.onset",
         "'refine'",
-        "'sweep' where compute is false",
+        "'sweep' or 'model' where compute is false",
     ),
     ({"steady": {"incidence_deg": [0, 1]}}, "steady.incidence_deg", "[0, 1]", "of 4 or more"),
     (
