@@ -252,6 +252,15 @@ def test_strip_beyond_the_polar_has_no_forces() -> None:
         generalised_forces_of(moved_beam(raw, "torsion1"))
 
 
+def test_mean_twist_beyond_the_polar_is_named() -> None:
+    """There is no steady flow to begin with, so no incidence that could be told."""
+    far = {**RAW, "forced": {**RAW["forced"], "twist_deg": 80.0}}
+    with pytest.raises(
+        ResultFileError, match=r"leaves polar 'thin flat plate', .*forced\.twist_deg"
+    ):
+        generalised_forces_of(moved_beam(far, "bending1"))
+
+
 def test_more_modes_than_there_are_is_refused() -> None:
     with pytest.raises(ConfigError, match=r"forced\.beam_modes: 5: allowed is 0 to 4"):
         load_config({"forced": {"beam_modes": 5}})

@@ -136,9 +136,14 @@ def _columns(system: StripSystem, motion: ModalMotion) -> Floats:
                 x = seen[place] + probe[:, m:size] @ state + probe[:, size:-1] @ guess
                 guess = system.deficits(x[None])[0]
             if not np.isfinite(guess).all():
-                bubbles = x[: layout.strips]
-                system.loads.branches.polar.require(float(bubbles[np.abs(bubbles).argmax()]))
-                raise IncidenceOutOfRangeError("the motion leaves the section polar")
+                polar, bubbles = system.loads.branches.polar, x[: layout.strips]
+                if np.isfinite(bubbles).all():
+                    polar.require(float(bubbles[np.abs(bubbles).argmax()]))
+                low, high = np.degrees(polar.incidence_range)
+                raise IncidenceOutOfRangeError(
+                    f"the motion leaves polar {polar.label!r}, which covers {low:.4g} to "
+                    f"{high:.4g} deg; extend the polar"
+                )
             u = guess
             state = without + new[:, of_deficits] @ u
         found[place, m:size], found[place, size:-1] = state, u

@@ -49,7 +49,7 @@ def forced_beam(
         found = prescribed_loads(system, _motion(case, time, step))
     except IncidenceOutOfRangeError as error:
         nothing = np.empty(0)
-        failure = f"{error}; make forced.amplitude_deg smaller, or extend the polar"
+        failure = f"{error}; or make forced.amplitude_deg or forced.twist_deg smaller"
         return ForcedResult(nothing, nothing, nothing, nothing, nothing, failure)
     return ForcedResult(
         time[kept],

@@ -48,7 +48,7 @@ def forced_section(
         for incidence in (found.effective_incidence.min(), found.effective_incidence.max()):
             loads.branches.polar.require(float(incidence))
     except IncidenceOutOfRangeError as error:
-        failure = f"{error}; make forced.amplitude_deg smaller, or extend the polar"
+        failure = f"{error}; or make forced.amplitude_deg smaller"
     return ForcedResult(
         time[kept],
         twist[kept],

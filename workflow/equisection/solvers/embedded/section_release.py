@@ -133,7 +133,7 @@ def release(
     result = release_judged([flowing], [judge], loads, settings, from_equilibrium=from_equilibrium)[
         0
     ]
-    is_rigid = not from_equilibrium or WITHOUT in result.verdict["reason"]
+    is_rigid = not from_equilibrium or WITHOUT in str(result.verdict["reason"])
     dataset = result.to_dataset(section.chord)
     convective = dataset["time"].variable
     seconds = convective.values * section.chord / speed
