@@ -205,8 +205,8 @@ def _add_start(commands: Any) -> None:
     init = commands.add_parser(
         "init",
         help="a configuration to start from",
-        description="Write a configuration with comments, that of an example with another name. On "
-        "a terminal the example and the dimensions are asked for where they are not given.",
+        description="Write a configuration with comments, that of an example with another name. "
+        "Without --like, example and dimensions are asked for on a terminal.",
     )
     init.add_argument("name", metavar="NAME", help="name of the run; the file is NAME.yaml")
     init.add_argument("--like", choices=LIKE, help="what the beam is like")
