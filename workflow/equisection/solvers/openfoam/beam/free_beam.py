@@ -323,7 +323,7 @@ def require_version(installation: Installation) -> None:
         raise SolverError(
             f"OpenFOAM {installation.version()}: the coupled plate is written for "
             f"{_VERSION}, whose lumpedPointMovement reads other dictionaries than later ones; "
-            "run it there, or leave the model 3d out of sweep.models"
+            "run it there, or leave the model 3d out of sweep.models, and forced.beam_modes at 0"
         )
 
 
