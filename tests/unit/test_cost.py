@@ -58,7 +58,7 @@ def test_work_grows_with_mesh_steps_and_iterations() -> None:
 
 
 def test_work_of_a_beam_of_an_outline_counts_its_layers() -> None:
-    """NACA 0012 of 3.7 c by gmsh: some 80,600 cells in the channel, and 371,802 in free air of 30 c."""
+    """NACA 0012 of 3.7 c by gmsh: 80,600 cells in the channel, 371,802 in free air of 30 c."""
     wing = {**OPENFOAM, "steady": {"study": []}, "openfoam": {"mesher": "outline"}}
     section = {"bending_rigidity": 1.0, "torsional_rigidity": 1.0, "mass_per_length": 1.0}
     wing["beam"] = {
