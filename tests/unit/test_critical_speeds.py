@@ -4,12 +4,14 @@ import math
 
 import pandas as pd
 import pytest
+import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.analysis.critical_speeds import (
     COLUMNS,
     from_eigenvalues,
+    from_learnt,
     from_runs,
     in_words,
     with_margin,
@@ -106,6 +108,22 @@ def test_open_brackets_say_what_is_known(
     assert math.isnan(found.loc[0, "speed"])
     assert said in in_words(found)[0]
     assert found.loc[0, "mechanism"] == mechanism
+
+
+@pytest.mark.parametrize(("beyond", "mechanism"), [(0.01, "flutter"), (math.nan, "unknown")])
+def test_release_of_a_model_that_leaves_at_once_tells_no_mechanism(
+    beyond: float, mechanism: str
+) -> None:
+    """Next to the onset at k* 7 its growth is infinite, which a file holds as not known."""
+    values = {"growth_rate": [0.02, beyond, -0.01], "frequency_strouhal": [0.14, 0.15, 0.16]}
+    data = xr.Dataset(
+        {"k_star": ("speed", [5.0, 6.0, 8.0])} | {k: ("speed", v) for k, v in values.items()},
+        {"speed": [3.0, 2.0, 1.0]},
+        {"model": "2d", "incidence_deg": 2.5, "onset_k_star": 7.0}
+        | {f"onset_k_star_{end}": math.nan for end in ("low", "high")},
+    )
+    table = from_learnt([data], given=AS_GIVEN["given"], chord=0.1)
+    assert table.loc[0, "mechanism"] == mechanism
 
 
 @pytest.mark.parametrize(

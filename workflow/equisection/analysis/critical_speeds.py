@@ -162,13 +162,26 @@ def from_learnt(learnt: Iterable[xr.Dataset], *, given: AsGiven, chord: float) -
                 "speed": speed,
                 "speed_low": given.speed_at(most),
                 "speed_high": given.speed_at(least),
-                "mechanism": "flutter" if math.isfinite(k_star) else "unknown",
+                "mechanism": _learnt_mechanism(data, k_star),
                 "frequency_hz": strouhal * speed / chord,
                 "k_star": k_star,
                 "basis": MODEL,
             }
         )
     return pd.DataFrame(rows, columns=list(BEFORE_MARGIN))
+
+
+def _learnt_mechanism(data: xr.Dataset, k_star: float) -> str:
+    """Return the mechanism of the onset of a learnt model.
+
+    A release that oscillates at a growth rate flutters. One that leaves at once, next to the onset,
+    has no growth rate, and may have diverged.
+    """
+    if not math.isfinite(k_star):
+        return Mechanism.UNKNOWN
+    known = data.set_coords("k_star")["growth_rate"].sortby("k_star")
+    beyond = known.values[known["k_star"].values < k_star][-1:]
+    return Mechanism.UNKNOWN if np.isnan(beyond).any() else Mechanism.FLUTTER
 
 
 def from_eigenvalues(
