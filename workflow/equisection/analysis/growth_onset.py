@@ -133,5 +133,5 @@ def zero_of_line(value: Floats, rate: Floats, error: Floats) -> GrowthOnset:
         half = a * b - variance[0, 1]
         root = math.sqrt(max(half**2 - square * (a**2 - variance[0, 0]), 0.0))
         low, high = np.exp(middle + np.sort((np.array([-root, root]) - half) / square))
-    ends = (float(end) if 0.0 < end < math.inf else math.nan for end in (low, high))
-    return GrowthOnset(zero, *ends, runs=value.size)
+    low, high = (float(end) if 0.0 < end < math.inf else math.nan for end in (low, high))
+    return GrowthOnset(zero, low, high, value.size)
