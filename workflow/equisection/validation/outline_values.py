@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 
+from equisection.aerodynamics.derivatives import Derivatives
+from equisection.analysis.forced_derivatives import derivatives_of
+from equisection.cases import ForcedCase
 from equisection.results.netcdf import read_dataset
+from equisection.store.kept import kept_results
 from equisection.validation.known_values import KnownValue, Source
 
 _KEPT = Path(__file__).parents[3] / "results" / "reference"
@@ -22,8 +26,19 @@ _LOCKARD = Source(
     "Lockard, Luo, Milder and Singer, Journal of Statistical Physics 107, 2002, by CFL3D (0.1741) "
     "and PowerFLOW (0.1717)",
 )
+_THEODORSEN = Source("published", "Theodorsen, NACA Report 496, 1935")
 _SYMMETRY = Source("independent", "symmetry of section and flow")
 
+_MOVED = "Thin plate moved in pitch and heave by OpenFOAM, Re 1.3e5"
+#: Reduced velocities V/(f c) of the kept forced motion.
+VELOCITIES = (3.0, 4.5, 7.0, 12.0)
+#: Motion and load, and the derivatives that are real and imaginary part of it.
+_LOADS = {
+    "lift by heave": (0, 3),
+    "lift by pitch": (1, 2),
+    "moment by heave": (4, 7),
+    "moment by pitch": (5, 6),
+}
 _AIRFOIL, _SLOW = "NACA 0012 by OpenFOAM, Re 3.4e5", "NACA 0012 by OpenFOAM, Re 500, laminar"
 
 
@@ -56,8 +71,51 @@ def _negative_over_positive(name: str) -> float:
     return kept_load(f"{name}_a-4", "cl") / kept_load(f"{name}_a4", "cl")
 
 
+@cache
+def _of_moved_plate() -> Derivatives:
+    """Return the flutter derivatives of the plate whose forced motion is kept."""
+    kept = kept_results(_KEPT / "thin-plate-forced")
+    return derivatives_of(
+        {
+            one.path.stem: (ForcedCase.model_validate(one.case), read_dataset(one.path))
+            for one in kept
+        }
+    ).derivatives
+
+
+def _size(derivatives: Derivatives, load: str, row: int) -> float:
+    """Return |real + i imaginary| of a load in a row."""
+    real, imaginary = (float(derivatives.values[row, at]) for at in _LOADS[load])
+    return abs(complex(real, imaginary))
+
+
+def _size_of_moved(load: str, row: int) -> float:
+    return _size(_of_moved_plate(), load, row)
+
+
+def _moved_plate() -> list[KnownValue]:
+    """Return the loads of a thin plate in motion: size of each pair of its derivatives."""
+    known = Derivatives.theodorsen(VELOCITIES)
+    return [
+        KnownValue(
+            _MOVED,
+            f"{load}, V/(f c) = {velocity:g}",
+            "-",
+            _size(known, load, row),
+            _THEODORSEN,
+            partial(_size_of_moved, load, row),
+            0.05 if load.startswith("lift") else 0.1,
+            "coarse mesh, a plate of 2 % thickness with a boundary layer; the moment hangs on "
+            "where the lift acts, too",
+        )
+        for row, velocity in enumerate(VELOCITIES)
+        if velocity in (3.0, 12.0)
+        for load in _LOADS
+    ]
+
+
 def outline_values() -> list[KnownValue]:
-    """Return known loads of an airfoil."""
+    """Return known loads of an airfoil and of a thin plate."""
     coarse = "coarse mesh, of some 1e4 cells"
     return [
         KnownValue(
@@ -94,4 +152,5 @@ def outline_values() -> list[KnownValue]:
             )
             for code, known in (("CFL3D", 0.1741), ("PowerFLOW", 0.1717))
         ),
+        *_moved_plate(),
     ]

@@ -39,8 +39,9 @@ COLUMNS = (
 
 
 def kept_runs(folder: Path) -> pd.DataFrame:
-    """Return a line for each unsteady result below a folder that has its case and has not failed.
+    """Return a line for each release of the paper's plate below a folder that has not failed.
 
+    Releases of other beams, which are kept too, are those with an outline of their own.
     ``model`` is the name of the folder that a result is in, ``folder`` that of its run, and
     ``settings`` the words of the solver's settings. ``regime`` and the numbers with it are judged
     by the present rules, whatever those were that a run ended by. ``growth_by_60`` and
@@ -50,7 +51,7 @@ def kept_runs(folder: Path) -> pd.DataFrame:
     """
     rows = []
     for kept in kept_results(folder):
-        if kept.case.get("kind") == FREE.folder:
+        if kept.case.get("kind") == FREE.folder and "outline" not in kept.case["geometry"]:
             solver = kept.case["solver"]
             row: dict[str, Any] = {name: kept.attributes.get(name) for name in COLUMNS}
             row |= {
@@ -127,6 +128,7 @@ def cost_ladder(runs: pd.DataFrame, embedded: pd.DataFrame) -> pd.DataFrame:
             continue
         chosen = json.loads(str(settings))
         motion = ", overset" if chosen.get("mesh_motion") == "overset" else ""
+        motion += ", mesh of outlines" if chosen.get("mesher") else ""
         rows.append(
             {
                 "what": f"{str(dimension).upper()} OpenFOAM, {resolution}, "
