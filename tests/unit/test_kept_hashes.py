@@ -34,7 +34,8 @@ KEPT = [
 def test_there_are_cases_of_every_kind_and_dimension() -> None:
     cases = [json.loads(param.values[0]) for param in KEPT]  # type: ignore[arg-type]
     kinds = {(case["kind"], case["dimension"]) for case in cases}
-    assert kinds == {(kind, dim) for kind in ("steady", "unsteady") for dim in ("2d", "3d")}
+    wanted = {(kind, dim) for kind in ("steady", "unsteady") for dim in ("2d", "3d")}
+    assert kinds == {*wanted, ("forced", "2d")}
     assert len(cases) >= 119
 
 
