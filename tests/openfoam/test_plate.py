@@ -29,6 +29,7 @@ from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.openfoam.beam import free_beam as plate_free
 from equisection.solvers.openfoam.beam import rigid_beam as plate_rigid
 from equisection.solvers.openfoam.beam.free_beam import PlateRun
+from equisection.solvers.openfoam.beam.lumped_points import LumpedPoints
 from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_mesh_of
 from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import Installation
@@ -440,16 +441,48 @@ def test_plate_that_diverges_ends_before_it_meets_the_wall(
     assert re.search(r"c/V the tip's twist was .* deg, its deflection", result.verdict["reason"])
 
 
-def test_other_versions_are_refused(installation: Installation, tmp_path: Path) -> None:
-    later = LaterVersion(installation.prefix, installation.environment)
-    run = PlateRun(later, free(1.0), plate_mesh_of(free(1.0), VERY_COARSE), COUPLING, tmp_path, 1)
-    with pytest.raises(SolverError, match=r"OpenFOAM v2312: .* v1912"):
-        run.run(nothing)
+class AnotherVersion(Installation):
+    """Says that it is another version than it is."""
 
+    said = "v2312"
 
-class LaterVersion(Installation):
     def version(self) -> str:
-        return "v2312"
+        return self.said
+
+
+def test_later_version_is_tried_by_its_first_step(
+    installation: Installation, steady: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The trial passes where both sides understand each other, and tells where they do not."""
+    later = AnotherVersion(installation.prefix, installation.environment)
+    (tmp_path / "steady").symlink_to(steady / "steady")
+    run = run_of(later, free(0.04), tmp_path, steady)
+    assert run.run(nothing).time[-1] == pytest.approx(0.02)
+    assert not (tmp_path / "trial").exists()
+
+    monkeypatch.setattr(LumpedPoints, "message", lambda points, position: upside_down(points))
+    again = run_of(later, free(0.04), tmp_path, steady)
+    with pytest.raises(
+        SolverError, match=r"OpenFOAM v2312, .*: points of the mesh on the beam are up"
+    ):
+        again.run(nothing)
+
+
+def upside_down(points: LumpedPoints) -> str:
+    """Return a message that has the twist nose down."""
+    angle = np.radians(0.1) * points.twist(points.release(1.0, 0.0)[0])
+    rows = [f"0 0 {z} {a} 0 0" for z, a in zip(points.locations, angle, strict=True)]
+    return "\n".join([str(len(rows)), *rows, ""])
+
+
+def test_versions_of_which_nothing_is_known_are_refused(
+    installation: Installation, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(AnotherVersion, "said", "v2112")
+    other = AnotherVersion(installation.prefix, installation.environment)
+    run = PlateRun(other, free(1.0), plate_mesh_of(free(1.0), VERY_COARSE), COUPLING, tmp_path, 1)
+    with pytest.raises(SolverError, match=r"OpenFOAM v2112: .* v1912 .* v2306 to v2606"):
+        run.run(nothing)
 
 
 def solver_of(folder: Path) -> int:

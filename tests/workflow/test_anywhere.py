@@ -90,16 +90,23 @@ def test_results_are_in_the_working_directory_and_of_the_same_cases(
 # -- as a module -----------------------------------------------------------------------------
 
 
-def module(here: Path, clone: Path, directive: str, config: dict[str, object]) -> None:
+def module(
+    here: Path,
+    clone: Path,
+    directive: str,
+    config: dict[str, object],
+    snakefile: str = "",
+) -> None:
     """Write another workflow with this one as a module."""
     write(here, {"theirs": 1, "equisection": config})
+    snakefile = snakefile or repr(str(clone / "workflow" / "Snakefile"))
     (here / "Snakefile").write_text(
         f"""
 configfile: "my.yaml"
 
 
 module equisection:
-    snakefile: {str(clone / "workflow" / "Snakefile")!r}
+    snakefile: {snakefile}
     config: config["equisection"]
     {directive}
 
@@ -148,6 +155,24 @@ def test_module_without_one(clone: Path, tmp_path: Path, directive: str, results
     planned = finished(snakemake(tmp_path, clone, "-n"))
     assert jobs_planned(planned)["eq_refine_onset"] == 3
     assert f"{results}/small/unsteady/2d/sweep.json" in planned
+
+
+def test_module_from_a_tag(clone: Path, tmp_path: Path) -> None:
+    """Rules that Snakemake takes out of a repository, as those of `github(..., tag=...)`."""
+    repository, here = tmp_path / "repository", tmp_path / "here"
+    for part in ("envs", "scripts", "workflow"):
+        shutil.copytree(clone / part, repository / part)
+    git = ("git", "-C", str(repository), "-c", "user.name=t", "-c", "user.email=t@example.org")
+    for words in (("init", "-q"), ("add", "-A"), ("commit", "-qm", "all"), ("tag", "v0.1.0")):
+        subprocess.run([*git, *words], check=True)
+    # what comes behind the tag is not taken
+    (repository / "workflow" / "Snakefile").write_text("what stands here is no workflow\n")
+    subprocess.run([*git, "commit", "-qam", "another"], check=True)
+    source = f'gitfile({str(repository)!r}, path="workflow/Snakefile", tag="v0.1.0")'
+    module(here, clone, 'prefix: "eq"', small(sweep=SWEEP), source)
+    made = f"eq/results/small/{STEADY}"
+    finished(snakemake(here, clone, "--cores", "1", made))
+    assert (here / made).is_file()
 
 
 def test_module_that_runs_its_cases_one_by_one(clone: Path, tmp_path: Path) -> None:

@@ -26,6 +26,7 @@ from equisection.solvers.openfoam.beam.deformed_mesh import deform_mesh
 from equisection.solvers.openfoam.beam.free_beam import (
     last_common_state,
     require_version,
+    try_unless_run_before,
     write_coupled_system,
 )
 from equisection.solvers.openfoam.beam.lumped_points import (
@@ -114,6 +115,8 @@ class ForcedPlateRun(MovingRun[ForcedCase, BeamCells]):
             if not is_ready(self.folder):
                 self._set_up(tell)
             start = last_common_state(self.folder)
+            if not start:
+                try_unless_run_before(self, self.points, self.position(0.0))
             if start < self.case.duration:
                 self._go_on(start, tell)
         except BlowUpError as error:

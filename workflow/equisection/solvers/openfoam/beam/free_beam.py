@@ -32,6 +32,7 @@ from equisection.solvers.openfoam.beam.beam_history import (
     require_state,
 )
 from equisection.solvers.openfoam.beam.deformed_mesh import deform_mesh
+from equisection.solvers.openfoam.beam.exchange_trial import try_exchange
 from equisection.solvers.openfoam.beam.lumped_points import (
     Handed,
     LumpedPoints,
@@ -68,7 +69,7 @@ from equisection.solvers.openfoam.process import (
     run_program,
 )
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
-from equisection.solvers.openfoam.reading.loads import BEYOND_REASON
+from equisection.solvers.openfoam.reading.loads import BEYOND_REASON, read_loads
 from equisection.solvers.openfoam.reading.sampled_tip_flow import Pose, sample_tip_flow
 from equisection.solvers.openfoam.rigid_flow import Tell
 from equisection.solvers.openfoam.section.rigid_section import require_sound_mesh
@@ -89,8 +90,8 @@ logger = logging.getLogger(__name__)
 
 Floats = NDArray[np.float64]
 
-#: The version whose ``lumpedPointMovement`` the dictionaries are written for.
-_VERSION = "v1912"
+#: The version that the coupled beam was run on, and later ones, known by their sources.
+_RUN, _READ = "v1912", range(2306, 2607)
 #: Room that must be left between the plate and floor or ceiling (chords).
 _ROOM = 0.1
 
@@ -144,6 +145,8 @@ class PlateRun(FreeRun[BeamCells]):
             if not is_ready(self.folder):
                 self._set_up(tell)
             start = last_common_state(self.folder)
+            if not start:
+                try_unless_run_before(self, self.points, self.release[0])
             if start < case.duration and not (start and self._is_over()):
                 self._go_on(start, tell)
         except BlowUpError as error:
@@ -312,26 +315,77 @@ class PlateRun(FreeRun[BeamCells]):
 
 
 def require_version(installation: Installation) -> None:
-    """Refuse a version of OpenFOAM whose lumped points read other dictionaries.
+    """Refuse a version of OpenFOAM of whose ``lumpedPointMovement`` nothing is known.
 
     Raises
     ------
     SolverError
-        It is another one than the dictionaries are written for.
+        It is neither the one that was run nor one whose sources are known.
     """
-    if installation.version() != _VERSION:
+    version = installation.version()
+    if version != _RUN and version not in {f"v{number}" for number in _READ}:
         raise SolverError(
-            f"OpenFOAM {installation.version()}: the coupled plate is written for "
-            f"{_VERSION}, whose lumpedPointMovement reads other dictionaries than later ones; "
-            "run it there, or leave the model 3d out of sweep.models"
+            f"OpenFOAM {version}: the coupled beam runs on {_RUN} and, with a trial of its first "
+            f"step, on v{_READ[0]} to v{_READ[-1]}; lumpedPointMovement of others may read other "
+            "dictionaries; run it there, or leave the model 3d out of sweep.models"
         )
 
 
-def write_coupled_system(run: MovingRun[CaseT, BeamCells]) -> None:
-    """Write what controls a run; its end may differ from that of an earlier start."""
+def try_unless_run_before(
+    run: MovingRun[CaseT, BeamCells], points: LumpedPoints, position: Floats
+) -> None:
+    """Try the exchange with a version that the coupled beam was not run on.
+
+    Parameters
+    ----------
+    run
+        The run, at time 0.
+    position
+        Position of the modes there.
+
+    Raises
+    ------
+    SolverError
+        The trial failed.
+    """
+    if run.installation.version() == _RUN:
+        return
+    loads = read_loads(run.work / "steady")
+    step = run.case.time_step
+    try_exchange(
+        run.installation,
+        run.folder,
+        points,
+        position,
+        steady=(float(loads.lift[-1]), float(loads.moment[-1])),
+        write_system=lambda folder: write_coupled_system(run, folder, step, step),
+    )
+
+
+def write_coupled_system(
+    run: MovingRun[CaseT, BeamCells],
+    folder: Path | None = None,
+    end: float | None = None,
+    write_every: float | None = None,
+) -> None:
+    """Write what controls a run; its end may differ from that of an earlier start.
+
+    Parameters
+    ----------
+    folder
+        Folder, by default that of the run.
+    end
+        End (c/V), by default that of the case.
+    write_every
+        Interval of the states (c/V), by default that of every run.
+    """
     case = run.case
     entries = plate_control(
-        "pimpleFoam", case.duration, case.time_step, STATE_INTERVAL, run.mesh.span
+        "pimpleFoam",
+        end or case.duration,
+        case.time_step,
+        write_every or STATE_INTERVAL,
+        run.mesh.span,
     )
     entries["libs"] = ['"liblumpedPointMotion.so"']
     solution = flow.unsteady_solution(run.coupling)
@@ -339,7 +393,7 @@ def write_coupled_system(run: MovingRun[CaseT, BeamCells]) -> None:
     solution["solvers"] |= motion_solvers(of_outline=of_outline)
     schemes = flow.schemes(steady=False)
     schemes["laplacianSchemes"] |= motion_schemes()
-    write_system(run.folder, entries, schemes, solution)
+    write_system(folder or run.folder, entries, schemes, solution)
 
 
 def last_common_state(folder: Path) -> float:

@@ -46,6 +46,8 @@ _OF_BEAM = ("imbalance", "bending_damping", "torsion_damping", "elastic_axis")
 _ITERATIONS = 4
 #: The same of the cells around an outline, of any shape.
 _ITERATIONS_OF_OUTLINE = 20
+#: Name of all points together, in versions after v1912.
+_CONTROLLER = "beam"
 #: A shape that is less than this at the tip, relative to its largest, is held there.
 _HELD = 1e-6
 
@@ -320,6 +322,9 @@ def write_lumped_motion(
 ) -> None:
     """Write the files that move the mesh of a case, divided or not.
 
+    The dictionary has the keys of v1912 and those of later versions, as their published sources
+    read them; what a version does not know it leaves alone.
+
     Parameters
     ----------
     comms
@@ -328,12 +333,17 @@ def write_lumped_motion(
     is_deformed
         The displacement of the mesh at time 0 is there already. Otherwise the plate is at rest.
     """
+    places = tuple((0.0, 0.0, float(location)) for location in points.locations)
     movement = {
+        # v1912 reads these five
         "axis": (0, 0, 1),
         "locations": tuple(map(float, points.locations)),
         "centre": (0, 0, 0),
         "division": 0.5,
         "interpolationScheme": "linear",
+        # later versions these two; faces go to the nearest point, which is that of their layer
+        "points": places,
+        "controllers": {_CONTROLLER: {"pointLabels": tuple(range(len(places)))}},
         "relax": 1.0,
         "forces": {"p": "p", "pRef": 0.0, "rhoRef": 1.0},
         "communication": {
@@ -342,6 +352,8 @@ def write_lumped_motion(
             "waitInterval": 1,
             "timeOut": 100,
             "initByExternal": False,
+            # later versions: loads and places in each iteration of a step, as v1912 has it
+            "calcFrequency": 0,
             "inputFormat": "plain",
             "outputFormat": "plain",
         },
@@ -370,7 +382,11 @@ def _point_displacement() -> str:
     return displacement(
         {
             **{name: {"type": kind} for name, kind in walls.items()},
-            PLATE: {"type": "lumpedPointDisplacement", "value": "uniform (0 0 0)"},
+            PLATE: {
+                "type": "lumpedPointDisplacement",
+                "controllers": (_CONTROLLER,),
+                "value": "uniform (0 0 0)",
+            },
             '"proc.*"': {"type": "processor", "value": "uniform (0 0 0)"},
         }
     )
