@@ -28,6 +28,14 @@ DECK = {
     "mass_per_length": 22740.0,
     "inertia_per_length": 2.5e6,
 }
+#: A beam moved in its modes by OpenFOAM, whose section alone is let go.
+MOVED_BEAM = {
+    "solver": "openfoam",
+    "unsteady": {"time_step": 0.02},
+    "steady": {"beam_polar": "flat-plate"},
+    "sweep": {"models": ["2d"]},
+    "forced": {"run": True, "beam_modes": 1},
+}
 #: The configuration, the key's path, the value as shown, and what is allowed.
 AXES = {"beam": {"cross_section": DECK, "chord": 31, "length": 900, "thickness": 4}}
 MALFORMED = [
@@ -105,6 +113,18 @@ MALFORMED = [
         "openfoam.turbulence",
         "'laminar'",
         "allowed is k-omega-sst with a beam in the flow: leave out the model 3d",
+    ),
+    (
+        {**MOVED_BEAM, "openfoam": {"turbulence": "laminar"}},
+        "openfoam.turbulence",
+        "'laminar'",
+        "allowed is k-omega-sst with forced.beam_modes; or forced.beam_modes: 0",
+    ),
+    (
+        {**MOVED_BEAM, "flow": {"root_on_wall": False}},
+        "flow.root_on_wall",
+        "false",
+        "allowed is true with forced.beam_modes and solver 'openfoam'",
     ),
     (
         {"openfoam": {"turbulence": "laminar", "mesh_motion": "overset"}},

@@ -57,6 +57,23 @@ def test_work_grows_with_mesh_steps_and_iterations() -> None:
     assert openfoam_work("3d", mesh_motion="overset").steps == plate.steps
 
 
+def test_work_of_a_beam_of_an_outline_counts_its_layers() -> None:
+    """NACA 0012 of 3.7 c by gmsh: some 80,600 cells in the channel, and 371,802 in free air of 30 c."""
+    wing = {**OPENFOAM, "steady": {"study": []}, "openfoam": {"mesher": "outline"}}
+    section = {"bending_rigidity": 1.0, "torsional_rigidity": 1.0, "mass_per_length": 1.0}
+    wing["beam"] = {
+        **{"chord": 1.0, "length": 3.7, "thickness": 0.12, "outline": {"naca": "0012"}},
+        "cross_section": {**section, "inertia_per_length": 1.0},
+    }
+    wing["structure"] = {"method": "beam"}
+    in_channel, free = (
+        cost.work_of(load_config({**wing, "flow": flow}), FREE, "3d", "coarse").cells
+        for flow in ({}, {"channel": None})
+    )
+    assert 80_686 < in_channel < 1.25 * 80_686
+    assert 371_802 < free < 1.25 * 371_802
+
+
 @pytest.mark.parametrize(("dimension", "longest"), [("2d", 110.0), ("3d", 70.0)])
 def test_rigid_case_may_go_on_as_long_as_its_record_can_be(dimension: str, longest: float) -> None:
     """The plate's is shorter, for what it costs (openfoam-sweep.md, plate-sweep.md)."""

@@ -1,5 +1,6 @@
 """Rigid flows followed from outside: what counts does not depend on when an end was noticed."""
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +13,6 @@ from equisection.solvers.openfoam import rigid_flow
 from equisection.solvers.openfoam.process import Watch
 from equisection.solvers.openfoam.reading.loads import Loads
 from equisection.solvers.openfoam.rigid_flow import (
-    EVEN,
     FLOOR_OF_OUTLINE,
     ITERATIONS_TO_LOOK,
     MOST,
@@ -21,6 +21,7 @@ from equisection.solvers.openfoam.rigid_flow import (
     follow_unsteady,
     has_converged,
     method_of_mean,
+    of_outline,
 )
 
 RECORD = RigidFlowRecord(10.0, 40.0, 100.0)
@@ -83,7 +84,7 @@ def test_mean_is_of_the_first_record_whose_halves_agree(
     assert record.time[0] > RECORD.discarded
     assert record.time[-1] == pytest.approx(80.0)
     assert record.drift() <= rigid_flow.KNOWN
-    assert "mean of unsteady over 70 c/V" in method_of_mean(record)
+    assert "mean of unsteady over 70 c/V" in method_of_mean(record, RECORD)
 
 
 def test_vortices_that_build_up_do_not_count_as_known(
@@ -97,12 +98,20 @@ def test_vortices_that_build_up_do_not_count_as_known(
     means = replace(RECORD, floor=FLOOR_OF_OUTLINE)
     by_means = follow_unsteady(tmp_path, means, nothing, polled(monkeypatch, whole, 3.3))
     assert by_means.time[-1] == pytest.approx(50.0)
-    even = replace(means, evenness=EVEN)
+    assert "fluctuation" not in method_of_mean(by_means, means)
+    even = of_outline(RECORD)
     record = follow_unsteady(tmp_path, even, nothing, polled(monkeypatch, whole, 3.3))
     assert record.time[-1] == pytest.approx(RECORD.end)
+    halves = (np.sqrt(np.mean(amplitude[500:3000] ** 2)), np.sqrt(np.mean(amplitude[3000:] ** 2)))
+    said = re.search(
+        r"fluctuation (\d+) times as large in the second", method_of_mean(record, even)
+    )
+    assert said
+    assert float(said[1]) == pytest.approx(halves[1] / halves[0], rel=0.05)
     steady = Loads(time, whole.drag, 0.0 * time, 0.0 * time)
     record = follow_unsteady(tmp_path, even, nothing, polled(monkeypatch, steady, 3.3))
     assert record.time[-1] == pytest.approx(50.0)
+    assert "fluctuation" not in method_of_mean(record, even)
 
 
 def test_record_goes_on_to_the_longest(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

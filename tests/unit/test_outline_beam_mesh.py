@@ -27,6 +27,7 @@ from equisection.solvers.openfoam.mesh.extruded_cells import Extrusion
 from equisection.solvers.openfoam.mesh.outline_mesher import PATCHES, patches_of
 from equisection.solvers.openfoam.mesh.plane_cells import PlaneCells
 from equisection.solvers.openfoam.mesh.poly_mesh import read_poly_mesh
+from equisection.solvers.openfoam.reading import contour_places
 from equisection.solvers.openfoam.reading.contour_places import Contour, cut_at
 
 #: A panel of 0.02 c on a tube of 0.07 c that it touches.
@@ -130,8 +131,11 @@ def test_root_away_from_a_wall_is_refused() -> None:
 
 
 @pytest.mark.parametrize("name", SHAPES)
-def test_places_along_a_contour_are_its_arc_length(name: str) -> None:
+def test_places_along_a_contour_are_its_arc_length(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Middles of edges, a little off the contour: sides as long as it, each from nose to tail."""
+    monkeypatch.setattr(contour_places, "_AT_ONCE", 3)
     outline = SHAPES[name]
     after = np.roll(outline.points, -1, axis=0)
     edges = after - outline.points

@@ -59,6 +59,7 @@ RUN_A_SOLVER = (
     "sections_batch",
     "unsteady_batch",
     "unsteady_case",
+    "forced_case",
 )
 
 
@@ -91,6 +92,12 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
         grid_study=plan.has_grid_study(config),
         refine_onset=models * rounds,
     )
+    if config.forced.run and not batches:
+        moved = 2 * (
+            1 if config.forced.motion == "multi-sine" else len(config.forced.reduced_velocity)
+        )
+        jobs.update(forced_case_file=moved, forced_case=moved)
+        jobs.update(("forced_results", "forced_derivatives", "flutter_derivatives"))
     if is_paper_case(config) and with_paper:
         jobs.update((*ONCE_WITH_THE_PAPERS_CASE, *(["rigid_beam_table"] * (dimensions == 2))))
     if batches:

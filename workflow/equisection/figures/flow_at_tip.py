@@ -26,8 +26,6 @@ from equisection.store.index import read_index, result_file
 from equisection.study import plan
 from equisection.study.axes import K_STAR, Point
 
-#: Regimes in which the motion stays bounded.
-
 
 @dataclass(frozen=True)
 class Column:

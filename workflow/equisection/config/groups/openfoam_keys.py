@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from equisection.config.groups.forced_keys import ForcedKeys
 from equisection.config.groups.solver_keys import SolverKeys
 from equisection.keys.checks import Problem, check
 from equisection.keys.values import NUMBER, WHOLE, Name
@@ -192,6 +193,26 @@ def _laminar_section(
             turbulence,
             f"allowed is {SST} with a beam in the flow: leave out the model 3d, and give "
             "steady.beam_polar",
+        )
+
+
+@check("solver", "forced", "openfoam.turbulence", "flow.root_on_wall")
+def _moved_beam_in_the_flow(
+    solver: str, forced: ForcedKeys, turbulence: str, root_on_wall: bool
+) -> Iterator[Problem]:
+    """Refuse a beam that is moved in its modes where there is no flow around a beam."""
+    if solver != "openfoam" or not (forced.run and forced.beam_modes):
+        return
+    without = "or forced.beam_modes: 0, the section alone"
+    if turbulence == LAMINAR:
+        yield Problem(
+            "openfoam.turbulence", turbulence, f"allowed is {SST} with forced.beam_modes; {without}"
+        )
+    if not root_on_wall:
+        yield Problem(
+            "flow.root_on_wall",
+            root_on_wall,
+            f"allowed is true with forced.beam_modes and solver 'openfoam'; {without}",
         )
 
 

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+from equisection.beam.outline import outline_of, rectangle
 from equisection.config import Config
-from equisection.config.groups.openfoam_keys import MORPH
+from equisection.config.groups.openfoam_keys import BLOCKS, MORPH
 from equisection.solvers.openfoam.beam import rigid_beam as plate_rigid
+from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
+from equisection.solvers.openfoam.mesh.outline_beam_mesh import OF_BEAM, OutlineBeamMesh
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
+from equisection.solvers.openfoam.mesh.outline_sizes import TYPICAL_CELLS
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.rigid_flow import MOST, STEP
 from equisection.solvers.openfoam.section import rigid_section as section_rigid
@@ -12,6 +19,8 @@ from equisection.solvers.work import Work
 
 #: What a time step on overset meshes costs, with their cells, over one on the mesh that morphs.
 OVERSET = 2.0
+#: What a cell around an outline costs in an iteration or a step, over one of the mesh of blocks.
+OUTLINE = 2.0
 #: Iterations that a time step takes in the mean where more are allowed: its residuals end them.
 ENOUGH = 4
 
@@ -20,7 +29,7 @@ def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> 
     """Return the work of a rigid case: a steady flow, and an unsteady one if it has none."""
     longest = section_rigid.RECORD if dimension == "2d" else plate_rigid.RECORD
     steps = longest.end / STEP * iterations_of(config.openfoam.outer_correctors)
-    return Work(cells_of(config.openfoam.meshes[resolution], dimension) * cases, MOST, steps)
+    return _work(config, dimension, resolution, cases, steps)
 
 
 def unsteady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
@@ -30,7 +39,7 @@ def unsteady_work(config: Config, dimension: str, resolution: str, cases: int) -
     steps *= iterations_of(section.outer_correctors)
     if dimension == "2d" and section.mesh_motion != MORPH:
         steps *= OVERSET
-    return Work(cells_of(section.meshes[resolution], dimension) * cases, MOST, steps)
+    return _work(config, dimension, resolution, cases, steps)
 
 
 def forced_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
@@ -38,7 +47,17 @@ def forced_work(config: Config, dimension: str, resolution: str, cases: int) -> 
     section = config.openfoam
     steps = config.forced.longest / config.unsteady.time_step
     steps *= iterations_of(section.outer_correctors)
-    return Work(cells_of(section.meshes[resolution], dimension) * cases, MOST, steps)
+    return _work(config, dimension, resolution, cases, steps)
+
+
+def _work(config: Config, dimension: str, resolution: str, cases: int, steps: float) -> Work:
+    times = 1.0 if _is_on_blocks(config) else OUTLINE
+    cells = cells_of_job(config, dimension, resolution) * cases
+    return Work(cells, MOST * times, steps * times)
+
+
+def _is_on_blocks(config: Config) -> bool:
+    return config.beam.outline is None and config.openfoam.mesher == BLOCKS
 
 
 def iterations_of(outer_correctors: int) -> int:
@@ -46,7 +65,28 @@ def iterations_of(outer_correctors: int) -> int:
     return min(outer_correctors, ENOUGH)
 
 
+def cells_of_job(config: Config, dimension: str, resolution: str) -> int:
+    """Return the number of cells of a configuration's mesh; around a beam's outline, at most."""
+    mesh = config.openfoam.meshes[resolution]
+    if dimension == "2d" or _is_on_blocks(config):
+        return cells_of(mesh, dimension)
+    beam, channel, far_field = config.beam, config.flow.channel, config.openfoam.far_field_chords
+    thickness = beam.thickness / beam.chord
+    outline = beam.outline_in_flow(Path.cwd()) or outline_of(rectangle(thickness))
+    # layers go by the cells at the wall, whatever box is around them
+    box, refinement = (
+        ChannelBox(thickness, 2 * far_field, far_field, far_field),
+        PRESETS[mesh].plate,
+    )
+    section = OutlineMesh(outline.as_pairs(), box, 0.0, refinement, OF_BEAM)
+    gap = far_field if channel is None else channel.tip_gap_chords
+    layers = OutlineBeamMesh(section, beam.length / beam.chord, gap)
+    along = layers.edges().size - 1
+    # beyond the tip the outline is filled, by no more cells than there are around it
+    return round(TYPICAL_CELLS * refinement**2 * (2 * layers.layers - along))
+
+
 def cells_of(mesh: str, dimension: str) -> int:
-    """Return the number of cells of a mesh, of the section or of the plate."""
+    """Return the number of cells of a mesh of blocks, of the section or of the plate."""
     preset = PRESETS[mesh]
     return preset.cells if dimension == "2d" else preset.plate_cells

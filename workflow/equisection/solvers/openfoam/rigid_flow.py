@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from equisection.files import write_text
@@ -70,6 +70,11 @@ class RigidFlowRecord:
     def is_known(self, loads: Loads) -> bool:
         """Tell whether the means of loads, without the time left out, are known."""
         return loads.drift(self.floor) <= KNOWN and loads.growth(self.floor) <= self.evenness
+
+
+def of_outline(record: RigidFlowRecord) -> RigidFlowRecord:
+    """Return a record as it is judged on the mesh of an outline."""
+    return replace(record, floor=FLOOR_OF_OUTLINE, evenness=EVEN)
 
 
 def has_converged(loads: Loads) -> bool:
@@ -169,12 +174,16 @@ def follow_unsteady(
     return (loads if part is None else part).since(record.discarded)
 
 
-def method_of_mean(record: Loads, floor: float = FLOOR) -> str:
-    """Return the origin of a record's means in words."""
-    return (
+def method_of_mean(record: Loads, wanted: RigidFlowRecord) -> str:
+    """Return the origin of a record's means in words, and whether its fluctuation still grows."""
+    said = (
         f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
-        f"{100 * record.drift(floor):.2g} % apart"
+        f"{100 * record.drift(wanted.floor):.2g} % apart"
     )
+    growth = record.growth(wanted.floor)
+    if growth <= wanted.evenness:
+        return said
+    return f"{said}, its fluctuation {1 + growth:.2g} times as large in the second"
 
 
 def write_at_rest(folder: Path) -> None:

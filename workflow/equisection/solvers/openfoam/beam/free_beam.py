@@ -327,7 +327,8 @@ def require_version(installation: Installation) -> None:
         raise SolverError(
             f"OpenFOAM {version}: the coupled beam runs on {_RUN} and, with a trial of its first "
             f"step, on v{_READ[0]} to v{_READ[-1]}; lumpedPointMovement of others may read other "
-            "dictionaries; run it there, or leave the model 3d out of sweep.models"
+            "dictionaries; run it there, or leave the model 3d out of sweep.models and "
+            "forced.beam_modes at 0"
         )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -40,7 +40,6 @@ from equisection.solvers.openfoam.reading.span_loads import read_span_loads, sur
 from equisection.solvers.openfoam.rigid_flow import (
     CONVERGED,
     FEWEST,
-    FLOOR_OF_OUTLINE,
     MOST,
     STEP,
     WINDOW,
@@ -50,6 +49,7 @@ from equisection.solvers.openfoam.rigid_flow import (
     follow_unsteady,
     has_converged_around_outline,
     method_of_mean,
+    of_outline,
     write_at_rest,
 )
 from equisection.solvers.openfoam.section.rigid_section import (
@@ -204,7 +204,7 @@ class PlateFlow:
     def _record(self) -> RigidFlowRecord:
         """Record of the unsteady run, by the cells of its mesh."""
         is_of_outline = isinstance(self.mesh, OutlineBeamMesh)
-        return replace(RECORD, floor=FLOOR_OF_OUTLINE) if is_of_outline else RECORD
+        return of_outline(RECORD) if is_of_outline else RECORD
 
     def result(self, tell: Tell) -> SteadyResult:
         """Return the loads of the rigid plate.
@@ -223,7 +223,7 @@ class PlateFlow:
             logger.info("%g deg: the steady solver does not converge", self.case.incidence_deg)
             folder, record = self._unsteady(folder, tell)
             mean = True
-            method = method_of_mean(record, self._record.floor)
+            method = method_of_mean(record, self._record)
         drag, lift, moment = record.means()
         last = states(parts(folder)[0])[-1].name
         span = read_span_loads(folder, last, self.mesh.edges(), mean=mean)

@@ -20,6 +20,8 @@ Floats = NDArray[np.float64]
 _DIGITS = 9
 #: Least cosine between the normal of a face and that of the edge that it is on.
 _LEAST_COSINE = 0.3
+#: Points that are placed at once: each is held against every edge of the contour.
+_AT_ONCE = 1000
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,15 @@ class Contour:
         points, normals
             The points and the outward normals there, shape (m, 2).
         """
+        starts = range(0, max(1, len(points)), _AT_ONCE)
+        parts = [
+            self._place(points[start : start + _AT_ONCE], normals[start : start + _AT_ONCE])
+            for start in starts
+        ]
+        sides, arcs = zip(*parts, strict=True)
+        return np.concatenate(sides), np.concatenate(arcs)
+
+    def _place(self, points: Floats, normals: Floats) -> tuple[NDArray[np.str_], Floats]:
         edges = np.roll(self.points, -1, axis=0) - self.points
         lengths = np.hypot(*edges.T)
         along = edges / lengths[:, None]

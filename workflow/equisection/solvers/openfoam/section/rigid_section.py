@@ -8,7 +8,7 @@ from __future__ import annotations
 import logging
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.beam.outline import outline_of, rectangle
@@ -36,8 +36,6 @@ from equisection.solvers.openfoam.reading.section_surface import (
     surface_of_steady,
 )
 from equisection.solvers.openfoam.rigid_flow import (
-    EVEN,
-    FLOOR_OF_OUTLINE,
     MOST,
     STEP,
     WINDOW,
@@ -48,6 +46,7 @@ from equisection.solvers.openfoam.rigid_flow import (
     has_converged,
     has_converged_around_outline,
     method_of_mean,
+    of_outline,
     write_at_rest,
 )
 
@@ -322,8 +321,7 @@ def unsteady_mean(
     folder = emptied(work / "unsteady")
     copy_flow(source, folder)
     write_at_rest(folder)
-    is_outline = isinstance(mesh, OutlineMesh)
-    wanted = replace(RECORD, floor=FLOOR_OF_OUTLINE, evenness=EVEN) if is_outline else RECORD
+    wanted = of_outline(RECORD) if isinstance(mesh, OutlineMesh) else RECORD
     entries = control("pimpleFoam", wanted.end, STEP, wanted.end)
     entries["functions"] |= averaging(wanted.discarded, SAMPLED)
     write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution(coupling))
@@ -332,6 +330,6 @@ def unsteady_mean(
     )
     drag, lift, moment = record.means()
     surface = surface_of_mean(folder, mesh)
-    method = method_of_mean(record, wanted.floor)
+    method = method_of_mean(record, wanted)
     found = Fluctuation.of(record.time, record.drag, record.lift, record.moment)
     return RigidLoads(drag, lift, moment, method, surface, found)
