@@ -27,7 +27,7 @@ from equisection.analysis.reduced_model import (
     predicted_onset,
 )
 from equisection.beam.section import Section
-from equisection.errors import ArgumentError
+from equisection.errors import ArgumentError, ResultFileError
 from equisection.motion.learnt_motion import LearntSections
 from equisection.motion.static_branch import StaticBranch
 from equisection.results.netcdf import write_dataset
@@ -238,3 +238,28 @@ def test_model_comes_back_from_its_file_and_from_json(line: LearntLine, tmp_path
     assert "model learnt from" in (tmp_path / "growth.csv").read_text().splitlines()[0]
     with pytest.raises(ArgumentError, match=r"\.json or \.csv"):
         export(data, POLAR, tmp_path / "model.txt")
+    strips = data.isel(term=slice(5)).assign_attrs(model="3d")
+    with pytest.raises(ResultFileError, match="3d: a model of the strips of a beam, of 5 terms"):
+        export(strips, POLAR, tmp_path / "model.json")
+
+
+class DivergingSections(KnownSections):
+    """The same, of which none has an equilibrium from 25 m/s on."""
+
+    def cases_at(self, values: Any) -> list[SimpleNamespace]:
+        speeds = list(values)
+        gone = SimpleNamespace(section=None, diverges=True)
+        cases = zip(super().cases_at(speeds), speeds, strict=True)
+        return [gone if speed >= 25.0 else case for case, speed in cases]
+
+
+def test_onset_beyond_which_there_is_no_equilibrium_is_divergence() -> None:
+    """Growth is infinite there, which the file does not know."""
+    data = file_of(known(), PredictedOnset(float(GIVEN.k_star_at(24.5)), math.nan, math.nan))
+    data["growth_rate"] = data["growth_rate"].where(data["speed"] < 25.0)
+    lost = LearntLine(DivergingSections(), data, GIVEN, SPEEDS)
+    (row,) = stability_of_learnt([lost], chord=CHORD, design_speed=None).to_dict("records")
+    assert (row["mechanism"], row["speed"]) == ("divergence", pytest.approx(24.5))
+    unknown = LearntLine(KnownSections(), data, GIVEN, SPEEDS[:3])
+    (row,) = stability_of_learnt([unknown], chord=CHORD, design_speed=None).to_dict("records")
+    assert row["mechanism"] == "unknown"

@@ -219,6 +219,20 @@ def test_limit_cycle_beyond_what_a_release_has_seen_is_marked(sweep):
     assert limit_cycles(small, [sweep["2d"][5.5].section], 150.0).iloc[0]["extrapolated"]
 
 
+def test_limit_cycle_of_a_symmetric_section_needs_the_start_of_its_run():
+    """At 0 deg a section at rest stays there, however unstable: c_m = 1.7 alpha - 40 alpha^3."""
+    angles = np.linspace(-0.4, 0.4, 81)
+    polar = Polar(angles, 0.0 * angles, 7.0 * angles, 1.7 * angles - 40.0 * angles**3, "even")
+    driven = np.array([0.4, 0.0, 0.3, 0.0, 0.0, -60.0, 0.0, 0.0])
+    loads = replace(KNOWN, polar=polar, incidence_rad=0.0, moment=driven, lift=0.0 * driven)
+    at_rest, moved = (
+        limit_cycles(loads, [SECTION], 60.0, start=start).iloc[0]["twist_amplitude_deg"]
+        for start in ((0.0, 0.0), (0.01, 0.0))
+    )
+    assert at_rest == 0.0
+    assert moved > 0.3
+
+
 def cut(history: ReferenceHistory, kept: slice | np.ndarray) -> ReferenceHistory:
     names = ("time", "twist", "deflection", "lift_coefficient", "moment_coefficient")
     return replace(history, **{name: getattr(history, name)[kept] for name in names})

@@ -303,6 +303,24 @@ MALFORMED = [
         "'mean' with steady.beam_polar",
     ),
     (
+        {
+            "sweep": {"onset": "model", "models": ["2d"]},
+            "unsteady": {"start": {"state": "equilibrium", "twist_deg": 0.2}},
+        },
+        "unsteady.start.state",
+        "'equilibrium'",
+        "allowed with sweep.onset 'model' is 'rigid'",
+    ),
+    (
+        {
+            "sweep": {"onset": "model", "models": ["2d", "3d"]},
+            "unsteady": {"start": {"twist_deg": 0.2}},
+        },
+        "sweep.models",
+        "['2d', '3d']",
+        "models without 3d",
+    ),
+    (
         {"sweep": {"onset": "refine", "k_star": [3]}},
         "sweep.k_star",
         "[3",

@@ -4,12 +4,14 @@ import math
 
 import pandas as pd
 import pytest
+import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.analysis.critical_speeds import (
     COLUMNS,
     from_eigenvalues,
+    from_learnt,
     from_runs,
     in_words,
     with_margin,
@@ -52,11 +54,26 @@ def test_basis_is_that_of_the_runs_of_each_model() -> None:
     assert dict(zip(found["model"], found["basis"], strict=True)) == {"2d": "cfd", "3d": "time"}
 
 
-def test_growth_without_an_oscillation_is_divergence() -> None:
-    summary = runs(("2d", 2.0, "growing"), ("2d", 8.0, "settled"), frequency_strouhal=math.nan)
-    (row,) = from_runs(summary, **AS_GIVEN).to_dict("records")
-    assert row["mechanism"] == "divergence"
-    assert math.isnan(row["frequency_hz"])
+@pytest.mark.parametrize(
+    ("turns", "mechanism", "said"),
+    [
+        ({"twist_turns": 0}, "divergence", "divergence between 20 and 40 m/s"),
+        ({"twist_turns": 2}, "unknown", "an instability of unknown mechanism between 20 and 40"),
+        ({"twist_turns": math.nan}, "unknown", "an instability of unknown mechanism between 20"),
+        ({}, "unknown", "an instability of unknown mechanism between 20"),
+    ],
+)
+def test_growth_without_an_oscillation_is_divergence_if_it_never_turned(
+    turns: dict[str, float], mechanism: str, said: str
+) -> None:
+    """A deck that swung by 8 and then by 17 deg before a period was counted flutters."""
+    summary = runs(
+        ("2d", 2.0, "growing"), ("2d", 8.0, "settled"), frequency_strouhal=math.nan, **turns
+    )
+    found = from_runs(summary, **AS_GIVEN)
+    assert found.loc[0, "mechanism"] == mechanism
+    assert math.isnan(found.loc[0, "frequency_hz"])
+    assert said in in_words(with_margin([found], None))[0]
 
 
 def test_heave_that_grows_alone_is_galloping() -> None:
@@ -91,6 +108,37 @@ def test_open_brackets_say_what_is_known(
     assert math.isnan(found.loc[0, "speed"])
     assert said in in_words(found)[0]
     assert found.loc[0, "mechanism"] == mechanism
+
+
+@pytest.mark.parametrize(("beyond", "mechanism"), [(0.01, "flutter"), (math.nan, "unknown")])
+def test_release_of_a_model_that_leaves_at_once_tells_no_mechanism(
+    beyond: float, mechanism: str
+) -> None:
+    """Next to the onset at k* 7 its growth is infinite, which a file holds as not known."""
+    values = {"growth_rate": [0.02, beyond, -0.01], "frequency_strouhal": [0.14, 0.15, 0.16]}
+    data = xr.Dataset(
+        {"k_star": ("speed", [5.0, 6.0, 8.0])} | {k: ("speed", v) for k, v in values.items()},
+        {"speed": [3.0, 2.0, 1.0]},
+        {"model": "2d", "incidence_deg": 2.5, "onset_k_star": 7.0}
+        | {f"onset_k_star_{end}": math.nan for end in ("low", "high")},
+    )
+    table = from_learnt([data], given=AS_GIVEN["given"], chord=0.1)
+    assert table.loc[0, "mechanism"] == mechanism
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "said"),
+    [
+        (18.0, 22.0, "flutter between 18 and 22 m/s"),
+        (18.0, math.nan, "flutter at 20 m/s, or from 18 m/s on: its interval has no upper end"),
+        (math.nan, 22.0, "flutter at 20 m/s, or up to 22 m/s: its interval has no lower end"),
+        (math.nan, math.nan, "flutter at 20 m/s, without an interval"),
+    ],
+)
+def test_interval_of_a_model_may_be_open(low: float, high: float, said: str) -> None:
+    row = dict.fromkeys(COLUMNS, math.nan) | {"model": "2d", "mechanism": "flutter"}
+    row |= {"basis": "model", "speed": 20.0, "speed_low": low, "speed_high": high}
+    assert in_words(pd.DataFrame([row]))[0].endswith(said)
 
 
 def test_margin_is_that_of_the_highest_stable_speed() -> None:

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from equisection.analysis import learning
 from equisection.analysis.learning import (
     Course,
     Lessons,
@@ -173,6 +174,35 @@ def test_words_never_pass_a_model_for_runs():
     assert course().confirmation == "not confirmed by runs"
     assert course(checked=2).confirmation == "not contradicted by 2 runs"
     assert "k9" in course(checked=2, at_odds="k9").confirmation
+    # what failed or is undecided confirms nothing
+    assert course(silent=1).confirmation == "not confirmed by runs; 1 failed or undecided"
+    assert course(checked=1, silent=1).confirmation.endswith("by 1 runs; 1 failed or undecided")
+
+
+def test_limit_cycle_is_learnt_from_the_farthest_release_that_can_be(tmp_path, monkeypatch, caplog):
+    """The one that grew farthest left before there was enough to learn from."""
+    index = index_of(tmp_path, "2d", {"k4": "growing", "k6": "growing", "k9": "settled"})
+    found = json.loads(index.read_text())
+    found["results"]["k4"]["twist_amplitude_deg"] = 20.0
+    index.write_text(json.dumps(found))
+    monkeypatch.setattr(Lessons, "_history", lambda _, run: run.point.name)
+    monkeypatch.setattr(Lessons, "_grid", ([], []))
+    monkeypatch.setattr(Lessons, "polar", None)
+
+    def cycles(_, history, *more):
+        if history == "k4":
+            raise ResultFileError("a record of 20 c/V is too short to learn from")
+        return history, *more
+
+    monkeypatch.setattr(learning, "cycles_of", cycles)
+    config = config_of()
+    start = config.unsteady.start.model_copy(update={"twist_deg": 1.0})
+    unsteady = config.unsteady.model_copy(update={"start": start})
+    config = config.model_copy(update={"unsteady": unsteady})
+    history, _, of_start = Lessons(config, "2d", {}, [index]).limit_cycles()
+    assert history == "k6"
+    assert of_start == (math.radians(1.0), 0.0)
+    assert "no limit cycle is learnt from k4: a record of 20 c/V" in caplog.text
 
 
 @pytest.mark.parametrize(

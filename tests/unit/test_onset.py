@@ -147,6 +147,28 @@ def test_onset_by_growth_is_where_the_line_is_zero_and_its_interval_holds_it():
     assert math.isnan(level.low)
 
 
+def test_zero_of_a_line_that_is_nearly_level_is_far_away_and_no_error():
+    """At equal rates of one sign there is no zero, and the interval has no ends."""
+    k_star, error = np.array([5.0, 10.0]), np.full(2, 1e-6)
+    for slope in (0.0, 1e-9, -1e-9, 1.4e-6 * 1.9600001):
+        found = zero_of_line(k_star, np.array([-0.01, -0.01 + slope]), error)
+        assert not 1.0 < found.value < 50.0
+        assert not np.isinf([found.low, found.high]).any()
+
+
+def test_onset_by_growth_is_between_the_runs_on_both_sides_of_it():
+    """Growth that dips again beyond the onset: the line through four runs is nearly level."""
+    summary = swept(
+        (5.0, 6.0, 8.0, 10.0),
+        (-0.0101, 0.0001, -0.01, -0.01),
+        (0.004, 0.002, 0.006, 0.006),
+        (S, "undecided", S, S),
+    )
+    row = onset_table(summary).iloc[0]
+    assert 6.0 < row["k_star_growth"] < 8.0
+    assert row["growth_runs"] == 2
+
+
 def test_onset_table_tells_what_the_growth_of_its_runs_does():
     summary = swept(
         (5.0, 6.0, 8.0, 10.0, 14.0),

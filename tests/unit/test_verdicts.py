@@ -5,7 +5,10 @@ import math
 import numpy as np
 import pytest
 from tests.sample_cases import UNSTEADY, UNSTEADY_PLATE
+from tests.workflow.project import ROOT
 
+from equisection.cases import UnsteadyCase
+from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import VERDICT_ATTRIBUTES, VERDICT_UNITS
 from equisection.solvers.verdicts import (
     Judge,
@@ -15,7 +18,9 @@ from equisection.solvers.verdicts import (
     pitch_frequency,
     refused,
 )
+from equisection.store.judged_again import tip_motion
 
+REFERENCE = ROOT / "results" / "reference"
 TIME = np.arange(0.0, 60.0, 0.05)
 LEFT = "an incidence of 25.1 deg left the section polar"
 
@@ -57,6 +62,21 @@ def test_frequency_is_that_of_an_oscillation_or_not_known() -> None:
     assert found["frequency_strouhal"] == pytest.approx(1.1 / (2 * math.pi), rel=1e-3)
     creeping = np.radians(1.0 - np.exp(-0.1 * TIME))
     found = judge(UNSTEADY, TipMotion(TIME, creeping, 0.1 * creeping))
+    assert math.isnan(found["frequency_strouhal"])
+
+
+def test_turns_tell_divergence_from_an_oscillation_that_left_too_soon() -> None:
+    """A twist without restoring stiffness, theta'' = (theta + theta_0)/16, never turns.
+
+    The kept release of the deck at 10.5 m/s turned three times before 30 c/V.
+    """
+    leaving = np.radians(np.cosh(0.25 * TIME[TIME <= 15.0]) - 1.0)
+    found = judge(UNSTEADY, TipMotion(TIME[: leaving.size], leaving, 0.1 * leaving))
+    assert (found["regime"], found["twist_turns"]) == ("growing", 0)
+    kept = read_dataset(REFERENCE / "openfoam-deck/unsteady/2d/v10.5.nc")
+    case = UnsteadyCase.model_validate_json(kept.attrs["case"])
+    found = judge(case, tip_motion(kept))
+    assert (found["regime"], found["twist_turns"]) == ("growing", 3)
     assert math.isnan(found["frequency_strouhal"])
 
 

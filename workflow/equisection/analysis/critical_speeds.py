@@ -71,10 +71,12 @@ def from_runs(
         :data:`BEFORE_MARGIN`. The speed is the middle of the bracket from
         ``speed_low``, stable, to ``speed_high``, unstable. Where one side is open the speed is NaN,
         and the mechanism of a model that is stable throughout is ``none``, but ``unknown`` where
-        runs failed or were undecided beyond the last stable one. Without an
-        oscillation of the twist the unstable run has diverged; what else grows is called
-        ``flutter``, with or without separation, which a history alone does not tell, but
-        ``galloping`` where the heave grows and the twist does not. The basis is
+        runs failed or were undecided beyond the last stable one. The unstable run nearest to the
+        onset tells the mechanism. A twist that left ever faster and never turned has diverged. One
+        that oscillates is called ``flutter``, with or without separation, which a history alone
+        does not tell, but ``galloping`` where the heave grows and the twist does not. A twist that
+        turned, and left before its oscillation was counted, is ``unknown``: it may flutter. The
+        basis is
         :data:`CFD` where the solver of all its runs has a mesh, else :data:`TIME`; of records it is
         what the configuration says, and ``given`` where that is another run's.
     """
@@ -122,9 +124,11 @@ def _mechanism(bracket: OnsetBracket, unstable: pd.DataFrame) -> str:
         return Mechanism.UNKNOWN if is_open else Mechanism.NONE
     if "heave_grows" in unstable and (unstable["heave_grows"] == 1).any():
         return Mechanism.GALLOPING
-    if unstable["frequency_strouhal"].isna().all():
-        return Mechanism.DIVERGENCE
-    return Mechanism.FLUTTER
+    if unstable["frequency_strouhal"].notna().any():
+        return Mechanism.FLUTTER
+    # a result from before turns were counted does not tell
+    went_one_way = "twist_turns" in unstable and (unstable["twist_turns"] == 0).all()
+    return Mechanism.DIVERGENCE if went_one_way else Mechanism.UNKNOWN
 
 
 def from_learnt(learnt: Iterable[xr.Dataset], *, given: AsGiven, chord: float) -> pd.DataFrame:
@@ -158,13 +162,26 @@ def from_learnt(learnt: Iterable[xr.Dataset], *, given: AsGiven, chord: float) -
                 "speed": speed,
                 "speed_low": given.speed_at(most),
                 "speed_high": given.speed_at(least),
-                "mechanism": "flutter" if math.isfinite(k_star) else "unknown",
+                "mechanism": _learnt_mechanism(data, k_star),
                 "frequency_hz": strouhal * speed / chord,
                 "k_star": k_star,
                 "basis": MODEL,
             }
         )
     return pd.DataFrame(rows, columns=list(BEFORE_MARGIN))
+
+
+def _learnt_mechanism(data: xr.Dataset, k_star: float) -> str:
+    """Return the mechanism of the onset of a learnt model.
+
+    A release that oscillates at a growth rate flutters. One that leaves at once, next to the onset,
+    has no growth rate, and may have diverged.
+    """
+    if not math.isfinite(k_star):
+        return Mechanism.UNKNOWN
+    known = data.set_coords("k_star")["growth_rate"].sortby("k_star")
+    beyond = known.values[known["k_star"].values < k_star][-1:]
+    return Mechanism.UNKNOWN if np.isnan(beyond).any() else Mechanism.FLUTTER
 
 
 def from_eigenvalues(
@@ -265,10 +282,8 @@ def in_words(table: pd.DataFrame) -> list[str]:
 def _line(row: Mapping[Any, Any]) -> str:
     who = f"{row['model']} at {row['incidence_deg']:g} deg ({row['basis']})"
     low, high = row["speed_low"], row["speed_high"]
-    if np.isfinite(row["speed"]) and not np.isfinite(low):
-        return f"{who}: {row['mechanism']} at {row['speed']:.4g} m/s, without an interval"
     if np.isfinite(row["speed"]):
-        return f"{who}: {row['mechanism']} between {low:.4g} and {high:.4g} m/s"
+        return f"{who}: {_onset(row)}"
     if np.isfinite(high):
         return f"{who}: unstable at {high:.4g} m/s and at all lower speeds that were run"
     if np.isfinite(low) and row["mechanism"] == "unknown":
@@ -279,3 +294,18 @@ def _line(row: Mapping[Any, Any]) -> str:
     if np.isfinite(low):
         return f"{who}: stable up to {low:.4g} m/s; no onset was found"
     return f"{who}: nothing is known, no run has a verdict"
+
+
+def _onset(row: Mapping[Any, Any]) -> str:
+    """Return the mechanism and the interval of a speed that is known, as far as they are."""
+    low, high = row["speed_low"], row["speed_high"]
+    is_known = row["mechanism"] != Mechanism.UNKNOWN
+    what = row["mechanism"] if is_known else "an instability of unknown mechanism"
+    if np.isfinite(low) and np.isfinite(high):
+        return f"{what} between {low:.4g} and {high:.4g} m/s"
+    at = f"{what} at {row['speed']:.4g} m/s"
+    if np.isfinite(low):
+        return f"{at}, or from {low:.4g} m/s on: its interval has no upper end"
+    if np.isfinite(high):
+        return f"{at}, or up to {high:.4g} m/s: its interval has no lower end"
+    return f"{at}, without an interval"

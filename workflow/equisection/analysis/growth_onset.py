@@ -96,7 +96,8 @@ def onset_by_growth(runs: pd.DataFrame, axis: Axis) -> GrowthOnset:
     surely_unstable = value[first:][low[first:] > 0.0][:1]
     surely_stable = value[:first][high[:first] < 0.0][-1:]
     sides = np.concatenate((surely_unstable, surely_stable))
-    if sides.size == 2 and not sides.min() <= found.value <= sides.max():  # a curve
+    within = sides if sides.size == 2 else value[near]
+    if not within.min() <= found.value <= within.max():  # a curve
         two = slice(first - 1, first + 1)
         found = zero_of_line(value[two], rate[two], error[two])
     return found.within(sides)
@@ -124,11 +125,13 @@ def zero_of_line(value: Floats, rate: Floats, error: Floats) -> GrowthOnset:
     if free:
         width = max(width, float(scipy.special.stdtrit(free, share) ** 2 * (left @ left) / free))
     variance = width * np.linalg.inv(matrix)
-    zero = math.exp(middle - a / b)
-    square = b**2 - variance[1, 1]
-    if square <= 0.0:  # the line may be level
-        return GrowthOnset(zero, runs=value.size)
-    half = a * b - variance[0, 1]
-    root = math.sqrt(max(half**2 - square * (a**2 - variance[0, 0]), 0.0))
-    low, high = sorted(math.exp(middle + (side * root - half) / square) for side in (-1.0, 1.0))
+    with np.errstate(over="ignore", divide="ignore"):  # of a level line the zero is far away
+        zero = float(np.exp(middle - a / b))
+        square = b**2 - variance[1, 1]
+        if square <= 0.0:  # the line may be level
+            return GrowthOnset(zero, runs=value.size)
+        half = a * b - variance[0, 1]
+        root = math.sqrt(max(half**2 - square * (a**2 - variance[0, 0]), 0.0))
+        low, high = np.exp(middle + np.sort((np.array([-root, root]) - half) / square))
+    low, high = (float(end) if 0.0 < end < math.inf else math.nan for end in (low, high))
     return GrowthOnset(zero, low, high, value.size)

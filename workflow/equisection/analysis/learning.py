@@ -212,18 +212,27 @@ class Lessons:
     def limit_cycles(self) -> LimitCycles | None:
         """Return the limit cycles of a section's sweep, by the release that grows farthest.
 
-        None for the beam, whose model has too few terms for large amplitudes.
+        One that cannot be learnt from, since it left too soon, gives way to the next. None for the
+        beam, whose model has too few terms for large amplitudes.
         """
         if self._is_beam:
             return None
         indices = (*self.releases, *self.confirming)
         runs = [run for index in indices for run in self._runs(index)]
         growing = [run for run in runs if run.unstable]
-        history = None
-        if growing:
-            run = max(growing, key=lambda each: np.nan_to_num(each.amplitude_deg))
-            history = self._history(run)
-        return cycles_of(self._grid[1], history, self.polar)
+        cases = self._grid[1]
+        for run in sorted(growing, key=lambda each: -np.nan_to_num(each.amplitude_deg)):
+            try:
+                return cycles_of(cases, self._history(run), self.polar, self._start)
+            except EquisectionError as error:
+                _LOG.warning("no limit cycle is learnt from %s: %s", run.point.name, error)
+        return cycles_of(cases, None, self.polar)
+
+    @property
+    def _start(self) -> tuple[float, float]:
+        """Twist (rad) and heave rate (over V) of the tip from which a beam is released."""
+        start = self.config.unsteady.start
+        return math.radians(start.twist_deg), start.heave_rate
 
     def _predicted(self, model: Learnt, cases: Sequence[UnsteadyCase]) -> pd.DataFrame:
         """Return growth and frequency of cases with a section or beam to move."""
@@ -231,10 +240,8 @@ class Lessons:
         if isinstance(model, ReducedBeam):
             beams = on_strips([case.beam for case in cases if case.beam], model.loads.polars.strips)
             return predicted_beams(model, k_star, beams)
-        start = self.config.unsteady.start
         sections = [case.section for case in cases if case.section]
-        of_start = (math.radians(start.twist_deg), start.heave_rate)
-        return predicted(model, k_star, sections, start=of_start)
+        return predicted(model, k_star, sections, start=self._start)
 
     def learnt(self, run: JudgedRun) -> Learnt:
         """Return the model that is learnt from a run."""
@@ -361,7 +368,8 @@ class Lessons:
             model,
             table,
             onset,
-            checked=len(checked),
+            checked=sum(run.unstable is not None for run in checked),
+            silent=sum(run.unstable is None for run in checked),
             contradicted=contradicted is not None,
             at_odds=next((run.point.name for run in at_odds if run is not None), ""),
             zigzag=_zigzag_of(learnt_from),
@@ -490,6 +498,8 @@ class Course:
         Its onset over k*.
     checked
         Number of runs that check it.
+    silent
+        Number of runs that were to check it and failed, or are undecided.
     contradicted
         Whether the first ones contradicted, so that it was learnt anew.
     at_odds
@@ -505,6 +515,7 @@ class Course:
     contradicted: bool
     at_odds: str
     zigzag: str = ""
+    silent: int = 0
 
     @property
     def reservations(self) -> str:
@@ -547,12 +558,13 @@ class Course:
         """Return in words how far runs bear the model out."""
         if self.at_odds:
             return f"contradicted by the run {self.at_odds}"
+        silent = f"; {self.silent} failed or undecided" if self.silent else ""
         if not self.checked:
-            return "not confirmed by runs"
+            return f"not confirmed by runs{silent}"
         again = (
             ", after it was learnt anew from a run that contradicted" if self.contradicted else ""
         )
-        return f"not contradicted by {self.checked} runs{again}"
+        return f"not contradicted by {self.checked} runs{again}{silent}"
 
 
 def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:

@@ -43,7 +43,10 @@ class LimitCycles:
 
 
 def cycles_of(
-    cases: Sequence[UnsteadyCase], grown: ReferenceHistory | None, polar: Polar
+    cases: Sequence[UnsteadyCase],
+    grown: ReferenceHistory | None,
+    polar: Polar,
+    start: tuple[float, float] = (0.0, 0.0),
 ) -> LimitCycles:
     """Return the limit cycles of the sections of cases.
 
@@ -55,13 +58,20 @@ def cycles_of(
         The release that grows; None for none.
     polar
         Steady polar of the section.
+    start
+        Twist (rad) and heave rate (over V) of the tip from which they are released.
+
+    Raises
+    ------
+    ResultFileError
+        The release cannot be learnt from.
     """
     nothing = pd.DataFrame({AMPLITUDE: math.nan, EXTRAPOLATED: False}, index=range(len(cases)))
     there = [place for place, case in enumerate(cases) if case.section is not None]
     if grown is None or not there:
         return LimitCycles(nothing, "")
     sections = [case.section for case in cases if case.section is not None]
-    found = limit_cycles(learn(grown, polar), sections)
+    found = limit_cycles(learn(grown, polar), sections, start=start)
     factor = np.array([section.twist_recovery for section in sections])
     nothing.loc[there, AMPLITUDE] = found["twist_amplitude_deg"].to_numpy() / factor
     nothing.loc[there, EXTRAPOLATED] = found["extrapolated"].to_numpy()

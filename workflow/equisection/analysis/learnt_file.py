@@ -45,11 +45,16 @@ def model_of(data: xr.Dataset, polar: Polar) -> ReducedModel:
     Raises
     ------
     ResultFileError
-        There is no model in it, but the reason why.
+        There is no model in it, but the reason why; or it is that of a beam on strips.
     """
     if "rate" not in data:
         reason = data.attrs.get("refusal") or "it has no coefficients"
         raise ResultFileError(f"{data.attrs.get('model', 'the file')}: no model: {reason}")
+    if data.sizes["term"] != len(TERMS):
+        raise ResultFileError(
+            f"{data.attrs['model']}: a model of the strips of a beam, of {data.sizes['term']} "
+            f"terms; allowed is that of a section, of {len(TERMS)}"
+        )
     seen = tuple(math.radians(float(data.attrs[f"seen_{end}_deg"])) for end in ("least", "most"))
     fits = [
         LearntLoads(

@@ -33,7 +33,12 @@ from equisection.cases import UnsteadyCase
 from equisection.errors import EquisectionError
 from equisection.motion.learnt_motion import LearntSections
 from equisection.motion.map_dataset import described
-from equisection.motion.mechanism import Instabilities, influence_of, instabilities
+from equisection.motion.mechanism import (
+    Instabilities,
+    Mechanism,
+    influence_of,
+    instabilities,
+)
 from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes, no_modes
 from equisection.motion.sections import section_system
 from equisection.motion.stability_map import BELOW, STILL_AIR, WITHIN
@@ -326,11 +331,21 @@ def _row(line: LearntLine, chord: float) -> dict[str, object]:
             "mode": line.mode_at(unstable),
         }
         if row["mechanism"] in ("none", "unknown"):
-            row["mechanism"] = "flutter"
+            row["mechanism"] = _of_release(line, learnt)
     else:
-        row["mechanism"] = "flutter"
-        _add(row, "no small motion grows up to the highest speed: the release alone does")
+        row["mechanism"] = _of_release(line, learnt)
+        _add(row, "no small motion about an equilibrium grows: the release alone does")
     return row
+
+
+def _of_release(line: LearntLine, learnt: pd.Series) -> str:
+    """Return the mechanism of the onset of the releases, which may have lost its equilibrium."""
+    if learnt["mechanism"] != Mechanism.UNKNOWN:
+        return str(learnt["mechanism"])
+    k_star = line.data["k_star"].values
+    beyond = line.given.speed_at(k_star[k_star < learnt["k_star"]].max())
+    _, diverges = line.sections(np.array([beyond]))
+    return Mechanism.DIVERGENCE if diverges[0] else Mechanism.UNKNOWN
 
 
 def _add(row: dict[str, object], note: str) -> None:

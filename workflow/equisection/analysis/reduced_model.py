@@ -322,7 +322,10 @@ def with_growth(
 
 
 def limit_cycles(
-    loads: LearntLoads, sections: Sequence[Section], duration: float = LONG
+    loads: LearntLoads,
+    sections: Sequence[Section],
+    duration: float = LONG,
+    start: tuple[float, float] = (0.0, 0.0),
 ) -> pd.DataFrame:
     """Return the amplitude that a release comes to in the end, of each section.
 
@@ -338,6 +341,8 @@ def limit_cycles(
         Sections in the flow, shape (N,).
     duration
         Time after which the amplitude is read (c/V).
+    start
+        Twist (rad) and heave rate (over V) of the tip from which they are released.
 
     Returns
     -------
@@ -346,7 +351,7 @@ def limit_cycles(
         where the motion leaves the polar. ``extrapolated``: the incidence goes more than
         :data:`BEYOND` outside what the model has seen.
     """
-    histories = LearntSections(sections, loads).released(duration)
+    histories = LearntSections(sections, loads).released(duration, start=start)
     least, most = histories.farthest.T
     amplitudes = []
     for lane, section in enumerate(sections):

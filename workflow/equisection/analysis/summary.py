@@ -40,6 +40,7 @@ QUANTITIES = (
     "growth_start",
     "growth_end",
     "growth_note",
+    "twist_turns",
 )
 #: Those that results may lack, which were made before.
 _NEWER = QUANTITIES[QUANTITIES.index("loads_zigzag") :]

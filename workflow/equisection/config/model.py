@@ -184,6 +184,28 @@ def _learnt_on_strips(
         )
 
 
+@check("sweep.onset", "sweep.models", "unsteady.start")
+def _learnt_from_this_start(
+    onset: str, models: tuple[str, ...], start: StartKeys
+) -> Iterator[Problem]:
+    """Refuse starts from which the learnt models do not release."""
+    if onset != "model":
+        return
+    if start.state != "rigid":
+        yield Problem(
+            "unsteady.start.state",
+            start.state,
+            "allowed with sweep.onset 'model' is 'rigid': a learnt model releases from there",
+        )
+    if start.is_given and "3d" in models:
+        yield Problem(
+            "sweep.models",
+            list(models),
+            "allowed with sweep.onset 'model' and unsteady.start are models without 3d: the learnt "
+            "model of the beam releases it at rest; or leave unsteady.start out",
+        )
+
+
 @check("run")
 def _not_reserved(run: str) -> Iterator[Problem]:
     if run.lower() == RESERVED_RUN:

@@ -56,6 +56,7 @@ VERDICT_ATTRIBUTES = {
     "growth_note": "how it was read, or that the window has beats in it; empty without a remark",
     "deflection_amplitude_chords": "amplitude of the deflection as recovered (chords)",
     "heave_grows": "1 where the heave grows beneath a twist that does not",
+    "twist_turns": "number of times that the twist turned",
 }
 #: Their units; text has none.
 VERDICT_UNITS = {
@@ -77,6 +78,7 @@ VERDICT_UNITS = {
     "growth_note": "",
     "deflection_amplitude_chords": "c",
     "heave_grows": "1",
+    "twist_turns": "1",
 }
 
 

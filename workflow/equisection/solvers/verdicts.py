@@ -176,6 +176,7 @@ class Judge:
             **_attributes_of(verdict.growth),
             "deflection_amplitude_chords": verdict.deflection_amplitude,
             "heave_grows": int(verdict.heave_grows),
+            "twist_turns": verdict.turns if verdict.turns >= 0 else math.nan,
         }
 
     def is_decided(self, tip: TipMotion) -> bool:
@@ -351,6 +352,7 @@ def _without_numbers(regime: Regime, reason: str) -> dict[str, Any]:
         "twist_amplitude_deg",
         "frequency_strouhal",
         "deflection_amplitude_chords",
+        "twist_turns",
     )
     return {
         "regime": str(regime),

@@ -319,6 +319,7 @@ def _verdict(seen: Observation, regime: Regime, reason: str, growth: Growth) -> 
         twist_amplitude=seen.half_range,
         deflection_amplitude=seen.deflection_amplitude,
         frequency=seen.natural_frequency,
+        turns=int(seen.cycles.time.size),
     )
     if not seen.ringing or not seen.used:
         return verdict

@@ -110,6 +110,8 @@ class Verdict:
         d ln A/ds of the twist amplitude A; NaN without an oscillation.
     heave_grows : bool
         True where the motion is growing by its heave, beneath a twist that does not grow.
+    turns : int
+        Number of times that the twist turned in the whole record; -1 where nobody counted.
     """
 
     regime: Regime
@@ -125,6 +127,7 @@ class Verdict:
     frequency: float = math.nan
     growth: Growth = NO_GROWTH
     heave_grows: bool = False
+    turns: int = -1
 
     @property
     def growth_rate(self) -> float:
