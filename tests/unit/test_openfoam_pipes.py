@@ -1,5 +1,6 @@
 """The exchange with lumpedPointMovement, played by a small program that does what v1912 does."""
 
+import os
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -114,3 +115,18 @@ def test_what_an_earlier_run_left_is_removed(tmp_path: Path) -> None:
     other = OtherSide(tmp_path, steps=2)
     assert exchange(pipes, other) == 2
     pipes.close()
+
+
+def test_the_next_reader_waits_for_places_that_are_not_there_yet(
+    pipes: Pipes, tmp_path: Path
+) -> None:
+    """OpenFOAM may come again before this side has gone on: it finds no end of the last message."""
+    other = OtherSide(tmp_path, steps=1)
+    assert exchange(pipes, other) == 1
+    assert other.end() == 0
+    again = os.open(tmp_path / FOLDER / PLACES, os.O_RDONLY | os.O_NONBLOCK)
+    try:
+        with pytest.raises(BlockingIOError):
+            os.read(again, 100)
+    finally:
+        os.close(again)

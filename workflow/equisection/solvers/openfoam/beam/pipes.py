@@ -7,7 +7,10 @@ reads the places of the points from another file. Stock, it looks for the lock o
   that is needed;
 - there are two locks, ``OpenFOAM.lock`` and ``OpenFOAM.lock.gz``. OpenFOAM removes the first that
   it finds and goes on if it finds one, so it never waits. The one removed is put back while
-  OpenFOAM reads the places of the points: after it has looked, and before it can look again.
+  OpenFOAM reads the places of the points: after it has looked, and before it can look again;
+- the pipe of the places is closed only when it is open anew for the next ones. OpenFOAM reads the
+  lines that it wants and not to the end. If the pipe were closed behind each message, OpenFOAM could
+  come for the next places before a busy machine has closed it, and would read the end of the last.
 
 This side opens neither pipe in a way that blocks, so it sees within a moment that the other is
 gone. The other side is in a blocking call if this one goes; it ends with it (``process``).
@@ -67,6 +70,7 @@ class Pipes:
         (self._folder / "log").symlink_to(os.devnull)
         self._lock()
         self._loads = self._open_loads()
+        self._places: int | None = None
 
     def _lock(self) -> None:
         for name in _LOCKS:
@@ -78,6 +82,7 @@ class Pipes:
     def close(self) -> None:
         """Close this side."""
         os.close(self._loads)
+        self._keep(None)
 
     def receive(self, alive: Alive) -> str | None:
         """Return the next loads from OpenFOAM; None if it ended instead.
@@ -137,14 +142,22 @@ class Pipes:
                 return False
             self._require_sign_of_life(started)
             time.sleep(_TRY)
+        self._keep(places)
         self._lock()
         os.set_blocking(places, True)
+        rest = memoryview(message.encode())
         try:
-            with os.fdopen(places, "wb") as stream:
-                stream.write(message.encode())
+            while rest:
+                rest = rest[os.write(places, rest) :]
         except BrokenPipeError:
             return False
         return True
+
+    def _keep(self, places: int | None) -> None:
+        """Hold the pipe of the places open by this end, and no longer by the one before it."""
+        before, self._places = self._places, places
+        if before is not None:
+            os.close(before)
 
     def _require_sign_of_life(self, since: float) -> None:
         if time.monotonic() - since > self.silence:
