@@ -9,8 +9,8 @@ reads the places of the points from another file. Stock, it looks for the lock o
   it finds and goes on if it finds one, so it never waits. The one removed is put back while
   OpenFOAM reads the places of the points: after it has looked, and before it can look again;
 - the pipe of the places is closed only when it is open anew for the next ones. OpenFOAM reads the
-  lines that it wants and not to the end. If the pipe were closed behind each message, OpenFOAM could
-  come for the next places before a busy machine has closed it, and would read the end of the last.
+  lines that it wants and not to the end. If the pipe were closed behind each message, OpenFOAM
+  could come for the next places before a busy machine has closed it, and would find its end.
 
 This side opens neither pipe in a way that blocks, so it sees within a moment that the other is
 gone. The other side is in a blocking call if this one goes; it ends with it (``process``).
