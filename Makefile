@@ -70,18 +70,16 @@ status: $(ENV)/run
 verify: $(ENV)/run
 	$(BIN)/equisection verify
 
-# Three parts side by side: tests that run OpenFOAM, tests that start Snakemake, and the others, which
-# are seen while they run.
-BESIDE := openfoam workflow+slurm
+# Three parts side by side: tests that run OpenFOAM, the first half of those that start Snakemake, and
+# the others, which are seen while they run.
+FIRST_HALF := tests/workflow/test_[a-k]*.py
 test: $(ENV)/test
 	@logs=$$(mktemp -d); ids=; trap 'kill $$(jobs -p) 2>/dev/null; exit 130' INT TERM; \
-		for part in $(BESIDE); do \
-			$(BIN)/python -m pytest -p no:cacheprovider $$(printf 'tests/%s ' $$(echo $$part | tr + ' ')) \
-				>$$logs/$$part 2>&1 & ids="$$ids $$!"; \
-		done; \
-		$(BIN)/python -m pytest $(patsubst %,--ignore=tests/%,$(subst +, ,$(BESIDE))); failed=$$?; \
+		$(BIN)/python -m pytest -p no:cacheprovider tests/openfoam >$$logs/openfoam 2>&1 & ids="$$ids $$!"; \
+		$(BIN)/python -m pytest -p no:cacheprovider $(FIRST_HALF) >$$logs/workflow 2>&1 & ids="$$ids $$!"; \
+		$(BIN)/python -m pytest --ignore=tests/openfoam --ignore-glob='$(FIRST_HALF)'; failed=$$?; \
 		for id in $$ids; do wait $$id || failed=1; done; \
-		for part in $(BESIDE); do echo "tests/$$part, which ran beside:"; cat $$logs/$$part; done; \
+		for part in openfoam workflow; do echo "$$part, which ran beside:"; cat $$logs/$$part; done; \
 		rm -r $$logs; exit $$failed
 
 lint: $(ENV)/lint
