@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -593,17 +594,26 @@ def test_response_draws(name, tmp_path):
     found = words(figure)
     assert "made-up" in found
     assert f"equisection {equisection.__version__}" in found
-    for place in "abcdefgh":
-        assert f"({place})" in "".join(axes.get_title(loc="left") for axes in figure.axes)
+    titles = "".join(axes.get_title(loc="left") for axes in figure.axes)
+    has = {model[:2] for model in read.summary["model"]}
+    for dimension, places in (("2d", "cde"), ("3d", "fgh")):
+        for place in places:
+            assert (f"({place})" in titles) == (dimension in has)
     assert ("2D: reduction 'consistent'" in found.replace("\n", " ")) == (name != "no section")
-    if name == "no beam":
-        assert "has no 3D" in found
     if name == "diverged":
         assert "diverged, no mean" in found
         assert "it diverged" in found.replace("\n", " ")
     if name == "all failed":
         assert "every one failed or diverged" in found.replace("\n", " ")
     lay_out(figure)
+
+
+def test_response_draws_no_run_twice(tmp_path):
+    read = response.read_response(*sweep(tmp_path, SWEEPS["no beam"]), 6.7)
+    model, (inside, outside, _) = next(iter(read.cases.items()))
+    stiffest = replace(outside, letter="C")
+    figure = response.draw(replace(read, cases={model: [inside, outside, stiffest]}))
+    assert "The same run as B." in words(figure).replace("\n", " ")
 
 
 def test_histories_are_shown_in_degrees_and_chords():

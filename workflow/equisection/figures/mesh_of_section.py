@@ -1,4 +1,4 @@
-"""Mesh of the section, from the whole channel to the leading edge."""
+"""Mesh of the section, from the whole of it to the leading edge."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def from_files(section_mesh: Path) -> Figure:
 
 
 def draw(mesh: xr.Dataset) -> Figure:
-    """Draw channel (above), near field and leading edge (below).
+    """Draw the whole (above), near field and leading edge (below).
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def draw(mesh: xr.Dataset) -> Figure:
     incidence = math.radians(float(mesh.attrs["incidence_deg"]))
     edge = (-0.5 * math.cos(incidence), 0.5 * math.sin(incidence))
     for place, title, centre, half in (
-        ("a", "channel", (low + high) / 2, (high - low) / 2),
+        ("a", "whole mesh", (low + high) / 2, (high - low) / 2),
         ("b", "near field", (0.0, 0.0), NEAR_FIELD),
         ("c", "leading edge", edge, LEADING_EDGE),
     ):

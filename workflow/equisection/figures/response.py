@@ -169,26 +169,39 @@ def from_files(
 
 
 def draw(response: Response) -> Figure:
-    """Draw the means over k* (top) and the histories (middle: section, bottom: beam)."""
+    """Draw the means over k* (top) and the histories (middle: section, bottom: beam).
+
+    A row of a model that the sweep does not have is left out.
+    """
     models = list(dict.fromkeys(response.summary["model"]))
     section, beam = section_model(models), beam_model(models)
-    figure = Figure(figsize=(PAGE_WIDTH, 7.6))
-    halves = figure.add_gridspec(2, 1, height_ratios=(1.0, 1.2))
-    above, below = halves[0].subgridspec(1, 2), halves[1].subgridspec(2, 3)
+    rows = [
+        (model, letters, places)
+        for model, letters, places in (
+            (section, SECTION_LETTERS, "cde"),
+            (beam, BEAM_LETTERS, "fgh"),
+        )
+        if model is not None
+    ]
+    count = max(len(rows), 1)
+    figure = Figure(figsize=(PAGE_WIDTH, 7.6 - 2.07 * (2 - count)))
+    halves = figure.add_gridspec(2, 1, height_ratios=(1.0, 0.6 * count))
+    above, below = halves[0].subgridspec(1, 2), halves[1].subgridspec(count, 3)
     top = [figure.add_subplot(above[0]), figure.add_subplot(above[1])]
     for axes, name, place in zip(top, _QUANTITIES, "ab", strict=True):
         _means(axes, response, name)
         letter(axes, place)
-    rows = ((section, SECTION_LETTERS, "cde", "2D"), (beam, BEAM_LETTERS, "fgh", "3D"))
-    for row, (model, letters, places, dimension) in enumerate(rows):
-        shown = {case.letter: case for case in response.cases.get(model or "", ())}
+    for row, (model, letters, places) in enumerate(rows):
+        shown = {case.letter: case for case in response.cases[model]}
+        drawn: dict[float, str] = {}
         for column, (name, place) in enumerate(zip(letters, places, strict=True)):
-            axes = figure.add_subplot(below[row, column])
-            if model is None:
-                letter(axes, place, name)
-                say(axes, f"The sweep has no {dimension} model.", 24)
+            axes, case = figure.add_subplot(below[row, column]), shown[name]
+            first = drawn.setdefault(case.value, name)
+            if first != name and case.exists:
+                letter(axes, place, f"{name}: {LOOKS[model].label}")
+                say(axes, f"The same run as {first}.", 24)
             else:
-                _history(axes, place, shown[name], response.histories.get(name), LOOKS[model])
+                _history(axes, place, case, response.histories.get(name), LOOKS[model])
     figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
     sections = {"2d", "2d-corrected"} & set(models)
     of_reduction = f"2D: reduction '{response.reduction}'"
