@@ -72,7 +72,7 @@ def _negative_over_positive(name: str) -> float:
 
 
 @cache
-def _of_moved_plate() -> Derivatives:
+def derivatives_of_moved_plate() -> Derivatives:
     """Return the flutter derivatives of the plate whose forced motion is kept."""
     kept = kept_results(_KEPT / "thin-plate-forced")
     return derivatives_of(
@@ -90,7 +90,7 @@ def _size(derivatives: Derivatives, load: str, row: int) -> float:
 
 
 def _size_of_moved(load: str, row: int) -> float:
-    return _size(_of_moved_plate(), load, row)
+    return _size(derivatives_of_moved_plate(), load, row)
 
 
 def _moved_plate() -> list[KnownValue]:
