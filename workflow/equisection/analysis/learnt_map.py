@@ -41,7 +41,7 @@ from equisection.motion.mechanism import (
 )
 from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes, no_modes
 from equisection.motion.sections import section_system
-from equisection.motion.stability_map import BELOW, STILL_AIR, WITHIN
+from equisection.motion.stability_map import BELOW, STILL_AIR, WITHIN, speeds_between
 from equisection.study.axes import SPEED, AsGiven
 
 Floats = NDArray[np.float64]
@@ -154,23 +154,17 @@ class LearntLine:
     def spectrum(self, speeds: Floats, fit: int = 0) -> Spectrum:
         """Return the small motions by one of the fits; NaN where there is no equilibrium."""
         states = np.full((speeds.size, _STATES), np.nan)
-        values = np.full((speeds.size, _STATES), np.nan, dtype=np.complex128)
-        right = np.full((speeds.size, _STATES, _STATES), np.nan, dtype=np.complex128)
-        left = right.copy()
+        linear = np.full((speeds.size, _STATES, _STATES), np.nan)
         sections, _ = self.sections(speeds)
         there = np.array([section is not None for section in sections], dtype=bool)
         if there.any():
             found = [section for section in sections if section is not None]
             moved = LearntSections(found, self._fits[fit])
-            linear = moved.linearised()[:, _ORDER][:, :, _ORDER]
+            linear[there] = moved.linearised()[:, _ORDER][:, :, _ORDER]
             twist, deflection = moved.equilibria()
             none = np.zeros_like(twist)
             states[there] = np.stack([twist, none, deflection, none, twist], axis=1)
-            there[there] = np.isfinite(linear).all(axis=(1, 2))
-            linear = linear[np.isfinite(linear).all(axis=(1, 2))]
-            values[there], right[there] = np.linalg.eig(linear)
-            left[there] = np.linalg.inv(right[there])
-        return Spectrum(speeds, values, right, left, states)
+        return Spectrum.about(speeds, states, linear)
 
     @property
     def _fits(self) -> tuple[LearntLoads, ...]:
@@ -185,9 +179,9 @@ class LearntLine:
             return no_modes(_STATES)
         slowest = math.tau * min(natural_frequencies(section))
         start = min(slowest * first / STILL_AIR, 0.5 * first)
-        grid = [_filled(start, first, BELOW), self.speeds]
+        grid = [speeds_between(start, first, BELOW), self.speeds]
         for low, high in zip(self.speeds[:-1], self.speeds[1:], strict=True):
-            grid.append(_filled(float(low), float(high), WITHIN))
+            grid.append(speeds_between(float(low), float(high), WITHIN))
         loads = UnsteadyLoads.from_polar(self.lessons.polar)
         naming = section_system([section], loads, math.radians(self.incidence_deg))
         (found,) = follow_modes(
@@ -224,13 +218,7 @@ class LearntLine:
         """Return eigenvalue, mechanism and motion (w, theta) of the least stable at speeds."""
         spectrum = self.spectrum(speeds)
         p = spectrum.least_stable
-        place = np.where(
-            np.isfinite(spectrum.values.real) & (spectrum.values.imag >= 0.0),
-            spectrum.values.real,
-            -np.inf,
-        ).argmax(axis=1)
-        vectors = np.take_along_axis(spectrum.right, place[:, None, None], axis=2)[:, :, 0]
-        motion = vectors[:, [2, 0]]
+        motion = spectrum.least_stable_motion[:, [2, 0]]
         known = spectrum.exists
         names = np.full(speeds.size, "unknown", dtype=object)
         numbers = np.full((4, speeds.size), np.nan)
@@ -389,11 +377,6 @@ def _equilibrium(line: LearntLine, speed: float) -> dict[str, float]:
         "twist_deg": math.degrees(float(twist)) / section.twist_recovery,
         "deflection_m": float(deflection) * chord / section.deflection_recovery,
     }
-
-
-def _filled(low: float, high: float, ratio: float) -> Floats:
-    """Return speeds from one to another, each at most so many times the one before it."""
-    return np.geomspace(low, high, math.ceil(math.log(high / low) / math.log(ratio)) + 1)
 
 
 def _first_rise(speed: Floats, growth: Floats) -> float:
