@@ -27,7 +27,7 @@ from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.analysis.critical_speeds import MODEL, from_learnt
 from equisection.analysis.learning import Lessons
 from equisection.analysis.learnt_file import model_of
-from equisection.analysis.reduced_model import SMALLEST_BAND, ReducedModel, natural_frequencies
+from equisection.analysis.reduced_model import SMALLEST_BAND, ReducedModel
 from equisection.beam.section import Section
 from equisection.cases import UnsteadyCase
 from equisection.errors import EquisectionError
@@ -177,7 +177,7 @@ class LearntLine:
         (section,), _ = self.sections(self.speeds[:1])
         if section is None:
             return no_modes(_STATES)
-        slowest = math.tau * min(natural_frequencies(section))
+        slowest = math.tau * min(section.uncoupled_frequencies)
         start = min(slowest * first / STILL_AIR, 0.5 * first)
         grid = [speeds_between(start, first, BELOW), self.speeds]
         for low, high in zip(self.speeds[:-1], self.speeds[1:], strict=True):
