@@ -50,6 +50,7 @@ Complexes = NDArray[np.complex128]
 #: States (theta, theta', w, w', x), as modes are followed, among (w, theta, w', theta', x).
 _ORDER = [1, 3, 0, 2, 4]
 _STATES = len(_ORDER)
+_TWIST, _DEFLECTION = slice(0, 1), slice(2, 3)
 _OVER_BOTH = (
     "growth_rate",
     "frequency",
@@ -214,15 +215,13 @@ class LearntLine:
             _first_rise(spectrum.speed, growth - band),
         )
 
-    def mechanisms(self, speeds: Floats) -> tuple[Complexes, Instabilities, Complexes]:
-        """Return eigenvalue, mechanism and motion (w, theta) of the least stable at speeds."""
-        spectrum = self.spectrum(speeds)
-        p = spectrum.least_stable
-        motion = spectrum.least_stable_motion[:, [2, 0]]
+    def mechanisms(self, spectrum: Spectrum) -> Instabilities:
+        """Return the mechanism of the least stable of the small motions at each speed."""
+        motion = spectrum.least_stable_motion
         known = spectrum.exists
-        names = np.full(speeds.size, "unknown", dtype=object)
-        numbers = np.full((4, speeds.size), np.nan)
-        sections, diverges = self.sections(speeds)
+        names = np.full(known.size, "unknown", dtype=object)
+        numbers = np.full((4, known.size), np.nan)
+        sections, diverges = self.sections(spectrum.speed)
         names[np.array(diverges, dtype=bool)] = "divergence"
         if known.any():
             found = [one for one, there in zip(sections, known, strict=True) if there and one]
@@ -230,16 +229,16 @@ class LearntLine:
             loads = UnsteadyLoads.from_polar(self.lessons.polar)
             attached = section_system(found, loads, math.radians(self.incidence_deg))
             told = instabilities(
-                p[known],
-                motion[known][:, :1],
-                motion[known][:, 1:],
+                spectrum.least_stable[known],
+                motion[known][:, _DEFLECTION],
+                motion[known][:, _TWIST],
                 moved.influence(spectrum.states[known, 0]),
                 influence_of(attached, attached.rates[:, :, : attached.layout.size]),
             )
             names[known] = told.mechanism
             shares = (told.heave_share, told.twist_share, told.coupling_share, told.heave_phase)
             numbers[:, known] = shares
-        return p, Instabilities(names.astype(np.str_), *numbers), motion
+        return Instabilities(names.astype(np.str_), *numbers)
 
     def mode_at(self, speed: float) -> str:
         """Return the name of the structural mode of largest growth near a speed (m/s)."""
@@ -310,7 +309,7 @@ def _row(line: LearntLine, chord: float) -> dict[str, object]:
     row |= _equilibrium(line, speed)
     unstable = small_high if math.isfinite(small_high) else small
     if math.isfinite(unstable):
-        _, told, _ = line.mechanisms(np.array([unstable * (1.0 + 1e-6)]))
+        told = line.mechanisms(line.spectrum(np.array([unstable * (1.0 + 1e-6)])))
         row |= {
             "mechanism": str(told.mechanism[0]),
             "heave_share": float(told.heave_share[0]),
@@ -459,11 +458,13 @@ def _map_of_model(
         mechanism[row] = _fill(line, {name: one[row] for name, one in values.items()}, chord)
         _fill_modes(line, names, {name: one[row] for name, one in of_modes.items()}, chord)
         if math.isfinite(line.small[0]):
-            _, _, motion = line.mechanisms(np.array(line.small[:1]))
-            (section,), _ = line.sections(np.array(line.small[:1]))
+            onset = np.array(line.small[:1])
+            (motion,) = line.spectrum(onset).least_stable_motion
+            (section,), _ = line.sections(onset)
             assert section is not None, "a small motion grows about an equilibrium"
             recovery = section.twist_recovery / section.deflection_recovery
-            motions[:, row, 0] = 1.0, recovery * motion[0, 0] / motion[0, 1]
+            motions[0, row] = 1.0
+            motions[1, row] = recovery * motion[_DEFLECTION] / motion[_TWIST]
     over, by_mode = ("incidence_deg", "speed"), ("incidence_deg", "speed", "mode")
     ratio = motions[1, :, 0]
     critical = {
@@ -519,8 +520,8 @@ def _map_of_model(
 def _fill(line: LearntLine, values: dict[str, Floats], chord: float) -> NDArray[np.object_]:
     """Fill in equilibrium, least stable motion and release at each speed; return mechanisms."""
     speeds = line.speeds
-    p, told, _ = line.mechanisms(speeds)
     spectrum = line.spectrum(speeds)
+    told, p = line.mechanisms(spectrum), spectrum.least_stable
     rate = speeds / chord
     known = spectrum.exists
     sections, _ = line.sections(speeds)
