@@ -21,7 +21,6 @@ from equisection.analysis.reduced_model import (
     ReducedModel,
     learnt_model,
     limit_cycles,
-    natural_frequencies,
     next_release,
     onset_of,
     predicted,
@@ -121,7 +120,7 @@ def _limit_cycle(sections: Sweep, polar: Polar) -> Iterator[Row]:
     """Compare the limit cycle at k* 6.44 with those of models of growing releases."""
     (kept,) = sweep_of("paper-plate-openfoam-cycle", "2d").values()
     factor = kept.section.twist_recovery
-    late = kept.time > kept.time[-1] - 2.0 / natural_frequencies(kept.section)[0]
+    late = kept.time > kept.time[-1] - 2.0 / kept.section.uncoupled_frequencies[0]
     recorded = 0.5 * math.degrees(float(np.ptp(kept.twist[late]))) / factor
     for k_star, until in ((5.5, math.inf), (5.0, math.inf), (5.5, 45.0), (6.44, 45.0)):
         loads = learn(sections[k_star], polar, until)
@@ -309,13 +308,13 @@ def _k_star(path: Path) -> float:
 
 def _window(history: ReferenceHistory) -> tuple[float, float]:
     end = min(UNTIL, float(history.time[-1]))
-    return max(AFTER_RELEASE, end - 5.4 / natural_frequencies(history.section)[0]), end
+    return max(AFTER_RELEASE, end - 5.4 / history.section.uncoupled_frequencies[0]), end
 
 
 def _recorded(history: ReferenceHistory) -> float:
     """Return the growth rate of a kept release (V/c)."""
     records = [history.twist, history.deflection]
-    natural = np.array(natural_frequencies(history.section))
+    natural = np.array(history.section.uncoupled_frequencies)
     return growth_of(history.time, records, natural, _window(history)).rate
 
 

@@ -19,7 +19,7 @@ from equisection.config import load_config
 from equisection.motion.equilibrium_path import path_from_rest
 from equisection.motion.steady_states import least_stable
 from equisection.results.netcdf import read_dataset
-from equisection.results.unsteady_result import UnsteadyResult
+from equisection.results.unsteady_result import STABLE, Regime, UnsteadyResult
 from equisection.solvers.embedded.adapter import Adapter
 from equisection.solvers.registry import solver_from_config
 from tests.benchmarks.measure import Row
@@ -94,9 +94,9 @@ def _growth(solver: Adapter, case: UnsteadyCase) -> float:
 
 
 def agrees(one: Compared, start: str) -> bool:
-    """Tell whether a verdict is that of the eigenvalue: growing or settled."""
-    wanted = "growing" if one.eigenvalue > 0.0 else "settled"
-    return bool(one.results[start].verdict["regime"] == wanted)
+    """Tell whether a verdict is that of the eigenvalue: growing or stable."""
+    wanted = {Regime.GROWING} if one.eigenvalue > 0.0 else STABLE
+    return one.results[start].verdict["regime"] in wanted
 
 
 def rows() -> Iterator[Row]:
@@ -105,9 +105,13 @@ def rows() -> Iterator[Row]:
         own = compared(model)
         for start in STARTS:
             right = sum(agrees(one, start) for one in own)
-            wanted = len(own) if start == "equilibrium" else 0
-            what = f"verdicts of {model} as the eigenvalue, from {start}"
-            yield Row(what, f"{right} of {len(own)}", f">= {wanted}", right >= wanted)
+            all_are_wanted = start == "equilibrium"
+            yield Row(
+                f"verdicts of {model} as the eigenvalue, from {start}",
+                f"{right} of {len(own)}",
+                f"{len(own)}" if all_are_wanted else "",
+                right == len(own) if all_are_wanted else None,
+            )
 
 
 def main() -> None:

@@ -149,12 +149,13 @@ def test_small_motions_neither_grow_nor_decay_at_their_onset(line: LearntLine) -
 
 def test_mechanism_is_that_of_the_work_of_the_air(line: LearntLine) -> None:
     """Air that drives the twist alone, against attached flow that damps it: stall flutter."""
-    p, told, _ = line.mechanisms(np.array([0.9, 1.1]) * line.small[0])
+    spectrum = line.spectrum(np.array([0.9, 1.1]) * line.small[0])
+    p, told = spectrum.least_stable, line.mechanisms(spectrum)
     assert p.real[0] < 0.0 < p.real[1]
     assert told.mechanism[0] == "none"
     driven = known(moment=np.array([3.0, *np.zeros(7)]), lift=np.zeros(8))
     of_driven = LearntLine(KnownSections(), file_of(driven), GIVEN, SPEEDS)
-    _, told, _ = of_driven.mechanisms(np.array([30.0]))
+    told = of_driven.mechanisms(of_driven.spectrum(np.array([30.0])))
     assert told.mechanism[0] == "stall-flutter"
     assert told.twist_share[0] > 0.5  # more than heave and coupling together
 

@@ -203,18 +203,8 @@ class Lesson:
     def fitted(self, rate: float) -> tuple[Floats, Floats, float, float]:
         """Return B_m, B_l and their residuals at a rate of the lag (V/c)."""
         terms = terms_of(self.a, self.twist_rate, self.a - lagged(self.a, self.step, rate))
-        columns = terms[:, self.used].T
-        scale = np.abs(columns).max(axis=0)
-        scale[scale == 0.0] = 1.0
-        ridge = math.sqrt(RIDGE * len(columns)) * np.eye(len(TERMS))
         wanted = np.stack([self.moment[self.used], self.lift[self.used]], axis=1)
-        found, *_ = np.linalg.lstsq(
-            np.vstack([columns / scale, ridge]),
-            np.vstack([wanted, np.zeros((len(TERMS), 2))]),
-            rcond=None,
-        )
-        found = found / scale[:, None]
-        left = (wanted - columns @ found).std(axis=0) / np.maximum(wanted.std(axis=0), 1e-300)
+        found, left = bound_fit(terms[:, self.used].T, wanted)
         return found[:, 0], found[:, 1], float(left[0]), float(left[1])
 
 
@@ -237,12 +227,7 @@ def learn(history: ReferenceHistory, polar: Polar, until: float = math.inf) -> L
     """
     whole = polar.continued
     lesson = Lesson.of(history, whole, until)
-
-    def misfit(rate: float) -> float:
-        _, _, moment, lift = lesson.fitted(rate)
-        return moment**2 + LIFT_WEIGHT * lift**2
-
-    rate = rate_of_least(misfit)
+    rate = rate_of_least(lesson.fitted)
     moment, lift, left_moment, left_lift = lesson.fitted(rate)
     seen = history.incidence_rad + lesson.a[lesson.used]
     return LearntLoads(
@@ -258,8 +243,46 @@ def learn(history: ReferenceHistory, polar: Polar, until: float = math.inf) -> L
     )
 
 
-def rate_of_least(misfit: Callable[[float], float]) -> float:
-    """Return the rate of a lag (V/c) that leaves least: the best of a grid, refined around it."""
+def bound_fit(columns: Floats, wanted: Floats) -> tuple[Floats, Floats]:
+    """Return coefficients by least squares with a ridge, and what they leave.
+
+    Parameters
+    ----------
+    columns
+        Terms, shape (n, T), bound by :data:`RIDGE` when scaled to a largest value of 1.
+    wanted
+        Loads, shape (n,) or (n, K).
+
+    Returns
+    -------
+    tuple
+        Coefficients, shape (T,) or (T, K), and the standard deviation of what they leave over that
+        of the loads (-), shape () or (K,).
+    """
+    scale = np.abs(columns).max(axis=0)
+    scale[scale == 0.0] = 1.0
+    terms = scale.size
+    ridge = math.sqrt(RIDGE * len(columns)) * np.eye(terms)
+    found, *_ = np.linalg.lstsq(
+        np.vstack([columns / scale, ridge]),
+        np.concatenate([wanted, np.zeros((terms, *wanted.shape[1:]))]),
+        rcond=None,
+    )
+    found = (found.T / scale).T
+    left = (wanted - columns @ found).std(axis=0) / np.maximum(wanted.std(axis=0), 1e-300)
+    return found, left
+
+
+def rate_of_least(fitted: Callable[[float], tuple[Floats, Floats, float, float]]) -> float:
+    """Return the rate of a lag (V/c) that leaves least: the best of a grid, refined around it.
+
+    ``fitted`` gives B_m, B_l and the residuals of moment and lift at a rate.
+    """
+
+    def misfit(rate: float) -> float:
+        _, _, moment, lift = fitted(rate)
+        return moment**2 + LIFT_WEIGHT * lift**2
+
     low, high = map(math.log, _RATES)
     grid = np.linspace(low, high, _FIRST_RATES)
     best = int(np.argmin([misfit(math.exp(value)) for value in grid]))
@@ -288,19 +311,18 @@ def require_lesson(name: str, time: Floats) -> None:
     ResultFileError
         It is too short, has gaps or uneven samples, or is too coarse in time.
     """
-    s = time
-    if s.size < 2 or s[-1] - s[0] < SHORTEST_RECORD * (1.0 - 1e-9):
-        length = float(s[-1] - s[0]) if s.size else 0.0
+    if time.size < 2 or time[-1] - time[0] < SHORTEST_RECORD * (1.0 - 1e-9):
+        length = float(time[-1] - time[0]) if time.size else 0.0
         raise ResultFileError(
             f"{name}: a record of {length:.3g} c/V is too short to learn from; "
             f"{SHORTEST_RECORD:g} c/V or more are needed (unsteady.duration)"
         )
-    steps = np.diff(s)
+    steps = np.diff(time)
     step = float(np.median(steps))
     if np.any(np.abs(steps - step) > 1e-3 * step):
         place = int(np.argmax(np.abs(steps - step)))
         raise ResultFileError(
-            f"{name}: samples are {steps[place]:.4g} c/V apart at s = {s[place]:.4g} and "
+            f"{name}: samples are {steps[place]:.4g} c/V apart at s = {time[place]:.4g} and "
             f"{step:.4g} elsewhere; a record to learn from has no gaps, and even samples"
         )
     if step > LONGEST_INTERVAL:

@@ -43,6 +43,7 @@ from equisection.results.netcdf import read_attributes, read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.recorded_history import history_of
 from equisection.results.unsteady_result import Regime
+from equisection.solvers.protocol import Solver
 from equisection.solvers.registry import solver_from_config
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
@@ -155,6 +156,10 @@ class Lessons:
     def _model(self) -> plan.Model:
         return plan.model(self.name, self.config.reduction)
 
+    @cached_property
+    def _solver(self) -> Solver:
+        return solver_from_config(self.config, self.config.steady.resolution)
+
     @property
     def _is_beam(self) -> bool:
         return self._model.dimension == "3d"
@@ -166,12 +171,11 @@ class Lessons:
 
     def cases_at(self, values: Iterable[float]) -> list[UnsteadyCase]:
         """Return the cases of the model at values on the axis, whose sections are predicted."""
-        model = plan.model(self.name, self.config.reduction)
-        solver = solver_from_config(self.config, self.config.steady.resolution)
         # a history of a model has no interval that could be too long for the stiffest beam
         unsteady = self.config.unsteady.model_copy(update={"output_interval": 1e-3})
         config = self.config.model_copy(update={"unsteady": unsteady})
-        return [case_at(config, model, self.point(value), self.data, solver) for value in values]
+        model, data, solver = self._model, self.data, self._solver
+        return [case_at(config, model, self.point(value), data, solver) for value in values]
 
     @cached_property
     def strip_polars(self) -> StripPolars:
@@ -271,8 +275,7 @@ class Lessons:
     def _case_of(self, run: JudgedRun) -> UnsteadyCase:
         """Return the case of a run, with the section or beam that moved."""
         model = plan.model(run.file.parent.name, self.config.reduction)
-        solver = solver_from_config(self.config, self.config.steady.resolution)
-        case = case_at(self.config, model, run.point, self.data, solver)
+        case = case_at(self.config, model, run.point, self.data, self._solver)
         if case.refusal:
             raise ResultFileError(f"{run.file}: {case.refusal}; no model can be learnt from it")
         return case
@@ -348,8 +351,7 @@ class Lessons:
         """Return the k* of the beam at a point."""
         if K_STAR in point.axes:
             return point[K_STAR]
-        solver = solver_from_config(self.config, self.config.steady.resolution)
-        return case_at(self.config, self._model, point, self.data, solver).k_star
+        return case_at(self.config, self._model, point, self.data, self._solver).k_star
 
     def course(self) -> Course:
         """Return the model after all that has been run, with what it predicts and what it says."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from dataclasses import asdict
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +21,15 @@ from equisection.files import write_text, written_whole
 
 #: Version of the layout of the JSON file.
 LAYOUT = 1
+#: What each fit of a model has, with its variable in the NetCDF of a run.
+_OF_FIT = {
+    "rate": "rate",
+    "moment": "moment_terms",
+    "lift": "lift_terms",
+    "residual_moment": "residual_moment",
+    "residual_lift": "residual_lift",
+    "learnt_until": "learnt_until",
+}
 EQUATIONS = (
     "incidence: alpha = theta_0 + theta - w_m', a = alpha - theta_0, with the twist theta (rad, "
     "nose up) and the deflection w_m (chords, up) of mid-chord",
@@ -55,28 +64,45 @@ def model_of(data: xr.Dataset, polar: Polar) -> ReducedModel:
             f"{data.attrs['model']}: a model of the strips of a beam, of {data.sizes['term']} "
             f"terms; allowed is that of a section, of {len(TERMS)}"
         )
-    seen = tuple(math.radians(float(data.attrs[f"seen_{end}_deg"])) for end in ("least", "most"))
-    fits = [
-        LearntLoads(
-            polar=polar.continued,
-            incidence_rad=math.radians(float(data.attrs["incidence_deg"])),
-            rate=float(data["rate"][place]),
-            moment=np.asarray(data["moment_terms"][place], dtype=np.float64),
-            lift=np.asarray(data["lift_terms"][place], dtype=np.float64),
-            residual_moment=float(data["residual_moment"][place]),
-            residual_lift=float(data["residual_lift"][place]),
-            seen=(seen[0], seen[1]),
-            learnt_until=float(data["learnt_until"][place]),
-        )
-        for place in range(data.sizes["fit"])
-    ]
-    return ReducedModel(
-        loads=fits[0],
-        refits=tuple(fits[1:]),
-        learnt_from=str(data.attrs["learnt_from"]),
-        k_star=float(data.attrs["learnt_from_k_star"]),
-        source=str(data.attrs["source"]),
+    attrs = data.attrs
+    return _model(
+        polar.continued,
+        [
+            {name: data[variable].values[place] for name, variable in _OF_FIT.items()}
+            for place in range(data.sizes["fit"])
+        ],
+        float(attrs["incidence_deg"]),
+        (float(attrs["seen_least_deg"]), float(attrs["seen_most_deg"])),
+        learnt_from=str(attrs["learnt_from"]),
+        k_star=float(attrs["learnt_from_k_star"]),
+        source=str(attrs["source"]),
     )
+
+
+def _model(
+    polar: Polar,
+    fits: Sequence[Mapping[str, Any]],
+    incidence_deg: float,
+    seen_deg: Sequence[float],
+    **learnt: Any,
+) -> ReducedModel:
+    """Return a model with the coefficients of each fit, by the names of :data:`_OF_FIT`."""
+    low, high = map(math.radians, seen_deg)
+    loads = [
+        LearntLoads(
+            polar=polar,
+            incidence_rad=math.radians(incidence_deg),
+            rate=float(fit["rate"]),
+            moment=np.array(fit["moment"], dtype=np.float64),
+            lift=np.array(fit["lift"], dtype=np.float64),
+            residual_moment=float(fit["residual_moment"]),
+            residual_lift=float(fit["residual_lift"]),
+            seen=(low, high),
+            learnt_until=float(fit["learnt_until"]),
+        )
+        for fit in fits
+    ]
+    return ReducedModel(loads=loads[0], refits=tuple(loads[1:]), **learnt)
 
 
 def as_json(data: xr.Dataset, polar: Polar) -> dict[str, Any]:
@@ -96,8 +122,6 @@ def as_json(data: xr.Dataset, polar: Polar) -> dict[str, Any]:
     """
     model = model_of(data, polar)
     whole, attrs = model.loads.polar, data.attrs
-    fits = [asdict(fit) for fit in (model.loads, *model.refits)]
-    kept = ("rate", "moment", "lift", "residual_moment", "residual_lift", "learnt_until")
     return {
         "layout": LAYOUT,
         "model": attrs["model"],
@@ -116,7 +140,10 @@ def as_json(data: xr.Dataset, polar: Polar) -> dict[str, Any]:
         "terms": list(TERMS),
         "apparent_mass": APPARENT_MASS,
         "apparent_inertia": APPARENT_INERTIA,
-        "fits": [{name: _plain(fit[name]) for name in kept} for fit in fits],
+        "fits": [
+            {name: _plain(getattr(fit, name)) for name in _OF_FIT}
+            for fit in (model.loads, *model.refits)
+        ],
         "polar": {
             "label": whole.label,
             "incidence_deg": np.degrees(whole.incidence).tolist(),
@@ -151,24 +178,11 @@ def model_of_json(content: dict[str, Any]) -> ReducedModel:
     table = content["polar"]
     drag, lift, moment = (np.array(table[name], dtype=float) for name in ("c_d", "c_l", "c_m"))
     polar = Polar(np.radians(table["incidence_deg"]), drag, lift, moment, table["label"])
-    low, high = (math.radians(angle) for angle in content["seen_deg"])
-    fits = [
-        LearntLoads(
-            polar=polar,
-            incidence_rad=math.radians(content["incidence_deg"]),
-            rate=fit["rate"],
-            moment=np.array(fit["moment"]),
-            lift=np.array(fit["lift"]),
-            residual_moment=fit["residual_moment"],
-            residual_lift=fit["residual_lift"],
-            seen=(low, high),
-            learnt_until=fit["learnt_until"],
-        )
-        for fit in content["fits"]
-    ]
-    return ReducedModel(
-        loads=fits[0],
-        refits=tuple(fits[1:]),
+    return _model(
+        polar,
+        content["fits"],
+        content["incidence_deg"],
+        content["seen_deg"],
         learnt_from=content["learnt_from"],
         k_star=content["learnt_from_k_star"],
         source=content["source"],

@@ -27,7 +27,7 @@ from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.analysis.critical_speeds import MODEL, from_learnt
 from equisection.analysis.learning import Lessons
 from equisection.analysis.learnt_file import model_of
-from equisection.analysis.reduced_model import SMALLEST_BAND, ReducedModel, natural_frequencies
+from equisection.analysis.reduced_model import SMALLEST_BAND, ReducedModel
 from equisection.beam.section import Section
 from equisection.cases import UnsteadyCase
 from equisection.errors import EquisectionError
@@ -41,7 +41,7 @@ from equisection.motion.mechanism import (
 )
 from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes, no_modes
 from equisection.motion.sections import section_system
-from equisection.motion.stability_map import BELOW, STILL_AIR, WITHIN
+from equisection.motion.stability_map import BELOW, STILL_AIR, WITHIN, speeds_between
 from equisection.study.axes import SPEED, AsGiven
 
 Floats = NDArray[np.float64]
@@ -50,6 +50,7 @@ Complexes = NDArray[np.complex128]
 #: States (theta, theta', w, w', x), as modes are followed, among (w, theta, w', theta', x).
 _ORDER = [1, 3, 0, 2, 4]
 _STATES = len(_ORDER)
+_TWIST, _DEFLECTION = slice(0, 1), slice(2, 3)
 _OVER_BOTH = (
     "growth_rate",
     "frequency",
@@ -154,23 +155,17 @@ class LearntLine:
     def spectrum(self, speeds: Floats, fit: int = 0) -> Spectrum:
         """Return the small motions by one of the fits; NaN where there is no equilibrium."""
         states = np.full((speeds.size, _STATES), np.nan)
-        values = np.full((speeds.size, _STATES), np.nan, dtype=np.complex128)
-        right = np.full((speeds.size, _STATES, _STATES), np.nan, dtype=np.complex128)
-        left = right.copy()
+        linear = np.full((speeds.size, _STATES, _STATES), np.nan)
         sections, _ = self.sections(speeds)
         there = np.array([section is not None for section in sections], dtype=bool)
         if there.any():
             found = [section for section in sections if section is not None]
             moved = LearntSections(found, self._fits[fit])
-            linear = moved.linearised()[:, _ORDER][:, :, _ORDER]
+            linear[there] = moved.linearised()[:, _ORDER][:, :, _ORDER]
             twist, deflection = moved.equilibria()
             none = np.zeros_like(twist)
             states[there] = np.stack([twist, none, deflection, none, twist], axis=1)
-            there[there] = np.isfinite(linear).all(axis=(1, 2))
-            linear = linear[np.isfinite(linear).all(axis=(1, 2))]
-            values[there], right[there] = np.linalg.eig(linear)
-            left[there] = np.linalg.inv(right[there])
-        return Spectrum(speeds, values, right, left, states)
+        return Spectrum.about(speeds, states, linear)
 
     @property
     def _fits(self) -> tuple[LearntLoads, ...]:
@@ -183,11 +178,11 @@ class LearntLine:
         (section,), _ = self.sections(self.speeds[:1])
         if section is None:
             return no_modes(_STATES)
-        slowest = math.tau * min(natural_frequencies(section))
+        slowest = math.tau * min(section.uncoupled_frequencies)
         start = min(slowest * first / STILL_AIR, 0.5 * first)
-        grid = [_filled(start, first, BELOW), self.speeds]
+        grid = [speeds_between(start, first, BELOW), self.speeds]
         for low, high in zip(self.speeds[:-1], self.speeds[1:], strict=True):
-            grid.append(_filled(float(low), float(high), WITHIN))
+            grid.append(speeds_between(float(low), float(high), WITHIN))
         loads = UnsteadyLoads.from_polar(self.lessons.polar)
         naming = section_system([section], loads, math.radians(self.incidence_deg))
         (found,) = follow_modes(
@@ -220,21 +215,13 @@ class LearntLine:
             _first_rise(spectrum.speed, growth - band),
         )
 
-    def mechanisms(self, speeds: Floats) -> tuple[Complexes, Instabilities, Complexes]:
-        """Return eigenvalue, mechanism and motion (w, theta) of the least stable at speeds."""
-        spectrum = self.spectrum(speeds)
-        p = spectrum.least_stable
-        place = np.where(
-            np.isfinite(spectrum.values.real) & (spectrum.values.imag >= 0.0),
-            spectrum.values.real,
-            -np.inf,
-        ).argmax(axis=1)
-        vectors = np.take_along_axis(spectrum.right, place[:, None, None], axis=2)[:, :, 0]
-        motion = vectors[:, [2, 0]]
+    def mechanisms(self, spectrum: Spectrum) -> Instabilities:
+        """Return the mechanism of the least stable of the small motions at each speed."""
+        motion = spectrum.least_stable_motion
         known = spectrum.exists
-        names = np.full(speeds.size, "unknown", dtype=object)
-        numbers = np.full((4, speeds.size), np.nan)
-        sections, diverges = self.sections(speeds)
+        names = np.full(known.size, "unknown", dtype=object)
+        numbers = np.full((4, known.size), np.nan)
+        sections, diverges = self.sections(spectrum.speed)
         names[np.array(diverges, dtype=bool)] = "divergence"
         if known.any():
             found = [one for one, there in zip(sections, known, strict=True) if there and one]
@@ -242,16 +229,16 @@ class LearntLine:
             loads = UnsteadyLoads.from_polar(self.lessons.polar)
             attached = section_system(found, loads, math.radians(self.incidence_deg))
             told = instabilities(
-                p[known],
-                motion[known][:, :1],
-                motion[known][:, 1:],
+                spectrum.least_stable[known],
+                motion[known][:, _DEFLECTION],
+                motion[known][:, _TWIST],
                 moved.influence(spectrum.states[known, 0]),
                 influence_of(attached, attached.rates[:, :, : attached.layout.size]),
             )
             names[known] = told.mechanism
             shares = (told.heave_share, told.twist_share, told.coupling_share, told.heave_phase)
             numbers[:, known] = shares
-        return p, Instabilities(names.astype(np.str_), *numbers), motion
+        return Instabilities(names.astype(np.str_), *numbers)
 
     def mode_at(self, speed: float) -> str:
         """Return the name of the structural mode of largest growth near a speed (m/s)."""
@@ -322,7 +309,7 @@ def _row(line: LearntLine, chord: float) -> dict[str, object]:
     row |= _equilibrium(line, speed)
     unstable = small_high if math.isfinite(small_high) else small
     if math.isfinite(unstable):
-        _, told, _ = line.mechanisms(np.array([unstable * (1.0 + 1e-6)]))
+        told = line.mechanisms(line.spectrum(np.array([unstable * (1.0 + 1e-6)])))
         row |= {
             "mechanism": str(told.mechanism[0]),
             "heave_share": float(told.heave_share[0]),
@@ -389,11 +376,6 @@ def _equilibrium(line: LearntLine, speed: float) -> dict[str, float]:
         "twist_deg": math.degrees(float(twist)) / section.twist_recovery,
         "deflection_m": float(deflection) * chord / section.deflection_recovery,
     }
-
-
-def _filled(low: float, high: float, ratio: float) -> Floats:
-    """Return speeds from one to another, each at most so many times the one before it."""
-    return np.geomspace(low, high, math.ceil(math.log(high / low) / math.log(ratio)) + 1)
 
 
 def _first_rise(speed: Floats, growth: Floats) -> float:
@@ -476,11 +458,13 @@ def _map_of_model(
         mechanism[row] = _fill(line, {name: one[row] for name, one in values.items()}, chord)
         _fill_modes(line, names, {name: one[row] for name, one in of_modes.items()}, chord)
         if math.isfinite(line.small[0]):
-            _, _, motion = line.mechanisms(np.array(line.small[:1]))
-            (section,), _ = line.sections(np.array(line.small[:1]))
+            onset = np.array(line.small[:1])
+            (motion,) = line.spectrum(onset).least_stable_motion
+            (section,), _ = line.sections(onset)
             assert section is not None, "a small motion grows about an equilibrium"
             recovery = section.twist_recovery / section.deflection_recovery
-            motions[:, row, 0] = 1.0, recovery * motion[0, 0] / motion[0, 1]
+            motions[0, row] = 1.0
+            motions[1, row] = recovery * motion[_DEFLECTION] / motion[_TWIST]
     over, by_mode = ("incidence_deg", "speed"), ("incidence_deg", "speed", "mode")
     ratio = motions[1, :, 0]
     critical = {
@@ -536,8 +520,8 @@ def _map_of_model(
 def _fill(line: LearntLine, values: dict[str, Floats], chord: float) -> NDArray[np.object_]:
     """Fill in equilibrium, least stable motion and release at each speed; return mechanisms."""
     speeds = line.speeds
-    p, told, _ = line.mechanisms(speeds)
     spectrum = line.spectrum(speeds)
+    told, p = line.mechanisms(spectrum), spectrum.least_stable
     rate = speeds / chord
     known = spectrum.exists
     sections, _ = line.sections(speeds)

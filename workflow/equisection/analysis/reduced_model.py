@@ -287,7 +287,7 @@ def released(
     start: tuple[float, float] = (0.0, 0.0),
 ) -> PredictedReleases:
     """Return releases of sections with learnt loads (:func:`predicted` has the parameters)."""
-    natural = np.array([natural_frequencies(section) for section in sections])
+    natural = np.array([section.uncoupled_frequencies for section in sections])
     spans = windows_of(natural, windows)
     histories = LearntSections(sections, loads).released(float(spans[:, 1].max()), start=start)
     records = np.array([histories.twist.T, histories.deflection.T])
@@ -355,7 +355,7 @@ def limit_cycles(
     least, most = histories.farthest.T
     amplitudes = []
     for lane, section in enumerate(sections):
-        late = histories.time > duration - 2.0 / natural_frequencies(section)[0]
+        late = histories.time > duration - 2.0 / section.uncoupled_frequencies[0]
         swing = float(np.ptp(histories.twist[late, lane]))
         amplitudes.append(0.5 * math.degrees(swing))
     low, high = loads.seen
@@ -366,13 +366,6 @@ def limit_cycles(
             "extrapolated": ~((least >= low - margin) & (most <= high + margin)),
         }
     )
-
-
-def natural_frequencies(section: Section) -> tuple[float, float]:
-    """Return the uncoupled natural frequencies f c/V of pitch and heave of a section in a flow."""
-    pitch = math.sqrt(section.torsional_stiffness / section.inertia)
-    heave = math.sqrt(section.flexural_stiffness / section.mass)
-    return pitch / (2.0 * math.pi), heave / (2.0 * math.pi)
 
 
 def onset_of(k_star: Sequence[float], growth_rate: Sequence[float]) -> float:

@@ -290,6 +290,13 @@ class Section(BaseModel):
         squares = np.linalg.eigvals(np.linalg.solve(self.mass_matrix, self.stiffness_matrix))
         return np.asarray(np.sqrt(np.sort(squares.real)), dtype=np.float64)
 
+    @property
+    def uncoupled_frequencies(self) -> tuple[float, float]:
+        """Natural frequencies f of pitch and heave, as if S were 0 (Hz; f c/V in a flow)."""
+        pitch = math.sqrt(self.torsional_stiffness / self.inertia)
+        heave = math.sqrt(self.flexural_stiffness / self.mass)
+        return pitch / (2.0 * math.pi), heave / (2.0 * math.pi)
+
     def require_in_flow(self) -> None:
         """Refuse a section in SI units where one without units is wanted.
 

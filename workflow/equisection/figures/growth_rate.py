@@ -18,6 +18,7 @@ from equisection.figures.panels import letter, say
 from equisection.figures.references import read_references
 from equisection.figures.style import DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.results.netcdf import read_dataset
+from equisection.results.unsteady_result import Regime
 from equisection.study.axes import Axis, onset_axis_among
 
 #: Symbols and units of the panels, by the columns of both tables.
@@ -114,7 +115,7 @@ def _limit_cycles(
         axes.plot(at, np.where(beyond, np.nan, size), color=look.colour, linewidth=0.8)
         axes.plot(at, np.where(beyond, size, np.nan), color=look.colour, linewidth=0.8, ls=":")
         runs = summary[
-            (summary["model"] == data.attrs["model"]) & (summary["regime"] == "limit-cycle")
+            (summary["model"] == data.attrs["model"]) & (summary["regime"] == Regime.LIMIT_CYCLE)
         ]
         axes.plot(
             runs[along.name],
@@ -131,7 +132,7 @@ def _by_learnt_models(
     axes: Axes, learnt: Sequence[xr.Dataset], name: str, summary: pd.DataFrame
 ) -> None:
     """Draw what learnt models predict, where the motion is one that they have seen."""
-    low, high = ("growth_low", "growth_high") if name == "growth_rate" else _BAND_OF_FREQUENCY
+    low, high = _ENDS if name == "growth_rate" else _BAND_OF_FREQUENCY
     along = onset_axis_among(summary.columns).name
     for data in learnt:
         look = LOOKS[str(data.attrs["model"])]
@@ -160,10 +161,10 @@ def _interval_of_onset(axes: Axes, data: xr.Dataset, along: str, colour: str) ->
 
 def _intervals(axes: Axes, runs: pd.DataFrame, along: Axis, look: Look) -> None:
     """Draw the intervals of growth rates, and open marks where they hold zero."""
-    ends = list(_ENDS)
-    known = runs[runs[ends].notna().all(axis=1)]
-    axes.vlines(known[along.name], known[ends[0]], known[ends[1]], color=look.colour, linewidth=0.8)
-    unknown = known[(known[ends[0]] <= 0.0) & (known[ends[1]] >= 0.0)]
+    low, high = _ENDS
+    known = runs[runs[low].notna() & runs[high].notna()]
+    axes.vlines(known[along.name], known[low], known[high], color=look.colour, linewidth=0.8)
+    unknown = known[(known[low] <= 0.0) & (known[high] >= 0.0)]
     axes.plot(
         unknown[along.name],
         unknown["growth_rate"],

@@ -24,8 +24,7 @@ from numpy.typing import NDArray
 
 from equisection.aerodynamics.learnt_loads import (
     LEARN_FROM,
-    LIFT_WEIGHT,
-    RIDGE,
+    bound_fit,
     lagged,
     rate_of_least,
     require_lesson,
@@ -157,17 +156,7 @@ class _Lesson:
         terms = strip_terms(self.a, self.twist_rate, h)[: self.terms, self.used]
         found = []
         for wanted, weights in ((self.moment, self.by_moment), (self.lift, self.by_lift)):
-            columns, right = (terms @ weights).T, wanted[self.used]
-            scale = np.abs(columns).max(axis=0)
-            scale[scale == 0.0] = 1.0
-            ridge = math.sqrt(RIDGE * len(columns)) * np.eye(self.terms)
-            b, *_ = np.linalg.lstsq(
-                np.vstack([columns / scale, ridge]),
-                np.concatenate([right, np.zeros(self.terms)]),
-                rcond=None,
-            )
-            b = b / scale
-            left = (right - columns @ b).std() / max(float(right.std()), 1e-300)
+            b, left = bound_fit((terms @ weights).T, wanted[self.used])
             found.append((np.pad(b, (0, len(STRIP_TERMS) - self.terms)), float(left)))
         (moment, left_moment), (lift, left_lift) = found
         return moment, lift, left_moment, left_lift
@@ -201,12 +190,7 @@ def learn_strips(
     """
     whole = polars.continued
     lesson = _Lesson.of(release, whole, until, free_slope)
-
-    def misfit(rate: float) -> float:
-        _, _, moment, lift = lesson.fitted(rate)
-        return moment**2 + LIFT_WEIGHT * lift**2
-
-    rate = rate_of_least(misfit)
+    rate = rate_of_least(lesson.fitted)
     moment, lift, left_moment, left_lift = lesson.fitted(rate)
     seen = release.incidence_rad + lesson.a[lesson.used]
     return LearntStrips(

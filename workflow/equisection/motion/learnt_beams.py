@@ -239,7 +239,8 @@ class LearntBeams:
                 if not (least <= a.min() and a.max() <= most):
                     break
                 lift, moment = self.loads.coefficients(a[None], none, a[None])
-                slope = self.loads.slopes(a)[1][0] + self.loads.slopes(a)[1][2]
+                _, by = self.loads.slopes(a)
+                slope = by[0] + by[2]
                 missing = moment[0] @ self._by_moment - stiffness * theta
                 matrix = np.diag(stiffness) - (self._f * slope) @ self._by_moment
                 change = np.linalg.solve(matrix.T, missing)

@@ -58,11 +58,15 @@ class Spectrum:
     @classmethod
     def of(cls, speeds: Floats, system: StripSystem, states: Floats, deficits: Floats) -> Spectrum:
         """Return the motions of a system about its equilibria, a lane for each speed."""
+        return cls.about(speeds, states, jacobian(system, states, deficits))
+
+    @classmethod
+    def about(cls, speeds: Floats, states: Floats, linear: Floats) -> Spectrum:
+        """Return the motions about equilibria by their matrices (N, n, n), NaN without one."""
         lanes, n = states.shape
         values = np.full((lanes, n), np.nan, dtype=np.complex128)
         right = np.full((lanes, n, n), np.nan, dtype=np.complex128)
         left = right.copy()
-        linear = jacobian(system, states, deficits)
         found = np.isfinite(linear).all(axis=(1, 2))
         if found.any():
             values[found], right[found] = np.linalg.eig(linear[found])
@@ -87,6 +91,14 @@ class Spectrum:
         growth = np.where(np.isfinite(self.values.real), self.values.real, -np.inf)
         chosen = np.take_along_axis(self.values, growth.argmax(axis=1)[:, None], axis=1)[:, 0]
         return np.asarray(chosen.real + 1j * np.abs(chosen.imag))
+
+    @property
+    def least_stable_motion(self) -> Complexes:
+        """Eigenvector v of largest growth whose frequency is not negative, shape (N, n)."""
+        counts = np.isfinite(self.values.real) & (self.values.imag >= 0.0)
+        place = np.where(counts, self.values.real, -np.inf).argmax(axis=1)
+        chosen = np.take_along_axis(self.right, place[:, None, None], axis=2)[:, :, 0]
+        return np.asarray(chosen, dtype=np.complex128)
 
     @property
     def largest_real(self) -> Floats:

@@ -288,16 +288,16 @@ def spectra(paths: Sequence[PathFromRest], speeds: list[Floats], size: int) -> l
 def _grid(start: float, speeds: Floats, path: PathFromRest) -> Floats:
     """Speeds from near vacuum on, through those asked for, to the end of a path."""
     first, last = float(speeds[0]), float(speeds[-1])
-    known = np.concatenate([_filled(start, first, BELOW), speeds])
+    known = np.concatenate([speeds_between(start, first, BELOW), speeds])
     for low, high in itertools.pairwise(map(float, speeds)):
-        known = np.concatenate([known, _filled(low, high, WITHIN)])
+        known = np.concatenate([known, speeds_between(low, high, WITHIN)])
     end = path.end_speed * TO_THE_END
     if end < last:
         known = np.append(known[known < end], [0.999 * end, end] if end > start else [])
     return np.unique(known)
 
 
-def _filled(low: float, high: float, ratio: float) -> Floats:
+def speeds_between(low: float, high: float, ratio: float) -> Floats:
     """Return speeds from one to another, each at most so many times the one before it."""
     return np.geomspace(low, high, math.ceil(math.log(high / low) / math.log(ratio)) + 1)
 

@@ -75,22 +75,14 @@ def pitch_frequency(case: UnsteadyCase) -> float:
         return case.beam.torsion_frequency[0] / (2 * math.pi)
     if case.section is None:
         return math.nan
-    return _of_section(case.section)
-
-
-def _of_section(section: Section) -> float:
-    return math.sqrt(section.torsional_stiffness / section.inertia) / (2 * math.pi)
-
-
-def _heave_of_section(section: Section) -> float:
-    return math.sqrt(section.flexural_stiffness / section.mass) / (2 * math.pi)
+    return case.section.uncoupled_frequencies[0]
 
 
 def _heaves(case: UnsteadyCase) -> tuple[float, ...]:
     """Return the natural frequencies f c/V of heave or first bending modes in vacuum."""
     if case.beam is not None:
         return tuple(one / (2 * math.pi) for one in case.beam.bending_frequency[:BENDING_MODES])
-    return () if case.section is None else (_heave_of_section(case.section),)
+    return () if case.section is None else case.section.uncoupled_frequencies[1:]
 
 
 @dataclass(frozen=True)
@@ -121,7 +113,8 @@ class Judge:
     @classmethod
     def of_section(cls, section: Section, criteria: Criteria) -> Judge:
         """Return the judge of a section in its flow."""
-        return cls(criteria, _of_section(section), (_heave_of_section(section),))
+        pitch, heave = section.uncoupled_frequencies
+        return cls(criteria, pitch, (heave,))
 
     @property
     def waves(self) -> tuple[float, ...]:

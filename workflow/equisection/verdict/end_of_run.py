@@ -13,7 +13,7 @@ import math
 import numpy as np
 
 from equisection.verdict.growth import DECISIVE_PERIODS, Growth
-from equisection.verdict.observation import GROWN, RUNS_AWAY, UNDIMINISHED, Observation
+from equisection.verdict.observation import DEPARTS, GROWN, RUNS_AWAY, UNDIMINISHED, Observation
 from equisection.verdict.verdict import Regime
 from equisection.verdict.wording import change, degrees
 
@@ -22,9 +22,6 @@ _AT_THE_END = "decided by the trend at the end of the run: "
 _STALLED = 0.3
 # With fewer extrema the swing from the release to the first is needed to compare with.
 _FEWEST_EXTREMA = 3
-# A release swings from rest to about twice its equilibrium: a half swing of more than this many
-# times the first is no part of that.
-_DEPARTS = 2.0
 
 
 def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
@@ -101,9 +98,14 @@ def _comes_back(seen: Observation, growth: Growth) -> bool:
 
 def _stalls(seen: Observation) -> bool:
     """Tell whether an amplitude changes clearly, and in the last half of the window no more."""
+    return not seen.creeps and seen.trend.clear(0.0) and _slackens(seen)
+
+
+def _slackens(seen: Observation) -> bool:
+    """Tell whether the last half of the window surely keeps little of the rate of all of it."""
     rate, late = seen.trend.growth_rate, seen.halves[1]
     lately = math.copysign(late.growth_rate, rate * late.growth_rate) + 2.0 * late.standard_error
-    return not seen.creeps and seen.trend.clear(0.0) and lately < _STALLED * abs(rate)
+    return lately < _STALLED * abs(rate)
 
 
 def _direction(seen: Observation) -> int:
@@ -117,13 +119,12 @@ def _direction(seen: Observation) -> int:
     rate, last = seen.trend.growth_rate, float(seen.amplitude[-1])
     if seen.creeps:
         return int(np.sign(rate))
-    early, late = seen.halves
-    lately = math.copysign(late.growth_rate, rate * late.growth_rate) + 2.0 * late.standard_error
-    if lately < _STALLED * abs(rate):
+    if _slackens(seen):
         return 0
     if not seen.trend.clear(steadiness):
         return int(_leaves_all_behind(seen))
     if rate > 0.0:
+        early, late = seen.halves
         undiminished = early.clear(0.0) and late.growth_rate >= early.growth_rate > 0.0
         return int(undiminished or last > (1.0 + steadiness) * seen.long_before.max(initial=0.0))
     return -int(last < (1.0 - steadiness) * seen.long_before.min(initial=math.inf))
@@ -165,7 +166,7 @@ def _departure(seen: Observation) -> str:
         return _rising(seen)
     if seen.cycles.time.size < _FEWEST_EXTREMA and swings.size > 1:
         first, largest = float(swings[0]), float(swings[1:].max())
-        if largest > _DEPARTS * first:
+        if largest > DEPARTS * first:
             return f"half swings of {degrees(first)} and then {degrees(largest)}"
     return ""
 

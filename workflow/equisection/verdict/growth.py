@@ -160,7 +160,7 @@ def growth_of(
     """
     s, natural = np.asarray(time, dtype=float), np.asarray(frequencies, dtype=float)
     if not s.size:
-        return Growth()
+        return NO_GROWTH
     return growths_of(
         s,
         np.asarray(records, dtype=float)[:, None],
@@ -188,7 +188,7 @@ def growths_of(
     """
     natural = 2.0 * math.pi * np.asarray(frequencies, dtype=float)
     spans = np.asarray(windows, dtype=float)
-    found = [Growth()] * len(natural)
+    found = [NO_GROWTH] * len(natural)
     shortest = 2.0 * math.pi * FEWEST_PERIODS / natural[:, 0]
     lanes = np.flatnonzero(spans[:, 1] - spans[:, 0] >= shortest)
     if lanes.size and time.size > 1:

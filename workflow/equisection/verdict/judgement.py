@@ -45,7 +45,14 @@ from equisection.verdict.growth import NO_GROWTH, Growth
 from equisection.verdict.heave import growing_heave, unseen_decay
 from equisection.verdict.history import checked
 from equisection.verdict.means import Means, means, window_means
-from equisection.verdict.observation import GROWN, RUNS_AWAY, UNDIMINISHED, Observation, observe
+from equisection.verdict.observation import (
+    DEPARTS,
+    GROWN,
+    RUNS_AWAY,
+    UNDIMINISHED,
+    Observation,
+    observe,
+)
 from equisection.verdict.verdict import Criteria, Regime, Verdict
 from equisection.verdict.wording import change, degrees
 
@@ -61,8 +68,6 @@ _HIDDEN_CHANGE = 3.0
 # sigma ~ 1 - (A/A_0)^n it has d ln|sigma|/d ln A = n r^n/(r^n - 1) > n for r = A/A_0 > 1, and n
 # is 1 or more (2 for the cubic law). Below half of 1 there is no limit cycle beneath.
 _NO_SLOWING = 0.5
-# A half swing of this many times all before it is no part of an oscillation that decays.
-_DEPARTS = 2.0
 # Fall of ln A between two windows from which the slowing can be told.
 _FALL_TO_TELL = 0.1
 # What may not be called so while the heave grows.
@@ -243,7 +248,7 @@ def _runs_away(seen: Observation, bound: float) -> str:
             f"the twist runs away without oscillating, from {degrees(float(seen.twist[0]))} to "
             f"{degrees(float(seen.twist[-1]))}"
         )
-    if swings.size > 1 and swings[-1] > max(bound, _DEPARTS * float(swings[:-1].max())):
+    if swings.size > 1 and swings[-1] > max(bound, DEPARTS * float(swings[:-1].max())):
         return (
             f"a half swing of {degrees(float(swings[-1]))} follows one of "
             f"{degrees(float(swings[:-1].max()))} and is beyond the bound of {degrees(bound)}"

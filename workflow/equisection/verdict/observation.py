@@ -22,6 +22,9 @@ UNDIMINISHED = 0.8
 # A load that sets in and stays moves the twist three times as far in the second half of the time
 # as in the first, an oscillation less far; an exponential departure further in the end.
 RUNS_AWAY = 4.0
+# A release swings from rest to about twice its equilibrium, and less far from then on: a half swing
+# of more than this many times all before it is no part of that.
+DEPARTS = 2.0
 # Creep of less than this part of the steadiness, per window, is no creep.
 _NEGLIGIBLE_CREEP = 0.25
 # Largest of some hundred samples of white noise, in standard deviations.
