@@ -25,8 +25,7 @@ _NEEDED = ("model", "incidence_deg", "speed", "speed_low", "speed_high", "mechan
 #: Columns of numbers.
 _NUMBERS = ("incidence_deg", "speed", "speed_low", "speed_high")
 _OPTIONAL_NUMBERS = ("frequency_hz", "k_star", "margin", "growth_error", "growth_error_rms")
-#: Models and what they rest on, the nearest to the beam in its flow first.
-_MODELS = ("3d", "2d-corrected", "2d")
+#: What speeds rest on, the nearest to the beam in its flow first.
 _BASES = ("experiment", "cfd", "time", "model", "eigenvalue", "derivatives")
 _BASIS_WORDS = {
     "experiment": "histories of an experiment",
@@ -178,15 +177,19 @@ def _table(path: Path) -> pd.DataFrame:
 
 def _chosen(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
     """Return the line that answers, as :class:`Answer` says."""
-    models = sorted(
-        dict.fromkeys(row["model"] for row in rows),
-        key=lambda one: _MODELS.index(one) if one in _MODELS else len(_MODELS),
-    )
+    models = sorted(dict.fromkeys(row["model"] for row in rows), key=_distance_from_beam)
     for model in models:
         known = [row for row in _answers(rows, model) if _is_known(row)]
         if known:
             return min(known, key=lambda row: _or(_lowest(row), 0.0))
     return _answers(rows, models[0])[0]
+
+
+def _distance_from_beam(model: str) -> int:
+    """Return the place of a model, whatever its reduction: beam, corrected section, section."""
+    if model.startswith("3d"):
+        return 0
+    return 1 if "corrected" in model else 2
 
 
 def _answers(rows: Sequence[Mapping[str, Any]], model: str) -> list[Mapping[str, Any]]:
