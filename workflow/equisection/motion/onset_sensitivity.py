@@ -208,7 +208,7 @@ class FollowedOnset:
         at, path = np.array([speed]), self.line.path
         if not isinstance(path, BeamPath):
             return self._spectrum_of(other, speed)
-        here, there = _middles(self.line.body), _middles(other)
+        here, there = self.line.body.structure.middles, other.structure.middles
         near = np.interp(there, here, path.incidences_near(at)[0])[None]
         system = other.system(at, np.full(1, self.line.incidence_rad))
         return Spectrum.of(at, system, *equilibrium(system, near))
@@ -256,12 +256,6 @@ class FollowedOnset:
         low = _between(speed, values, int(below[-1]), -growth) if below.size else 0.0
         high = _between(speed, values, int(above[0]) - 1, growth) if above.size else math.inf
         return low, high
-
-
-def _middles(body: BodyInFlow) -> Floats:
-    """Return the middles z/L of the strips."""
-    weights = body.structure.weights
-    return np.asarray(np.cumsum(weights) - 0.5 * weights)
 
 
 def _between(speed: Floats, values: Floats, place: int, wanted: float) -> float:
