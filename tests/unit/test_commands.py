@@ -219,7 +219,7 @@ class TestInit:
         assert f"chord {value}: allowed is" in capsys.readouterr().err
         assert not list(tmp_path.iterdir())
 
-    @pytest.mark.parametrize("name", ["", "..", "a/b", "a b", "-x\n"])
+    @pytest.mark.parametrize("name", ["", "..", "a..b", "a/b", "a b", "-x\n", "a" * 65])
     def test_a_name_that_is_no_folder_is_refused(
         self, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     ) -> None:
