@@ -87,6 +87,18 @@ class TestOnset:
         assert "below 10 m/s" in lines[0]
         assert lines[2].endswith("no speed is known to be stable")
 
+    def test_recorded_histories_of_another_run_answer_before_eigenvalues(
+        self, tmp_path: Path
+    ) -> None:
+        run = run_with(
+            tmp_path / "run",
+            "3d,0,12,12,12,flutter,2,1,,eigenvalue,,,",
+            "3d,0,14,13,15,flutter,2,1,,given,,,",
+        )
+        answer = answer_of(run)
+        assert answer.chosen["basis"] == "given"
+        assert "by recorded histories" in "\n".join(answer.lines())
+
     def test_bases_of_one_incidence_leave_the_others_in(self, tmp_path: Path) -> None:
         run = run_with(
             tmp_path / "run",
