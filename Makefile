@@ -74,7 +74,7 @@ verify: $(ENV)/run
 # the others, which are seen while they run.
 FIRST_HALF := tests/workflow/test_[a-k]*.py
 test: $(ENV)/test
-	@logs=$$(mktemp -d); ids=; trap 'kill $$(jobs -p) 2>/dev/null; exit 130' INT TERM; \
+	@logs=$$(mktemp -d); ids=; trap 'kill $$ids; rm -r $$logs; exit 130' INT TERM; \
 		$(BIN)/python -m pytest -p no:cacheprovider tests/openfoam >$$logs/openfoam 2>&1 & ids="$$ids $$!"; \
 		$(BIN)/python -m pytest -p no:cacheprovider $(FIRST_HALF) >$$logs/workflow 2>&1 & ids="$$ids $$!"; \
 		$(BIN)/python -m pytest --ignore=tests/openfoam --ignore-glob='$(FIRST_HALF)'; failed=$$?; \

@@ -31,10 +31,8 @@ def rows() -> Iterator[Row]:
                 answer, _ = look(one, folder)
                 found[answer] += 1
                 slowest = max(slowest, (time.process_time() - start, one.what))
-            named, words = (
-                found.pop("named", 0),
-                f"{kind}, refused in one line that names key or file",
-            )
+            named = found.pop("named", 0)
+            words = f"{kind}, refused in one line that names key or file"
             others = ", ".join(f"{number} {answer}" for answer, number in found.items())
             measured = f"{named} of {len(inputs)}" + (f" ({others})" if others else "")
             yield Row(words, measured, f"{len(inputs)}", named == len(inputs))

@@ -124,8 +124,7 @@ def _motions(lines: Sequence[MapLine]) -> dict[str, Any]:
         for name, values in (("twist", twist), ("deflection", deflection))
         for part in ("real", "imag")
     }
-    weights = structure.weights
-    return {**parts, "strip_place": ("strip", np.cumsum(weights) - 0.5 * weights)}
+    return {**parts, "strip_place": ("strip", structure.middles)}
 
 
 def described(dataset: xr.Dataset) -> xr.Dataset:

@@ -18,6 +18,7 @@ is the first one of a whole map of the changed body.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -37,6 +38,8 @@ from equisection.motion.strip_system import StripSystem
 from equisection.motion.varied_body import BodyParameter
 
 Floats = NDArray[np.float64]
+#: Motions at a speed, and the place of one of them.
+_Motion = tuple[Spectrum, int]
 
 STEP = 1e-3
 """Part, or amount in chords or of critical damping, of the differences to either side."""
@@ -148,28 +151,15 @@ class FollowedOnset:
         body = parameter.changed(self.line.body, change)
         if self.is_fold:
             return self._of_a_map(body)
-        slope = self.growth_by_speed
-        speed = self.speed + self.derivative(parameter) * change
-        earlier: tuple[float, float] | None = None
-        for _ in range(MOST_STEPS):
-            if not self.speed / FURTHEST < speed < FURTHEST * self.speed:
-                break
+
+        def motion_at(speed: float) -> _Motion | None:
             spectrum = self._spectrum_of(body, speed)
             place = self._most_like(spectrum)
-            if place is None:
-                break
-            growth = float(spectrum.values[0, place].real)
-            if earlier is not None and speed != earlier[0]:
-                slope = (growth - earlier[1]) / (speed - earlier[0])
-            if slope <= 0.0:
-                break
-            earlier, following = (speed, growth), speed - growth / slope
-            if abs(following - speed) < NEAR * speed:
-                if np.delete(spectrum.values[0].real, _pair(spectrum, place)).max() > GROWS:
-                    break
-                return following
-            speed = following
-        return self._of_a_map(body)
+            return None if place is None else (spectrum, place)
+
+        first = self.speed + self.derivative(parameter) * change
+        found = self._speed_without_growth(motion_at, first)
+        return self._of_a_map(body) if found is None else found
 
     def speed_of(self, other: BodyInFlow) -> float:
         """Return the critical speed (m/s) of the same beam on other strips or with other modes.
@@ -178,37 +168,56 @@ class FollowedOnset:
         nearest one. Values beyond the range are those of :meth:`speed_with`.
         """
         if self.is_fold:
-            return self._fold_of(other)
+            return self._of_a_map(other)
         assert self._spectrum is not None, "a fold has no vectors"
         near = complex(self._spectrum.values[0, self._place])
-        speed, slope = self.speed, self.growth_by_speed
+
+        def motion_at(speed: float) -> _Motion | None:
+            nonlocal near
+            spectrum = self._spectrum_of_other(other, speed)
+            if not spectrum.exists[0]:
+                return None
+            place = int(np.abs(spectrum.values[0] - near).argmin())
+            near = complex(spectrum.values[0, place])
+            return spectrum, place
+
+        found = self._speed_without_growth(motion_at, self.speed)
+        return self._of_a_map(other) if found is None else found
+
+    def _speed_without_growth(
+        self, motion_at: Callable[[float], _Motion | None], speed: float
+    ) -> float | None:
+        """Return the speed (m/s) from which a motion grows, by Newton's method from one near it.
+
+        None where the motion is lost, the speed too far off, or another motion grows there.
+        """
+        slope = self.growth_by_speed
         earlier: tuple[float, float] | None = None
         for _ in range(MOST_STEPS):
             if not self.speed / FURTHEST < speed < FURTHEST * self.speed:
-                break
-            spectrum = self._spectrum_of_other(other, speed)
-            if not spectrum.exists[0]:
-                break
-            place = int(np.abs(spectrum.values[0] - near).argmin())
-            near = complex(spectrum.values[0, place])
+                return None
+            motion = motion_at(speed)
+            if motion is None:
+                return None
+            spectrum, place = motion
+            growth = float(spectrum.values[0, place].real)
             if earlier is not None and speed != earlier[0]:
-                slope = (near.real - earlier[1]) / (speed - earlier[0])
+                slope = (growth - earlier[1]) / (speed - earlier[0])
             if slope <= 0.0:
-                break
-            earlier, following = (speed, near.real), speed - near.real / slope
+                return None
+            earlier, following = (speed, growth), speed - growth / slope
             if abs(following - speed) < NEAR * speed:
-                if np.delete(spectrum.values[0].real, _pair(spectrum, place)).max() > GROWS:
-                    break
-                return following
+                others = np.delete(spectrum.values[0].real, _pair(spectrum, place))
+                return None if others.max() > GROWS else following
             speed = following
-        return self._of_a_map(other)
+        return None
 
     def _spectrum_of_other(self, other: BodyInFlow, speed: float) -> Spectrum:
         """Motions of a body on other strips about its equilibrium near that of the line."""
         at, path = np.array([speed]), self.line.path
         if not isinstance(path, BeamPath):
             return self._spectrum_of(other, speed)
-        here, there = _middles(self.line.body), _middles(other)
+        here, there = self.line.body.structure.middles, other.structure.middles
         near = np.interp(there, here, path.incidences_near(at)[0])[None]
         system = other.system(at, np.full(1, self.line.incidence_rad))
         return Spectrum.of(at, system, *equilibrium(system, near))
@@ -256,12 +265,6 @@ class FollowedOnset:
         low = _between(speed, values, int(below[-1]), -growth) if below.size else 0.0
         high = _between(speed, values, int(above[0]) - 1, growth) if above.size else math.inf
         return low, high
-
-
-def _middles(body: BodyInFlow) -> Floats:
-    """Return the middles z/L of the strips."""
-    weights = body.structure.weights
-    return np.asarray(np.cumsum(weights) - 0.5 * weights)
 
 
 def _between(speed: Floats, values: Floats, place: int, wanted: float) -> float:

@@ -137,6 +137,11 @@ class StripStructure:
         """Number S of strips."""
         return int(self.weights.size)
 
+    @property
+    def middles(self) -> Floats:
+        """Middles z/L of the strips, shape (S,)."""
+        return np.asarray(np.cumsum(self.weights) - 0.5 * self.weights)
+
 
 @dataclass(frozen=True)
 class StateLayout:

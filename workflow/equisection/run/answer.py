@@ -25,13 +25,12 @@ _NEEDED = ("model", "incidence_deg", "speed", "speed_low", "speed_high", "mechan
 #: Columns of numbers.
 _NUMBERS = ("incidence_deg", "speed", "speed_low", "speed_high")
 _OPTIONAL_NUMBERS = ("frequency_hz", "k_star", "margin", "growth_error", "growth_error_rms")
-#: Models and what they rest on, the nearest to the beam in its flow first.
-_MODELS = ("3d", "2d-corrected", "2d")
-_BASES = ("experiment", "cfd", "time", "model", "eigenvalue", "derivatives")
-_BASIS_WORDS = {
+#: What speeds rest on, in words, the nearest to the beam in its flow first.
+_BASES = {
     "experiment": "histories of an experiment",
     "cfd": "CFD runs",
     "time": "runs in time",
+    "given": "recorded histories",
     "model": "a model learnt from a release",
     "eigenvalue": "eigenvalues of small motions",
     "derivatives": "flutter derivatives",
@@ -178,15 +177,21 @@ def _table(path: Path) -> pd.DataFrame:
 
 def _chosen(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
     """Return the line that answers, as :class:`Answer` says."""
-    models = sorted(
-        dict.fromkeys(row["model"] for row in rows),
-        key=lambda one: _MODELS.index(one) if one in _MODELS else len(_MODELS),
-    )
+    models = sorted(dict.fromkeys(row["model"] for row in rows), key=_distance_from_beam)
     for model in models:
         known = [row for row in _answers(rows, model) if _is_known(row)]
         if known:
             return min(known, key=lambda row: _or(_lowest(row), 0.0))
     return _answers(rows, models[0])[0]
+
+
+def _distance_from_beam(name: str) -> tuple[bool, bool]:
+    """Return what puts models in order, whatever their reduction: beam, corrected, section."""
+    # Imported here, so that --help and --version come at once.
+    from equisection.study.plan import model  # noqa: PLC0415
+
+    found = model(name, "")
+    return found.dimension != "3d", not found.corrected
 
 
 def _answers(rows: Sequence[Mapping[str, Any]], model: str) -> list[Mapping[str, Any]]:
@@ -199,9 +204,8 @@ def _answers(rows: Sequence[Mapping[str, Any]], model: str) -> list[Mapping[str,
 
 
 def _answer_at(lines: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
-    ordered = sorted(
-        lines, key=lambda row: _BASES.index(row["basis"]) if row["basis"] in _BASES else len(_BASES)
-    )
+    places = {basis: place for place, basis in enumerate(_BASES)}
+    ordered = sorted(lines, key=lambda row: places.get(row["basis"], len(places)))
     first = next(filter(_is_known, ordered), ordered[0])
     if _lowest(first) is not None or first["speed_high"] is None:
         return first
@@ -268,7 +272,7 @@ def _why_unknown(row: Mapping[str, Any]) -> str:
 
 
 def _sure(row: Mapping[str, Any]) -> str:
-    basis = f"by {_BASIS_WORDS.get(row['basis'], row['basis'])}"
+    basis = f"by {_BASES.get(row['basis'], row['basis'])}"
     if row["speed_low"] is not None and row["speed_high"] is not None:
         basis += " below and above it" if row["basis"] in ("cfd", "time") else ""
     error = "the error of polar, lags and mesh is not in it"

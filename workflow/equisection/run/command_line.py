@@ -15,12 +15,17 @@ from typing import TYPE_CHECKING, Any
 
 import equisection
 from equisection.errors import ConfigError, EquisectionError
+from equisection.run.starter import (
+    EXAMPLES,
+    QUESTIONS,
+    StarterError,
+    asked,
+    examples_folder,
+    starter,
+)
 
 if TYPE_CHECKING:  # what a command needs is imported there, so that --help comes at once
     from equisection.config import Config
-
-#: What a beam may be like; ``run/starter.py`` has the examples.
-LIKE = ("tracker", "bridge", "wing", "panel", "plate")
 
 _EXAMPLES = """\
 examples:
@@ -209,12 +214,9 @@ def _add_start(commands: Any) -> None:
         "Without --like, example and dimensions are asked for on a terminal.",
     )
     init.add_argument("name", metavar="NAME", help="name of the run; the file is NAME.yaml")
-    init.add_argument("--like", choices=LIKE, help="what the beam is like")
-    for option, unit, words in (
-        ("--chord", "m", "chord"),
-        ("--length", "m", "length along the span"),
-        ("--design-speed", "m/s", "wind speed that it has to stand"),
-    ):
+    init.add_argument("--like", choices=list(EXAMPLES), help="what the beam is like")
+    for _, key, words, unit in QUESTIONS:
+        option = f"--{key.replace('_', '-')}"
         init.add_argument(option, type=float, metavar=unit.upper(), help=f"{words} ({unit})")
     run = commands.add_parser(
         "run",
@@ -263,21 +265,15 @@ def _add_answers(commands: Any) -> None:
 def _init(options: argparse.Namespace) -> None:
     # Imported here, so that --help and --version come at once.
     from equisection.run import start  # noqa: PLC0415
-    from equisection.run.starter import (  # noqa: PLC0415
-        StarterError,
-        asked,
-        examples_folder,
-        starter,
-    )
 
-    given = {"chord": options.chord, "length": options.length, "design_speed": options.design_speed}
+    given = {key: getattr(options, key) for _, key, _, _ in QUESTIONS}
     values = {name: value for name, value in given.items() if value is not None}
     name = options.name.removesuffix(".yaml")
     file = Path(f"{name}.yaml")
     like = options.like
     if like is None:
         if not sys.stdin.isatty():
-            raise StarterError(f"--like is missing; allowed are {', '.join(LIKE)}")
+            raise StarterError(f"--like is missing; allowed are {', '.join(EXAMPLES)}")
         if file.exists():
             raise StarterError(f"{file}: is there already; give another name")
         like, values = asked(values)

@@ -43,17 +43,13 @@ def snakemake_command(configfiles: Iterable[Path], further: Sequence[str]) -> li
     # before all else, for it would take what follows it without a dash as a further file
     command = [sys.executable, "-m", "snakemake", *(["--configfile", *files] if files else [])]
     project = project_of_package()
-    elsewhere = project is not None and project != Path.cwd().resolve()
-    if elsewhere and not _given(further, "--snakefile", "-s"):
-        command += ["--snakefile", str(project / "Snakefile")]  # type: ignore[operator]
+    place = project if project and project != Path.cwd().resolve() else Path()
+    if place != Path() and not _given(further, "--snakefile", "-s"):
+        command += ["--snakefile", str(place / "Snakefile")]
     if not _given(further, "--cores", "-c", "--jobs", "-j", "--profile"):
         command += ["--cores", "all"]
     if not _given(further, "--workflow-profile"):
-        profile = (project or Path()) / "workflow" / "profiles" / "default"
-        command += [
-            "--workflow-profile",
-            str(profile if elsewhere else "workflow/profiles/default"),
-        ]
+        command += ["--workflow-profile", str(place / "workflow" / "profiles" / "default")]
     return [*command, *further]
 
 

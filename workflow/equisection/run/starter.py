@@ -23,7 +23,6 @@ QUESTIONS = (
     ("beam", "length", "length along the span", "m"),
     ("flow", "design_speed", "design wind speed, which it has to stand", "m/s"),
 )
-_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
 class StarterError(EquisectionError):
@@ -99,11 +98,7 @@ def starter(like: str, name: str, file: Path, examples: Path, values: Mapping[st
     StarterError
         The name is no name of a folder, or a value is not above 0.
     """
-    if not _NAME.fullmatch(name):
-        raise StarterError(
-            f"name {name!r}: allowed are letters, digits, '-', '_' and '.', the first of them a "
-            "letter or digit"
-        )
+    _require_name(name)
     for key, value in values.items():
         if not (value > 0.0 and math.isfinite(value)):
             raise StarterError(f"{key.replace('_', ' ')} {value:g}: allowed is a number above 0")
@@ -119,6 +114,21 @@ def starter(like: str, name: str, file: Path, examples: Path, values: Mapping[st
         if key in values:
             text = _with_value(text, section, key, f"{values[key]:.12g} # {unit}")
     return text
+
+
+def _require_name(name: str) -> None:
+    """Refuse a name that a configuration refuses."""
+    # Imported here, so that the command's --help comes at once.
+    from pydantic import TypeAdapter, ValidationError  # noqa: PLC0415
+
+    from equisection.config.words import allowed  # noqa: PLC0415
+    from equisection.keys.values import Name  # noqa: PLC0415
+
+    names: TypeAdapter[str] = TypeAdapter(Name)
+    try:
+        names.validate_python(name)
+    except ValidationError:
+        raise StarterError(f"name {name!r}: allowed is {allowed(names.json_schema())}") from None
 
 
 def _with_value(text: str, section: str, key: str, value: str) -> str:

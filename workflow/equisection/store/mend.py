@@ -6,6 +6,8 @@ takes a millisecond a megabyte; a file is opened only if it is younger than the 
 
 from __future__ import annotations
 
+import contextlib
+import functools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,7 +17,7 @@ from equisection.files import TEMPORARY
 from equisection.provenance import file_hash
 from equisection.results.whole import fault_of
 from equisection.store.index import indices_of_run, read_index, result_file
-from equisection.store.made_from import FOLDER, read_record
+from equisection.store.made_from import FOLDER, ProvenanceRecord, read_record
 
 #: Folder of the case files, which have the places of the indices of their results.
 CASES = "cases"
@@ -148,40 +150,35 @@ def _outdated(run: Path) -> Iterator[Unsound]:
     They are those that are younger than that file, which Snakemake takes for made from it: a copy
     keeps its time (``cp -p``, ``rsync -a``, a clock that was wrong).
     """
-    hashes: dict[Path, str] = {}
-    for path in sorted((run / FOLDER).glob("*.json")):
-        try:
-            record = read_record(path)
-        except ResultFileError:
-            continue  # 'equisection verify' names it
-        made = {run / name: digest for name, digest in record.outputs.items()}
+    digest_of = functools.cache(file_hash)
+    for record in _records(run):
         for name, digest in record.inputs.items():
             given = Path(name)
             of_run = not given.is_absolute() and (run / given).exists()
             if of_run or given.suffix not in _GIVEN or not given.is_file():
                 continue
-            if hashes.setdefault(given, file_hash(given)) == digest:
+            if digest_of(given) == digest:
                 continue
             time = given.stat().st_mtime_ns
             why = f"made from another {given} than there is, whose time is older"
-            for file, before in made.items():
-                if file.is_file() and time < file.stat().st_mtime_ns and _is_as_made(file, before):
+            for output, before in record.outputs.items():
+                file = run / output
+                # another job may have made it since
+                if file.is_file() and time < file.stat().st_mtime_ns and file_hash(file) == before:
                     yield Unsound(file, f"{why}; it is made again", kept=False)
-
-
-def _is_as_made(file: Path, digest: str) -> bool:
-    """Tell whether a file is that of a record: another job may have made it since."""
-    return file_hash(file) == digest
 
 
 def _edited(run: Path) -> Iterator[Unsound]:
     """Yield the cheap files that differ from the record of the job that made them."""
-    for path in sorted((run / FOLDER).glob("*.json")):
-        try:
-            made = read_record(path).outputs
-        except ResultFileError:
-            continue  # 'equisection verify' names it
-        for name, digest in made.items():
+    for record in _records(run):
+        for name, digest in record.outputs.items():
             file = run / name
             if file.suffix in _CHEAP and file.is_file() and file_hash(file) != digest:
                 yield Unsound(file, "edited since its job made it", kept=True)
+
+
+def _records(run: Path) -> Iterator[ProvenanceRecord]:
+    """Yield what the jobs of a run made from what."""
+    for path in sorted((run / FOLDER).glob("*.json")):
+        with contextlib.suppress(ResultFileError):  # 'equisection verify' names it
+            yield read_record(path)

@@ -33,6 +33,8 @@ from equisection.structure.beam_elements import (
 Floats = NDArray[np.float64]
 
 ROOT, TIP = "root", "tip"
+#: Distance z/L of nodes up to which they are one.
+_ONE_PLACE = 1e-12
 
 
 @dataclass(frozen=True)
@@ -120,9 +122,6 @@ def static_loads(beam: Beam, edges: Floats, lift: Floats, torque: Floats) -> Sta
         *_largest_bending_moment(nodes, lift[strip], force, moment, length),
         *_largest_torque(nodes, torque[strip], twisted[turned.values], length),
     )
-
-
-_ONE_PLACE = 1e-12
 
 
 def _carried(system: BeamSystem, load: Floats, rigidity: float) -> Floats:

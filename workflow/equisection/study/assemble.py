@@ -130,7 +130,7 @@ def unsteady_case(
         refusal=refusal,
         diverges=diverges,
     )
-    if reason := "" if case.not_run else _seldom(case):
+    if not case.not_run and (reason := _seldom(case)):
         return case.model_copy(update={"section": None, "beam": None, "refusal": reason})
     return case
 

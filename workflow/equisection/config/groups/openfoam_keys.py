@@ -116,16 +116,20 @@ class OpenFoam(SolverKeys):
 
     def runs_rigid_beam(self, outline: object, models: tuple[str, ...]) -> bool:
         """Tell whether the rigid beam is run too: of an outline only where a model needs it."""
-        return outline is None or _needs_beam(models)
+        return _runs_rigid_beam(outline, models)
 
     def refuses_folder(self, folder: Path) -> str:
         """Return why the solver cannot work in a folder; empty if it can."""
         return refused_path(folder)
 
 
-def _needs_beam(models: tuple[str, ...]) -> bool:
-    """Tell whether a model is the beam, or is corrected by the rigid one."""
-    return any(name == "3d" or "corrected" in name for name in models)
+def _runs_rigid_beam(outline: object, models: tuple[str, ...]) -> bool:
+    return outline is None or any(name == "3d" or "corrected" in name for name in models)
+
+
+def _has_beam_in_flow(models: tuple[str, ...], beam_polar: str, outline: object) -> bool:
+    """Tell whether a beam is run in the flow, free or rigid."""
+    return "3d" in models or (not beam_polar and _runs_rigid_beam(outline, models))
 
 
 def refused_path(folder: Path) -> str:
@@ -154,10 +158,9 @@ def _follows_the_flow(solver: str, step: float) -> Iterator[Problem]:
 def _root_is_on_a_wall(
     solver: str, root_on_wall: bool, beam_polar: str, models: tuple[str, ...], outline: object
 ) -> Iterator[Problem]:
-    needs_beam = _needs_beam(models) if outline is not None else True
     if solver != "openfoam" or root_on_wall:
         return
-    if "3d" in models or (needs_beam and not beam_polar):
+    if _has_beam_in_flow(models, beam_polar, outline):
         yield Problem(
             "flow.root_on_wall",
             root_on_wall,
@@ -187,7 +190,7 @@ def _laminar_section(
     """Refuse a laminar beam: its flow is set up turbulent alone."""
     if solver != "openfoam" or turbulence != LAMINAR:
         return
-    if "3d" in models or (not beam_polar and (outline is None or _needs_beam(models))):
+    if _has_beam_in_flow(models, beam_polar, outline):
         yield Problem(
             "openfoam.turbulence",
             turbulence,
