@@ -220,6 +220,9 @@ def test_table_is_read_as_it_is_written(moved: MovedModes, tmp_path: Path) -> No
     path.write_text("\n".join(lines[:-1]) + "\n")
     with pytest.raises(DerivativesFileError, match=r"no load on torsion1 by torsion1 at .* 30"):
         GeneralisedForces.read(path)
+    path.write_text("\n".join(lines).replace("\n6,", "\n0,"))
+    with pytest.raises(DerivativesFileError, match=r"3d\.csv: .* begins with 0; wanted above 0$"):
+        GeneralisedForces.read(path)
     with pytest.raises(ArgumentError, match="the forces cover"):
         again.influence(10.0)
 

@@ -49,8 +49,8 @@ def generalised_forces_of(results: ForcedResults) -> MovedModes:
     forces = GeneralisedForces(
         found.reduced_velocity,
         found.values,
-        len(first.shapes.bending),
         found.spread,
+        bending=len(first.shapes.bending),
         axis=first.shapes.elastic_axis,
         incidence_deg=first.incidence_deg,
         twist_deg=first.mean_twist_deg,
