@@ -82,7 +82,7 @@ def deform_mesh(
     write_system(place, entries, schemes, solution)
     pipes = Pipes(place, SILENCE)
     try:
-        serve = _Holding(points, position, pipes)
+        serve = _Holding(place, points, position, pipes)
         run_beside(installation, "moveDynamicMesh", place, serve, ranks=ranks)
     finally:
         pipes.close()
@@ -100,6 +100,7 @@ def deform_mesh(
 class _Holding:
     """The other side of the exchange, which brings the plate to its shape, whatever its loads."""
 
+    folder: Path
     points: LumpedPoints
     position: NDArray[np.float64]
     pipes: Pipes
@@ -108,6 +109,6 @@ class _Holding:
         """Serve the program until it has ended."""
         del end
         while (message := self.pipes.receive(alive)) is not None:
-            part = min(1.0, Handed.read(message).time / _STEPS)
+            part = min(1.0, Handed.read(message, self.folder).time / _STEPS)
             if not self.pipes.send(self.points.message(part * self.position), alive):
                 break

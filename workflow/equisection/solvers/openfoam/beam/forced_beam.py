@@ -19,7 +19,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.cases import BeamModes, ForcedCase
-from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.forced_result import ForcedResult, motion_of
 from equisection.solvers.openfoam.beam.deformed_mesh import deform_mesh
@@ -228,13 +227,7 @@ class _Moving:
     def _answer(self, message: str, stream: IO[str]) -> str:
         """Return the places of the points at the time that is handed over."""
         run = self._run
-        try:
-            handed = Handed.read(message)
-        except (ValueError, StopIteration):
-            raise SolverError(
-                f"{run.folder}: what lumpedPointMovement handed over is not in its plain form: "
-                f"{message[:200]!r}"
-            ) from None
+        handed = Handed.read(message, run.folder)
         place = run.position(self._at)
         if self._is_first:  # moments are about the points at rest then
             handed, self._is_first = handed.about(run.points.mid_chord(place)), False

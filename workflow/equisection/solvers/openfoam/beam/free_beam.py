@@ -459,13 +459,7 @@ class _Exchange:
         return np.zeros_like(self._run.points.frequency) if place is None else place
 
     def _handed(self, message: str) -> Handed:
-        try:
-            handed = Handed.read(message)
-        except (ValueError, StopIteration):
-            raise SolverError(
-                f"{self._run.folder}: what lumpedPointMovement handed over is not in its plain "
-                f"form: {message[:200]!r}"
-            ) from None
+        handed = Handed.read(message, self._run.folder)
         if self._resumed is not None:
             handed = handed.about(self._run.points.mid_chord(self._resumed))
             self._resumed = None
