@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -80,12 +81,9 @@ def deform_mesh(
     schemes = flow.schemes(steady=False)
     schemes["laplacianSchemes"] |= motion_schemes()
     write_system(place, entries, schemes, solution)
-    pipes = Pipes(place, SILENCE)
-    try:
+    with closing(Pipes(place, SILENCE)) as pipes:
         serve = _Holding(place, points, position, pipes)
         run_beside(installation, "moveDynamicMesh", place, serve, ranks=ranks)
-    finally:
-        pipes.close()
     run_program(installation, "checkMesh", place, arguments=("-latestTime",), ranks=ranks)
     require_sound_mesh(place / "log.checkMesh")
     for part in parts(place):

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import shutil
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -73,12 +74,9 @@ def try_exchange(
     write_system(place)
     twist, deflection = points.release(_TWIST, _DEFLECTION)
     there = position + twist + deflection
-    pipes = Pipes(place, SILENCE)
-    try:
+    with closing(Pipes(place, SILENCE)) as pipes:
         serve = _Trial(place, points.message(there), pipes)
         run_beside(installation, "pimpleFoam", place, serve, ranks=len(parts(place)))
-    finally:
-        pipes.close()
     where = f"OpenFOAM {installation.version()}, {place}"
     if not serve.handed:
         raise _misunderstood(where, "no loads were handed over")
