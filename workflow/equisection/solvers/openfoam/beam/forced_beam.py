@@ -34,7 +34,6 @@ logger = logging.getLogger(__name__)
 
 Floats = NDArray[np.float64]
 
-_NOTHING = np.empty(0)
 #: Columns of a row of the history before the loads of the modes: time, C_L and C_M.
 _BEFORE = 3
 
@@ -104,7 +103,7 @@ class ForcedPlateRun(CoupledRun[ForcedCase]):
         except BlowUpError as error:
             failure = str(error)
             if not is_ready(self.folder) or not self.history_file.exists():
-                return ForcedResult(_NOTHING, _NOTHING, _NOTHING, _NOTHING, _NOTHING, failure)
+                return ForcedResult.without_history(failure)
         return self._result(failure)
 
     def _go_on(self, start: float, tell: Tell) -> None:
