@@ -4,23 +4,15 @@ import logging
 from collections.abc import Sequence
 from pathlib import Path
 
+from equisection.analysis.forced_loads import read_results
 from equisection.analysis.forced_modes import generalised_forces_of
-from equisection.cases import ForcedCase, case_hash, read_cases
 from equisection.files import written_whole
-from equisection.results.netcdf import read_dataset
 from equisection.run.script import logged
-from equisection.store.index import read_index, result_file
 
 
 def main(case_files: Sequence[Path], index: Path, table: Path, fits: Path) -> None:
     """Write the table of forces, and how well each history is fitted."""
-    cases = {name: case for file in case_files for name, case in read_cases(file).items()}
-    results = {}
-    for name in read_index(index):
-        case = cases[name]
-        assert isinstance(case, ForcedCase)
-        results[name] = case, read_dataset(result_file(index, name), case_hash(case))
-    found = generalised_forces_of(results)
+    found = generalised_forces_of(read_results(case_files, index))
     for remark in found.remarks:
         logging.getLogger(__name__).warning("%s", remark)
     found.forces.write(

@@ -5,7 +5,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
-from equisection.solvers.openfoam.beam import free_beam as plate_free
+from equisection.solvers.openfoam.beam import coupled_run
 from equisection.solvers.openfoam.beam.free_beam import PlateRun
 from equisection.solvers.openfoam.beam.pipes import FOLDER, LOADS, PLACES, Alive, Pipes
 from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of
@@ -78,7 +78,7 @@ def seconds_a_step(exchange: type, ranks: int, steps: int) -> float:
             "output_interval": STEP,
         }
     )
-    plate_free.Pipes = exchange  # type: ignore[misc, assignment]
+    coupled_run.Pipes = exchange  # type: ignore[misc, assignment]
     started: list[float] = []
 
     def tell(now: float, end: float) -> None:

@@ -20,8 +20,7 @@ from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.cases import ForcedCase, Harmonic, ModeShapes
 from equisection.results.forced_result import ForcedResult, signal_of
 from equisection.solvers.embedded.forced_beams import forced_beam
-from equisection.solvers.openfoam.beam import free_beam as plate_free
-from equisection.solvers.openfoam.beam import rigid_beam
+from equisection.solvers.openfoam.beam import coupled_run, rigid_beam
 from equisection.solvers.openfoam.beam.forced_beam import ForcedPlateRun
 from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import Installation
@@ -65,7 +64,7 @@ def test_fast_bending_has_the_apparent_mass_of_the_beam(
 
     The beam is held in a twist, which gives it lift at 0 deg, and moved about that.
     """
-    monkeypatch.setattr(plate_free, "STATE_INTERVAL", 1.25)
+    monkeypatch.setattr(coupled_run, "STATE_INTERVAL", 1.25)
     monkeypatch.setattr(rigid_beam, "MOST", 150)
     case = forced("heave", math.radians(1.0) / FREQUENCY, mean_twist_deg=1.0)
     run = ForcedPlateRun(

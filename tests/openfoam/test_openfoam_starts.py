@@ -20,7 +20,7 @@ from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.cases import Start
 from equisection.motion.sections import release_sections
-from equisection.solvers.openfoam.beam import free_beam as plate_free
+from equisection.solvers.openfoam.beam import coupled_run
 from equisection.solvers.openfoam.beam.free_beam import PlateRun
 from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of
 from equisection.solvers.openfoam.flow_setup import Coupling
@@ -113,7 +113,7 @@ def test_heavy_plate_vibrates_from_its_start(
     From the release on no point of the mesh moves by more than the plate does: the mesh that the
     plate is held in is the one that the run goes on from.
     """
-    monkeypatch.setattr(plate_free, "STATE_INTERVAL", 0.2)
+    monkeypatch.setattr(coupled_run, "STATE_INTERVAL", 0.2)
     modes = offset_modes(100.0, 100.0)
     case = UNSTEADY_PLATE.model_copy(
         update={

@@ -26,7 +26,7 @@ from equisection.results.plate_surface import PlateSurface
 from equisection.results.steady_result import SteadyResult
 from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady_result import UnsteadyResult
-from equisection.solvers.openfoam.beam import free_beam as plate_free
+from equisection.solvers.openfoam.beam import coupled_run
 from equisection.solvers.openfoam.beam import rigid_beam as plate_rigid
 from equisection.solvers.openfoam.beam.free_beam import PlateRun
 from equisection.solvers.openfoam.beam.lumped_points import LumpedPoints
@@ -196,7 +196,7 @@ def run_of(installation: Installation, case: UnsteadyCase, work: Path, steady: P
 @pytest.fixture
 def short_interval(monkeypatch: pytest.MonkeyPatch) -> None:
     """States are written often enough for a short run to be resumed."""
-    monkeypatch.setattr(plate_free, "STATE_INTERVAL", 0.2)
+    monkeypatch.setattr(coupled_run, "STATE_INTERVAL", 0.2)
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,8 @@ from equisection.aerodynamics.generalised_forces import GeneralisedForces
 from equisection.aerodynamics.load_response import load_response
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
 from equisection.analysis.forced_modes import MovedModes, generalised_forces_of
-from equisection.cases import BeamModes, ForcedCase
+from equisection.cases import ForcedCase
+from equisection.cases.beam_in_flow import beam_modes_in_flow
 from equisection.config import Config, load_config
 from equisection.errors import ArgumentError, ConfigError, DerivativesFileError, ResultFileError
 from equisection.motion.body_in_flow import BodyInFlow
@@ -86,23 +87,6 @@ def moved(results: dict[str, tuple[ForcedCase, xr.Dataset]]) -> MovedModes:
     return generalised_forces_of(results)
 
 
-def own_modes(config: Config) -> BeamModes:
-    """Return the modes of the beam in the flow of the configuration."""
-    beam, flow, found = config.beam, config.flow, modes_from_dataset(modes_of(config))
-    rate = math.tau * beam.chord / flow.speed
-    bending, torsion = found.bending(1), found.torsion(1)
-    return BeamModes(
-        span=tuple(found.span),
-        bending_frequency=tuple(rate * bending.frequency),
-        bending_shape=tuple(map(tuple, bending.shape)),
-        torsion_frequency=tuple(rate * torsion.frequency),
-        torsion_shape=tuple(map(tuple, torsion.shape)),
-        inertia=beam.inertia_per_length / (0.5 * flow.density * beam.chord**4),
-        mass=beam.mass_per_length / (0.5 * flow.density * beam.chord**2),
-        imbalance=beam.imbalance_per_length / (0.5 * flow.density * beam.chord**3),
-    )
-
-
 @pytest.fixture(scope="module")
 def body() -> BodyInFlow:
     """The same beam, free."""
@@ -111,8 +95,9 @@ def body() -> BodyInFlow:
     assert isinstance(solver, Adapter)
     case = forced_case(config, "bending1", solver, modes_of(config))
     strips, span = solver._span(case.geometry)
-    parameters = beam_parameters([own_modes(config)], strips, FiniteSpan.of(span))
-    flow = config.flow
+    flow, modes = config.flow, modes_from_dataset(modes_of(config))
+    own = beam_modes_in_flow(config.beam, modes, (1, 1), density=flow.density, speed=flow.speed)
+    parameters = beam_parameters([own], strips, FiniteSpan.of(span))
     return BodyInFlow.of_beam(
         parameters, solver._loads(), speed=flow.speed, chord=config.beam.chord, k_star=1.0
     )
@@ -219,6 +204,9 @@ def test_table_is_read_as_it_is_written(moved: MovedModes, tmp_path: Path) -> No
     lines = path.read_text().splitlines()
     path.write_text("\n".join(lines[:-1]) + "\n")
     with pytest.raises(DerivativesFileError, match=r"no load on torsion1 by torsion1 at .* 30"):
+        GeneralisedForces.read(path)
+    path.write_text("\n".join(lines).replace("\n6,", "\n0,"))
+    with pytest.raises(DerivativesFileError, match=r"3d\.csv: .* begins with 0; wanted above 0$"):
         GeneralisedForces.read(path)
     with pytest.raises(ArgumentError, match="the forces cover"):
         again.influence(10.0)

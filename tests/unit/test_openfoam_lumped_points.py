@@ -1,11 +1,13 @@
 """The plate's lumped points: what is handed over either way, and its signs."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from tests.sample_cases import beam_modes
 
 from equisection.cases import BeamModes
-from equisection.errors import EquisectionError
+from equisection.errors import EquisectionError, SolverError
 from equisection.solvers.openfoam.beam.lumped_points import Handed, LumpedPoints
 
 EDGES = np.linspace(0.0, 3.7, 75)
@@ -89,10 +91,11 @@ MESSAGE = """########
 0 0 0 0.1 0.2 0.3 0.01 0.02 0.03
 0 0 3.7 1e-05 -2 0 0 0 -0.5
 """
+FOLDER = Path("free")
 
 
 def test_plain_form_of_lumped_point_movement_is_read() -> None:
-    loads = Handed.read(MESSAGE)
+    loads = Handed.read(MESSAGE, FOLDER)
     assert loads.time == 0.24
     np.testing.assert_array_equal(loads.forces, [[0.1, 0.2, 0.3], [1e-5, -2, 0]])
     np.testing.assert_array_equal(loads.moments[:, 2], [0.03, -0.5])
@@ -100,25 +103,25 @@ def test_plain_form_of_lumped_point_movement_is_read() -> None:
 
 def test_other_forms_are_told_apart() -> None:
     for message in ("", MESSAGE.replace("0.03", "x"), MESSAGE.replace(" 0 0 -0.5", "")):
-        with pytest.raises((ValueError, StopIteration)):
-            Handed.read(message)
+        with pytest.raises(SolverError, match=r"free: .* not in its plain form"):
+            Handed.read(message, FOLDER)
 
 
 def test_drag_above_the_place_of_reference_turns_the_nose_up() -> None:
     """About a point that is higher by w the same drag turns less nose up, by w F_x."""
-    loads = Handed.read(MESSAGE).about((np.zeros(2), np.array([0.5, 0.0])))
+    loads = Handed.read(MESSAGE, FOLDER).about((np.zeros(2), np.array([0.5, 0.0])))
     np.testing.assert_allclose(loads.moments[:, 2], [0.03 + 0.05, -0.5])
 
 
 def test_lift_ahead_of_the_place_of_reference_turns_the_nose_up() -> None:
     """About a point that is further back by x the same lift turns more nose up, by x F_y."""
-    loads = Handed.read(MESSAGE).about((np.array([0.5, 0.0]), np.zeros(2)))
+    loads = Handed.read(MESSAGE, FOLDER).about((np.array([0.5, 0.0]), np.zeros(2)))
     np.testing.assert_allclose(loads.moments[:, 2], [0.03 - 0.5 * 0.2, -0.5])
 
 
 def test_mesh_that_asks_twice_is_told_apart_from_another_iteration() -> None:
     """The second time the moments are about the points' new places; the forces are the same."""
-    first = Handed.read(MESSAGE)
+    first = Handed.read(MESSAGE, FOLDER)
     again = first.about((np.zeros(2), np.array([0.1, 0.2])))
     assert again.is_again(first)
     assert not first.is_again(None)

@@ -11,10 +11,8 @@ about the axis of the table. About another one, d = (axis of the table - that on
 it, w of the table is w - d theta and its c_m becomes c_m - d c_l, so that Q becomes T^T Q T with
 T = [[1, -d], [0, 1]].
 
-Between the rows Q is interpolated over log K by monotone cubics (Fritsch and Carlson, SIAM J.
-Numer. Anal. 17, 1980), which do not overshoot where measurements scatter. Q is bounded over all K
-while the derivatives grow with 1/K^2, so that Q converges fastest. Outside of the rows there is
-nothing.
+Between the rows Q is interpolated (:mod:`equisection.aerodynamics.load_table`): it is bounded over
+all K while the derivatives grow with 1/K^2, so that Q converges fastest.
 """
 
 from __future__ import annotations
@@ -26,15 +24,14 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-import scipy
 from numpy.typing import ArrayLike, NDArray
 
+from equisection.aerodynamics.load_table import LoadTable
 from equisection.aerodynamics.thin_airfoil import ThinAirfoil
 from equisection.errors import ArgumentError
 from equisection.files import write_text
 from equisection.io.derivative_table import (
     DERIVATIVES,
-    FEWEST_ROWS,
     DerivativeRows,
     derivative_text,
     read_derivative_rows,
@@ -56,7 +53,7 @@ _NEAR, _SLOW_ROWS = 0.25, 3
 
 
 @dataclass(frozen=True)
-class Derivatives:
+class Derivatives(LoadTable):
     """Flutter derivatives of a section.
 
     Attributes
@@ -75,24 +72,15 @@ class Derivatives:
         Where they come from.
     """
 
-    reduced_velocity: Floats
-    values: Floats
-    spread: Floats | None = None
-    axis: float = _MID_CHORD
-    incidence_deg: float = math.nan
-    label: str = ""
+    called = "derivatives"
 
     def __post_init__(self) -> None:
-        velocity = np.asarray(self.reduced_velocity, dtype=np.float64)
-        if velocity.ndim != 1 or velocity.size < FEWEST_ROWS or not (np.diff(velocity) > 0.0).all():
+        super().__post_init__()
+        rows = len(self.reduced_velocity)
+        if np.shape(self.values) != (rows, len(DERIVATIVES)):
             raise ArgumentError(
-                f"reduced_velocity has the shape {velocity.shape}; wanted {FEWEST_ROWS} or more "
-                "ascending numbers"
-            )
-        if np.shape(self.values) != (velocity.size, len(DERIVATIVES)) or velocity[0] <= 0.0:
-            raise ArgumentError(
-                f"values has the shape {np.shape(self.values)}; wanted ({velocity.size}, 8), H1 to "
-                "A4 at each reduced velocity above 0"
+                f"values has the shape {np.shape(self.values)}; wanted ({rows}, 8), H1 to A4 at "
+                "each reduced velocity"
             )
 
     @classmethod
@@ -185,13 +173,6 @@ class Derivatives:
         )
         write_text(Path(path), derivative_text(rows, comments))
 
-    @property
-    def frequencies(self) -> tuple[float, float]:
-        """Lowest and highest K = omega c/V of the rows."""
-        return math.tau / float(self.reduced_velocity[-1]), math.tau / float(
-            self.reduced_velocity[0]
-        )
-
     @cached_property
     def loads(self) -> Complexes:
         """Q at each row about the axis of the table, shape (n, 2, 2)."""
@@ -199,12 +180,6 @@ class Derivatives:
         rows = np.array([[h4 + 1j * h1, -(h3 + 1j * h2)], [-(a4 + 1j * a1), a3 + 1j * a2]])
         square = (math.tau / self.reduced_velocity) ** 2
         return np.asarray(np.moveaxis(square * rows, -1, 0), dtype=np.complex128)
-
-    @cached_property
-    def _over_log_k(self) -> tuple[scipy.interpolate.PchipInterpolator, ...]:
-        log_k = np.log(math.tau / self.reduced_velocity[::-1])
-        rows = self.loads[::-1]
-        return tuple(scipy.interpolate.PchipInterpolator(log_k, p) for p in (rows.real, rows.imag))
 
     def influence(self, omega: ArrayLike, elastic_axis: float | None = None) -> Complexes:
         """Return Q with (c_l, c_m) = Q (w/c, theta), shape (..., 2, 2).
@@ -221,45 +196,14 @@ class Derivatives:
         ArgumentError
             A frequency is outside of the rows.
         """
-        low, high = self.frequencies
-        k = np.asarray(omega, dtype=np.float64)
-        if k.size and not (low * (1 - 1e-9) <= k.min() and k.max() <= high * (1 + 1e-9)):
-            raise ArgumentError(
-                f"omega c/V is {k.min():.4g} to {k.max():.4g}; the derivatives cover {low:.4g} to "
-                f"{high:.4g}"
-            )
-        log_k = np.log(np.clip(k, low, high))
-        real, imaginary = self._over_log_k
-        loads = real(log_k) + 1j * imaginary(log_k)
         ahead = 0.0 if elastic_axis is None else self.axis - elastic_axis
         turned = np.array([[1.0, -ahead], [0.0, 1.0]])
-        return np.asarray(turned.T @ loads @ turned, dtype=np.complex128)
+        return np.asarray(turned.T @ self.between_rows(omega) @ turned, dtype=np.complex128)
 
     @property
     def quantities(self) -> int:
         """Number of quantities that have a spread: the eight derivatives."""
         return len(DERIVATIVES)
-
-    def thinned(self) -> tuple[Derivatives, ...]:
-        """Two tables of about half the rows each, both with the first and the last.
-
-        They tell how far the answer depends on the interpolation; none of a table of fewer than
-        seven rows.
-        """
-        last = len(self.reduced_velocity) - 1
-        if last < 2 * FEWEST_ROWS - 2:
-            return ()
-        places = (sorted({*range(start, last, 2), 0, last}) for start in (0, 1))
-        return tuple(self._rows(chosen) for chosen in places)
-
-    def _rows(self, chosen: list[int]) -> Derivatives:
-        spread = None if self.spread is None else self.spread[chosen]
-        return replace(
-            self,
-            reduced_velocity=self.reduced_velocity[chosen],
-            values=self.values[chosen],
-            spread=spread,
-        )
 
     def shifted(self, number: int, times: float) -> Derivatives:
         """Table in which one derivative is moved by some of its standard deviations.

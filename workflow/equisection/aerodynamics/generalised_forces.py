@@ -10,7 +10,7 @@ section times the integrals of two shapes (:mod:`equisection.motion.beam_flutter
 beam it has what the strips do to each other.
 
 Between the rows Q is interpolated as that of a section is
-(:mod:`equisection.aerodynamics.derivatives`). Outside of them there is nothing.
+(:mod:`equisection.aerodynamics.load_table`).
 """
 
 from __future__ import annotations
@@ -19,17 +19,15 @@ import csv
 import io
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
-import scipy
 from numpy.typing import ArrayLike, NDArray
 
+from equisection.aerodynamics.load_table import LoadTable
 from equisection.errors import ArgumentError, DerivativesFileError
 from equisection.files import write_text
-from equisection.io.derivative_table import FEWEST_ROWS
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
@@ -41,7 +39,7 @@ _KINDS = ("bending", "torsion")
 
 
 @dataclass(frozen=True)
-class GeneralisedForces:
+class GeneralisedForces(LoadTable):
     """Generalised aerodynamic forces of n_b bending and n_t torsion modes, m together.
 
     Attributes
@@ -50,10 +48,10 @@ class GeneralisedForces:
         V/(f c), ascending.
     values : ndarray, shape (n, m, m)
         Q (-), rows by loads and columns by motions.
-    bending : int
-        Number n_b of bending modes, which come first.
     spread : ndarray, shape (n, m, m), optional
         Standard deviation of the real and of the imaginary part; None where it is not known.
+    bending : int
+        Number n_b of bending modes, which come first.
     axis : float
         Elastic axis (x/c from the leading edge).
     incidence_deg, twist_deg : float
@@ -63,27 +61,18 @@ class GeneralisedForces:
         Where they come from.
     """
 
-    reduced_velocity: Floats
-    values: Complexes
-    bending: int
-    spread: Floats | None = None
-    axis: float = 0.5
-    incidence_deg: float = math.nan
+    called = "forces"
+
+    bending: int = field(kw_only=True)
     twist_deg: float = 0.0
-    label: str = ""
 
     def __post_init__(self) -> None:
-        velocity = np.asarray(self.reduced_velocity, dtype=np.float64)
-        if velocity.ndim != 1 or velocity.size < FEWEST_ROWS or not (np.diff(velocity) > 0.0).all():
+        super().__post_init__()
+        shape, rows = np.shape(self.values), len(self.reduced_velocity)
+        if len(shape) != 3 or shape[0] != rows or shape[1] != shape[2]:
             raise ArgumentError(
-                f"reduced_velocity has the shape {velocity.shape}; wanted {FEWEST_ROWS} or more "
-                "ascending numbers"
-            )
-        shape = np.shape(self.values)
-        if len(shape) != 3 or shape[0] != velocity.size or shape[1] != shape[2]:
-            raise ArgumentError(
-                f"values has the shape {shape}; wanted ({velocity.size}, m, m), a square matrix at "
-                "each reduced velocity"
+                f"values has the shape {shape}; wanted ({rows}, m, m), a square matrix at each "
+                "reduced velocity"
             )
 
     @property
@@ -93,22 +82,14 @@ class GeneralisedForces:
         return mode_names(self.bending, size - self.bending)
 
     @property
-    def frequencies(self) -> tuple[float, float]:
-        """Lowest and highest K = omega c/V of the rows."""
-        return math.tau / float(self.reduced_velocity[-1]), math.tau / float(
-            self.reduced_velocity[0]
-        )
+    def loads(self) -> Complexes:
+        """Q at each row, shape (n, m, m)."""
+        return self.values
 
     @property
     def quantities(self) -> int:
         """Number of quantities that have a spread: real and imaginary part of each force."""
         return 2 * len(self.modes) ** 2
-
-    @cached_property
-    def _over_log_k(self) -> tuple[scipy.interpolate.PchipInterpolator, ...]:
-        log_k = np.log(math.tau / self.reduced_velocity[::-1])
-        rows = self.values[::-1]
-        return tuple(scipy.interpolate.PchipInterpolator(log_k, p) for p in (rows.real, rows.imag))
 
     def influence(self, omega: ArrayLike) -> Complexes:
         """Return Q at K = omega c/V within :attr:`frequencies`, shape (..., m, m).
@@ -118,35 +99,7 @@ class GeneralisedForces:
         ArgumentError
             A frequency is outside of the rows.
         """
-        low, high = self.frequencies
-        k = np.asarray(omega, dtype=np.float64)
-        if k.size and not (low * (1 - 1e-9) <= k.min() and k.max() <= high * (1 + 1e-9)):
-            raise ArgumentError(
-                f"omega c/V is {k.min():.4g} to {k.max():.4g}; the forces cover {low:.4g} to "
-                f"{high:.4g}"
-            )
-        log_k = np.log(np.clip(k, low, high))
-        real, imaginary = self._over_log_k
-        return np.asarray(real(log_k) + 1j * imaginary(log_k), dtype=np.complex128)
-
-    def thinned(self) -> tuple[GeneralisedForces, ...]:
-        """Two tables of about half the rows each, both with the first and the last.
-
-        None of a table of fewer than seven rows.
-        """
-        last = len(self.reduced_velocity) - 1
-        if last < 2 * FEWEST_ROWS - 2:
-            return ()
-        places = [sorted({*range(start, last, 2), 0, last}) for start in (0, 1)]
-        return tuple(
-            replace(
-                self,
-                reduced_velocity=self.reduced_velocity[chosen],
-                values=self.values[chosen],
-                spread=None if self.spread is None else self.spread[chosen],
-            )
-            for chosen in places
-        )
+        return self.between_rows(omega)
 
     def shifted(self, number: int, times: float) -> GeneralisedForces:
         """Table in which one quantity is moved by some of its standard deviations.
@@ -236,6 +189,8 @@ class GeneralisedForces:
                 f"{place}: no load on {load} by {motion} at the reduced velocity {velocity:g}; "
                 "wanted every pair of modes at each"
             ) from None
+        except ArgumentError as error:
+            raise DerivativesFileError(f"{place}: {error}") from None
         except (TypeError, ValueError) as error:
             raise DerivativesFileError(f"{place}: {error}; wanted numbers") from None
 
@@ -259,10 +214,10 @@ class GeneralisedForces:
         return cls(
             np.array(velocities),
             both[..., 0],
-            of_kind[0],
             spread if np.isfinite(spread).all() else None,
             **numbers,
             label=label,
+            bending=of_kind[0],
         )
 
 

@@ -20,10 +20,10 @@ its frequencies: where it ends the answer is ``unknown``.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 import scipy
@@ -32,6 +32,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.derivatives import Derivatives
 from equisection.aerodynamics.generalised_forces import GeneralisedForces
+from equisection.aerodynamics.load_table import LoadTable
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
@@ -145,38 +146,6 @@ class FlowingBody:
             return FlutterEquations(flow.mass, flow.damping, flow.stiffness, forces.influence)
 
         return cls(flow.speed, chord, matrices.natural_frequencies, equations)
-
-
-class LoadTable(Protocol):
-    """Loads over the reduced velocity: derivatives of a section, or forces on modes of a beam."""
-
-    @property
-    def reduced_velocity(self) -> Floats:
-        """V/(f c), ascending, shape (n,)."""
-        ...
-
-    @property
-    def spread(self) -> Floats | None:
-        """Standard deviations; None where they are not known."""
-        ...
-
-    @property
-    def frequencies(self) -> tuple[float, float]:
-        """Lowest and highest omega c/V."""
-        ...
-
-    @property
-    def quantities(self) -> int:
-        """Number of quantities that have a spread."""
-        ...
-
-    def thinned(self) -> Sequence[LoadTable]:
-        """Tables of about half the rows."""
-        ...
-
-    def shifted(self, number: int, times: float) -> LoadTable:
-        """Table in which one quantity is moved by some of its standard deviations."""
-        ...
 
 
 class _OfTable:

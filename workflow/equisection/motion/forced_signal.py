@@ -45,19 +45,22 @@ class ForcedSignal:
     phases: Floats
     ramp: float
 
+    def _rise(self, s: Floats) -> tuple[Floats, Floats]:
+        """Return u, the part of the ramp that is over, and r there."""
+        u = np.clip(s / self.ramp, 0.0, 1.0)
+        return u, u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
+
     def at(self, time: ArrayLike) -> Floats:
         """Return the motion at convective times, shape of ``time``."""
         s = np.asarray(time, dtype=np.float64)
-        u = np.clip(s / self.ramp, 0.0, 1.0)
-        rise = u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
+        _, rise = self._rise(s)
         angle = np.multiply.outer(s, self.frequencies) + self.phases
         return np.asarray(rise * (np.cos(angle) @ self.amplitudes), dtype=np.float64)
 
     def moving(self, time: ArrayLike) -> tuple[Floats, Floats, Floats]:
         """Return the motion with its first and second derivative (per c/V), shape of ``time``."""
         s = np.asarray(time, dtype=np.float64)
-        u = np.clip(s / self.ramp, 0.0, 1.0)
-        rise = u**3 * (10.0 - 15.0 * u + 6.0 * u**2)
+        u, rise = self._rise(s)
         first = 30.0 * u**2 * (1.0 - u) ** 2 / self.ramp
         second = 60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / self.ramp**2
         turning = np.exp(1j * (np.multiply.outer(s, self.frequencies) + self.phases))

@@ -68,6 +68,12 @@ class ForcedResult:
     torsion_load: Floats = field(default_factory=lambda: np.empty((0, 0)))
     spent: Spent | None = None
 
+    @classmethod
+    def without_history(cls, failure: str) -> ForcedResult:
+        """Return the result of a case that failed before its motion began."""
+        nothing = np.empty(0)
+        return cls(nothing, nothing, nothing, nothing, nothing, failure)
+
     def of_case(self, case: ForcedCase) -> xr.Dataset:
         """Return the data set that is written to the file of a case."""
         chord = case.geometry.chord

@@ -48,9 +48,9 @@ def forced_beam(
     try:
         found = prescribed_loads(system, _motion(case, time, step))
     except IncidenceOutOfRangeError as error:
-        nothing = np.empty(0)
-        failure = f"{error}; or make forced.amplitude_deg or forced.twist_deg smaller"
-        return ForcedResult(nothing, nothing, nothing, nothing, nothing, failure)
+        return ForcedResult.without_history(
+            f"{error}; or make forced.amplitude_deg or forced.twist_deg smaller"
+        )
     return ForcedResult(
         time[kept],
         twist,

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from functools import cache
 from pathlib import Path
 
+from equisection.beam.beam import Beam
 from equisection.beam.outline import outline_of, rectangle
 from equisection.config import Config
 from equisection.config.groups.openfoam_keys import BLOCKS, MORPH
@@ -70,20 +72,24 @@ def cells_of_job(config: Config, dimension: str, resolution: str) -> int:
     mesh = config.openfoam.meshes[resolution]
     if dimension == "2d" or _is_on_blocks(config):
         return cells_of(mesh, dimension)
-    beam, channel, far_field = config.beam, config.flow.channel, config.openfoam.far_field_chords
-    thickness = beam.thickness / beam.chord
-    outline = beam.outline_in_flow(Path.cwd()) or outline_of(rectangle(thickness))
-    # layers go by the cells at the wall, whatever box is around them
-    box, refinement = (
-        ChannelBox(thickness, 2 * far_field, far_field, far_field),
-        PRESETS[mesh].plate,
-    )
-    section = OutlineMesh(outline.as_pairs(), box, 0.0, refinement, OF_BEAM)
+    channel, far_field = config.flow.channel, config.openfoam.far_field_chords
     gap = far_field if channel is None else channel.tip_gap_chords
-    layers = OutlineBeamMesh(section, beam.length / beam.chord, gap)
-    along = layers.edges().size - 1
+    refinement = PRESETS[mesh].plate
+    layers, along = _layers(config.beam, Path.cwd(), refinement, gap)
     # beyond the tip the outline is filled, by no more cells than there are around it
-    return round(TYPICAL_CELLS * refinement**2 * (2 * layers.layers - along))
+    return round(TYPICAL_CELLS * refinement**2 * (2 * layers - along))
+
+
+@cache  # each job of a run asks for it
+def _layers(beam: Beam, directory: Path, refinement: float, gap: float) -> tuple[int, int]:
+    """Return the layers of cells from wall to wall, and those along the beam."""
+    thickness = beam.thickness / beam.chord
+    outline = beam.outline_in_flow(directory) or outline_of(rectangle(thickness))
+    # layers go by the cells at the wall, whatever box is around them
+    box = ChannelBox(thickness, 1.0, 1.0, 1.0)
+    section = OutlineMesh(outline.as_pairs(), box, 0.0, refinement, OF_BEAM)
+    mesh = OutlineBeamMesh(section, beam.length / beam.chord, gap)
+    return mesh.layers, mesh.edges().size - 1
 
 
 def cells_of(mesh: str, dimension: str) -> int:

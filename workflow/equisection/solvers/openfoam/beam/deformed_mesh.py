@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -80,12 +81,9 @@ def deform_mesh(
     schemes = flow.schemes(steady=False)
     schemes["laplacianSchemes"] |= motion_schemes()
     write_system(place, entries, schemes, solution)
-    pipes = Pipes(place, SILENCE)
-    try:
-        serve = _Holding(points, position, pipes)
+    with closing(Pipes(place, SILENCE)) as pipes:
+        serve = _Holding(place, points, position, pipes)
         run_beside(installation, "moveDynamicMesh", place, serve, ranks=ranks)
-    finally:
-        pipes.close()
     run_program(installation, "checkMesh", place, arguments=("-latestTime",), ranks=ranks)
     require_sound_mesh(place / "log.checkMesh")
     for part in parts(place):
@@ -100,6 +98,7 @@ def deform_mesh(
 class _Holding:
     """The other side of the exchange, which brings the plate to its shape, whatever its loads."""
 
+    folder: Path
     points: LumpedPoints
     position: NDArray[np.float64]
     pipes: Pipes
@@ -108,6 +107,6 @@ class _Holding:
         """Serve the program until it has ended."""
         del end
         while (message := self.pipes.receive(alive)) is not None:
-            part = min(1.0, Handed.read(message).time / _STEPS)
+            part = min(1.0, Handed.read(message, self.folder).time / _STEPS)
             if not self.pipes.send(self.points.message(part * self.position), alive):
                 break

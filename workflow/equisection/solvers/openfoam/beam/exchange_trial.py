@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 import shutil
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -73,12 +74,9 @@ def try_exchange(
     write_system(place)
     twist, deflection = points.release(_TWIST, _DEFLECTION)
     there = position + twist + deflection
-    pipes = Pipes(place, SILENCE)
-    try:
-        serve = _Trial(points.message(there), pipes)
+    with closing(Pipes(place, SILENCE)) as pipes:
+        serve = _Trial(place, points.message(there), pipes)
         run_beside(installation, "pimpleFoam", place, serve, ranks=len(parts(place)))
-    finally:
-        pipes.close()
     where = f"OpenFOAM {installation.version()}, {place}"
     if not serve.handed:
         raise _misunderstood(where, "no loads were handed over")
@@ -95,6 +93,7 @@ def try_exchange(
 class _Trial:
     """The structure's side, which has one answer, and keeps what it was told."""
 
+    folder: Path
     answer: str
     pipes: Pipes
     handed: list[Handed] = field(default_factory=list)
@@ -103,13 +102,7 @@ class _Trial:
         """Serve the program until it has ended."""
         del end
         while (message := self.pipes.receive(alive)) is not None:
-            try:
-                self.handed.append(Handed.read(message))
-            except (ValueError, StopIteration):
-                raise SolverError(
-                    "what lumpedPointMovement handed over is not in its plain form: "
-                    f"{message[:200]!r}"
-                ) from None
+            self.handed.append(Handed.read(message, self.folder))
             if not self.pipes.send(self.answer, alive):
                 break
 
@@ -202,5 +195,5 @@ def _misunderstood(where: str, what: str) -> SolverError:
     return SolverError(
         f"{where}: {what}; the coupled beam was run on v1912 alone, and the lumpedPointMovement of "
         "this version does something else than its published sources say: run it on v1912, or "
-        "leave the model 3d out of sweep.models"
+        "leave the model 3d out of sweep.models and forced.beam_modes at 0"
     )

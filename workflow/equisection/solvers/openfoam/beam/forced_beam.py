@@ -1,8 +1,8 @@
 """The beam in prescribed motion of one of its modes, from the rigid steady flow on.
 
-The mesh follows the lumped points as in a coupled run (:mod:`.free_beam`); their places are those
-of the motion, whatever the loads. With a mean twist the steady flow is that around the beam held in
-it. The run is resumed from its last whole state, if its folder has one.
+The mesh follows the lumped points as in a free run (:mod:`.coupled_run`); their places are those of
+the motion, whatever the loads. With a mean twist the steady flow is that around the beam held in
+it.
 """
 
 from __future__ import annotations
@@ -19,28 +19,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.cases import BeamModes, ForcedCase
-from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.results.forced_result import ForcedResult, motion_of
-from equisection.solvers.openfoam.beam.deformed_mesh import deform_mesh
-from equisection.solvers.openfoam.beam.free_beam import (
-    last_common_state,
-    require_version,
-    try_unless_run_before,
-    write_coupled_system,
-)
-from equisection.solvers.openfoam.beam.lumped_points import (
-    Handed,
-    LumpedPoints,
-    write_lumped_motion,
-)
-from equisection.solvers.openfoam.beam.pipes import Alive, Pipes, names
-from equisection.solvers.openfoam.beam.rigid_beam import BeamCells, PlateFlow
-from equisection.solvers.openfoam.case_folder import emptied, is_ready, mark_ready
-from equisection.solvers.openfoam.free_run import MovingRun
-from equisection.solvers.openfoam.mesh.outline_beam_mesh import OutlineBeamMesh
-from equisection.solvers.openfoam.process import SILENCE, BlowUpError, run_beside
-from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
+from equisection.solvers.openfoam.beam.coupled_run import CoupledRun
+from equisection.solvers.openfoam.beam.lumped_points import Handed, LumpedPoints
+from equisection.solvers.openfoam.beam.pipes import Alive, Pipes
+from equisection.solvers.openfoam.case_folder import is_ready
+from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.reading.loads import BEYOND_REASON
 from equisection.solvers.openfoam.rigid_flow import Tell
 from equisection.solvers.openfoam.time_spent import spent
@@ -49,22 +34,13 @@ logger = logging.getLogger(__name__)
 
 Floats = NDArray[np.float64]
 
-_NOTHING = np.empty(0)
 #: Columns of a row of the history before the loads of the modes: time, C_L and C_M.
 _BEFORE = 3
 
 
 @dataclass(frozen=True)
-class ForcedPlateRun(MovingRun[ForcedCase, BeamCells]):
-    """The run of one case of the plate in prescribed motion.
-
-    Attributes
-    ----------
-    ranks
-        Ranks of MPI that a program runs on.
-    """
-
-    ranks: int
+class ForcedPlateRun(CoupledRun[ForcedCase]):
+    """The run of one case of the plate in prescribed motion."""
 
     @property
     def history_file(self) -> Path:
@@ -88,6 +64,16 @@ class ForcedPlateRun(MovingRun[ForcedCase, BeamCells]):
         )
         return LumpedPoints.of(modes, self.mesh.edges(), self.mesh.section.incidence)
 
+    @property
+    def first_position(self) -> Floats:
+        """Position of the modes at time 0."""
+        return self.position(0.0)
+
+    @property
+    def held_twist_deg(self) -> float:
+        """Mean twist of the first torsion mode where it is largest (deg)."""
+        return self.case.mean_twist_deg
+
     def position(self, time: float) -> Floats:
         """Return the position of the modes at a time (c/V), torsion modes first."""
         position, torsion = np.zeros(self.points.frequency.size), self.points.torsion_modes
@@ -110,64 +96,19 @@ class ForcedPlateRun(MovingRun[ForcedCase, BeamCells]):
             A program failed through no fault of the case, or the version of OpenFOAM is another.
         """
         failure = ""
-        require_version(self.installation)
         try:
-            if not is_ready(self.folder):
-                self._set_up(tell)
-            start = last_common_state(self.folder)
-            if not start:
-                try_unless_run_before(self, self.points, self.position(0.0))
+            start = self.start(tell)
             if start < self.case.duration:
                 self._go_on(start, tell)
         except BlowUpError as error:
             failure = str(error)
             if not is_ready(self.folder) or not self.history_file.exists():
-                return ForcedResult(_NOTHING, _NOTHING, _NOTHING, _NOTHING, _NOTHING, failure)
+                return ForcedResult.without_history(failure)
         return self._result(failure)
 
-    def _set_up(self, tell: Tell) -> None:
-        """Make the folder of the moving run from the steady flow, converged or not."""
-        rigid = PlateFlow(
-            self.installation, self.case, self.mesh, self.coupling, self.ranks, self.work
-        )
-        is_held = self.case.mean_twist_deg != 0.0
-        source, _, converged = rigid.steady(
-            self.before_release(tell), self._deform if is_held else None
-        )
-        if not converged:
-            logger.info("the steady flow does not converge; the motion sets in from its last state")
-        folder = emptied(self.folder)
-        copy_flow_of_all(source, folder)
-        write_lumped_motion(folder, self.points, names(), is_deformed=is_held)
-        mark_ready(folder)
-
-    def _deform(self, folder: Path) -> None:
-        """Move the mesh of a folder to that of the plate in its mean twist."""
-        deform_mesh(
-            self.installation,
-            folder,
-            self.points,
-            self.position(0.0),
-            self.work / "held",
-            of_outline=isinstance(self.mesh, OutlineBeamMesh),
-        )
-
     def _go_on(self, start: float, tell: Tell) -> None:
-        write_coupled_system(self)
-        if start:
-            logger.info("goes on from %g c/V", start)
         self._keep_until(start - 0.5 * self.case.time_step)
-        pipes = Pipes(self.folder, SILENCE)
-        try:
-            run_beside(
-                self.installation,
-                "pimpleFoam",
-                self.folder,
-                _Moving(self, pipes, start, tell),
-                ranks=len(parts(self.folder)),
-            )
-        finally:
-            pipes.close()
+        self.exchange(start, lambda pipes: _Moving(self, pipes, start, tell))
 
     def history(self) -> Floats:
         """Return time, C_L, C_M and the loads of the modes so far, shape (n, 3 + modes)."""
@@ -228,13 +169,7 @@ class _Moving:
     def _answer(self, message: str, stream: IO[str]) -> str:
         """Return the places of the points at the time that is handed over."""
         run = self._run
-        try:
-            handed = Handed.read(message)
-        except (ValueError, StopIteration):
-            raise SolverError(
-                f"{run.folder}: what lumpedPointMovement handed over is not in its plain form: "
-                f"{message[:200]!r}"
-            ) from None
+        handed = Handed.read(message, run.folder)
         place = run.position(self._at)
         if self._is_first:  # moments are about the points at rest then
             handed, self._is_first = handed.about(run.points.mid_chord(place)), False

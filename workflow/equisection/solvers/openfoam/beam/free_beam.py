@@ -2,8 +2,7 @@
 
 OpenFOAM moves the mesh and resolves the flow; the structure is solved here, on its modes
 (``motion.modal_response``), with loads and places exchanged over pipes. The run starts from the
-rigid steady flow, or that of the plate held in its first torsion mode, and is resumed from its last
-whole state, if its folder has one.
+rigid steady flow, or that of the plate held in its first torsion mode (:mod:`.coupled_run`).
 """
 
 from __future__ import annotations
@@ -19,11 +18,11 @@ from typing import IO
 import numpy as np
 from numpy.typing import NDArray
 
+from equisection.cases import UnsteadyCase
 from equisection.errors import SolverError
 from equisection.motion.modal_response import Staggered
 from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady_result import UnsteadyResult
-from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.beam.beam_history import (
     PlateHistory,
     add_row,
@@ -31,45 +30,15 @@ from equisection.solvers.openfoam.beam.beam_history import (
     read_plate,
     require_state,
 )
-from equisection.solvers.openfoam.beam.deformed_mesh import deform_mesh
-from equisection.solvers.openfoam.beam.exchange_trial import try_exchange
-from equisection.solvers.openfoam.beam.lumped_points import (
-    Handed,
-    LumpedPoints,
-    motion_schemes,
-    motion_solvers,
-    write_lumped_motion,
-)
-from equisection.solvers.openfoam.beam.pipes import Alive, Pipes, names
-from equisection.solvers.openfoam.beam.rigid_beam import BeamCells, PlateFlow, plate_control
-from equisection.solvers.openfoam.case_folder import (
-    drop_broken_states,
-    drop_histories_after,
-    drop_states_after,
-    emptied,
-    is_ready,
-    mark_ready,
-    states,
-)
-from equisection.solvers.openfoam.dictionaries import write_system
-from equisection.solvers.openfoam.free_run import (
-    STATE_INTERVAL,
-    CaseT,
-    FreeRun,
-    IterationsCheck,
-    MovingRun,
-)
-from equisection.solvers.openfoam.installation import Installation
-from equisection.solvers.openfoam.mesh.outline_beam_mesh import OutlineBeamMesh
-from equisection.solvers.openfoam.process import (
-    SILENCE,
-    BlowUpError,
-    Every,
-    run_beside,
-    run_program,
-)
-from equisection.solvers.openfoam.ranks import copy_flow_of_all, parts
-from equisection.solvers.openfoam.reading.loads import BEYOND_REASON, read_loads
+from equisection.solvers.openfoam.beam.coupled_run import CoupledRun
+from equisection.solvers.openfoam.beam.lumped_points import Handed, LumpedPoints
+from equisection.solvers.openfoam.beam.pipes import Alive, Pipes
+from equisection.solvers.openfoam.beam.rigid_beam import BeamCells
+from equisection.solvers.openfoam.case_folder import is_ready, states
+from equisection.solvers.openfoam.free_run import FreeRun, IterationsCheck
+from equisection.solvers.openfoam.process import BlowUpError, Every, run_program
+from equisection.solvers.openfoam.ranks import parts
+from equisection.solvers.openfoam.reading.loads import BEYOND_REASON
 from equisection.solvers.openfoam.reading.sampled_tip_flow import Pose, sample_tip_flow
 from equisection.solvers.openfoam.rigid_flow import Tell
 from equisection.solvers.openfoam.section.rigid_section import require_sound_mesh
@@ -90,23 +59,13 @@ logger = logging.getLogger(__name__)
 
 Floats = NDArray[np.float64]
 
-#: The version that the coupled beam was run on, and later ones, known by their sources.
-_RUN, _READ = "v1912", range(2306, 2607)
 #: Room that must be left between the plate and floor or ceiling (chords).
 _ROOM = 0.1
 
 
 @dataclass(frozen=True)
-class PlateRun(FreeRun[BeamCells]):
-    """The run of one case of the plate.
-
-    Attributes
-    ----------
-    ranks
-        Ranks of MPI that a program runs on.
-    """
-
-    ranks: int
+class PlateRun(CoupledRun[UnsteadyCase], FreeRun[BeamCells]):
+    """The run of one free case of the plate."""
 
     @property
     def history_file(self) -> Path:
@@ -125,6 +84,16 @@ class PlateRun(FreeRun[BeamCells]):
         start = self.case.start
         return self.points.release(math.radians(start.twist_deg), start.heave_rate)
 
+    @property
+    def first_position(self) -> Floats:
+        """Position of the modes at the release."""
+        return self.release[0]
+
+    @property
+    def held_twist_deg(self) -> float:
+        """Twist of the tip (deg) until the release."""
+        return self.case.start.twist_deg
+
     def history(self) -> PlateHistory:
         """Return the history so far."""
         return read_plate(self.history_file, self.points.frequency.size)
@@ -140,13 +109,8 @@ class PlateRun(FreeRun[BeamCells]):
             motion had grown beyond the bound before.
         """
         case, failure = self.case, ""
-        require_version(self.installation)
         try:
-            if not is_ready(self.folder):
-                self._set_up(tell)
-            start = last_common_state(self.folder)
-            if not start:
-                try_unless_run_before(self, self.points, self.release[0])
+            start = self.start(tell)
             if start < case.duration and not (start and self._is_over()):
                 self._go_on(start, tell)
         except BlowUpError as error:
@@ -159,42 +123,6 @@ class PlateRun(FreeRun[BeamCells]):
         tip_flow = None if failure else self._tip_flow()
         return replace(self._result(failure), tip_flow=tip_flow, spent=spent(self.work))
 
-    def _set_up(self, tell: Tell) -> None:
-        """Make the folder of the free run from the rigid steady flow, converged or not."""
-        rigid = PlateFlow(
-            self.installation, self.case, self.mesh, self.coupling, self.ranks, self.work
-        )
-        is_held = self.case.start.twist_deg != 0.0
-        source, _, converged = rigid.steady(
-            self.before_release(tell), self._deform if is_held else None
-        )
-        if not converged:
-            logger.info("the steady flow does not converge; the release is from its last state")
-        self.start_from(source)
-
-    def start_from(self, source: Path) -> None:
-        """Make the folder of the free run from the last state of a steady run of the same mesh."""
-        folder = emptied(self.folder)
-        copy_flow_of_all(source, folder)
-        is_held = self.case.start.twist_deg != 0.0
-        write_lumped_motion(folder, self.points, names(), is_deformed=is_held)
-        mark_ready(folder)
-
-    def _deform(self, folder: Path) -> None:
-        """Move the mesh of a folder to that of the plate as it is held until the release."""
-        deform_mesh(
-            self.installation,
-            folder,
-            self.points,
-            self.release[0],
-            self.work / "held",
-            of_outline=self._is_of_outline,
-        )
-
-    @property
-    def _is_of_outline(self) -> bool:
-        return isinstance(self.mesh, OutlineBeamMesh)
-
     def _is_over(self) -> bool:
         """Tell whether the verdict is in."""
         case = self.case
@@ -202,13 +130,6 @@ class PlateRun(FreeRun[BeamCells]):
         return math.isfinite(decided_at(case, self.tip_motion(history)))
 
     def _go_on(self, start: float, tell: Tell) -> None:
-        write_coupled_system(self)
-        # a case that was divided stays so, on however many ranks its job runs now
-        ranks = len(parts(self.folder))
-        if ranks != self.ranks:
-            logger.info("%d ranks: the run was begun on as many", ranks)
-        if start:
-            logger.info("goes on from %g c/V", start)
         # the loads at the start are handed over anew in the first step
         before = start - 0.5 * self.case.time_step
         state = keep_until(self.history_file, before, self.points.frequency.size).state()
@@ -218,17 +139,7 @@ class PlateRun(FreeRun[BeamCells]):
         structure = Staggered(
             self.points.modes(self.case.time_step), state, position=position, velocity=velocity
         )
-        pipes = Pipes(self.folder, SILENCE)
-        try:
-            run_beside(
-                self.installation,
-                "pimpleFoam",
-                self.folder,
-                _Exchange(self, structure, pipes, start, tell),
-                ranks=ranks,
-            )
-        finally:
-            pipes.close()
+        self.exchange(start, lambda pipes: _Exchange(self, structure, pipes, start, tell))
 
     def _where(self) -> str:
         """Return when and how far out the plate was, and whether its mesh was sound until then."""
@@ -314,98 +225,6 @@ class PlateRun(FreeRun[BeamCells]):
         )
 
 
-def require_version(installation: Installation) -> None:
-    """Refuse a version of OpenFOAM of whose ``lumpedPointMovement`` nothing is known.
-
-    Raises
-    ------
-    SolverError
-        It is neither the one that was run nor one whose sources are known.
-    """
-    version = installation.version()
-    if version != _RUN and version not in {f"v{number}" for number in _READ}:
-        raise SolverError(
-            f"OpenFOAM {version}: the coupled beam runs on {_RUN} and, with a trial of its first "
-            f"step, on v{_READ[0]} to v{_READ[-1]}; lumpedPointMovement of others may read other "
-            "dictionaries; run it there, or leave the model 3d out of sweep.models and "
-            "forced.beam_modes at 0"
-        )
-
-
-def try_unless_run_before(
-    run: MovingRun[CaseT, BeamCells], points: LumpedPoints, position: Floats
-) -> None:
-    """Try the exchange with a version that the coupled beam was not run on.
-
-    Parameters
-    ----------
-    run
-        The run, at time 0.
-    position
-        Position of the modes there.
-
-    Raises
-    ------
-    SolverError
-        The trial failed.
-    """
-    if run.installation.version() == _RUN:
-        return
-    loads = read_loads(run.work / "steady")
-    step = run.case.time_step
-    try_exchange(
-        run.installation,
-        run.folder,
-        points,
-        position,
-        steady=(float(loads.lift[-1]), float(loads.moment[-1])),
-        write_system=lambda folder: write_coupled_system(run, folder, step, step),
-    )
-
-
-def write_coupled_system(
-    run: MovingRun[CaseT, BeamCells],
-    folder: Path | None = None,
-    end: float | None = None,
-    write_every: float | None = None,
-) -> None:
-    """Write what controls a run; its end may differ from that of an earlier start.
-
-    Parameters
-    ----------
-    folder
-        Folder, by default that of the run.
-    end
-        End (c/V), by default that of the case.
-    write_every
-        Interval of the states (c/V), by default that of every run.
-    """
-    case = run.case
-    entries = plate_control(
-        "pimpleFoam",
-        end or case.duration,
-        case.time_step,
-        write_every or STATE_INTERVAL,
-        run.mesh.span,
-    )
-    entries["libs"] = ['"liblumpedPointMotion.so"']
-    solution = flow.unsteady_solution(run.coupling)
-    of_outline = isinstance(run.mesh, OutlineBeamMesh)
-    solution["solvers"] |= motion_solvers(of_outline=of_outline)
-    schemes = flow.schemes(steady=False)
-    schemes["laplacianSchemes"] |= motion_schemes()
-    write_system(folder or run.folder, entries, schemes, solution)
-
-
-def last_common_state(folder: Path) -> float:
-    """Return the time of the last state that is whole on all ranks; drop what is later."""
-    start = min(drop_broken_states(part) for part in parts(folder))
-    for part in parts(folder):
-        drop_states_after(part, start)
-    drop_histories_after(folder, start)
-    return start
-
-
 class _Exchange:
     """The structure's side of a run, from its start or resumption to its end."""
 
@@ -459,13 +278,7 @@ class _Exchange:
         return np.zeros_like(self._run.points.frequency) if place is None else place
 
     def _handed(self, message: str) -> Handed:
-        try:
-            handed = Handed.read(message)
-        except (ValueError, StopIteration):
-            raise SolverError(
-                f"{self._run.folder}: what lumpedPointMovement handed over is not in its plain "
-                f"form: {message[:200]!r}"
-            ) from None
+        handed = Handed.read(message, self._run.folder)
         if self._resumed is not None:
             handed = handed.about(self._run.points.mid_chord(self._resumed))
             self._resumed = None

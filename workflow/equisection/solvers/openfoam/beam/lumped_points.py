@@ -29,6 +29,7 @@ from numpy.typing import NDArray
 
 from equisection.beam.beam import MID_CHORD
 from equisection.cases import BeamModes
+from equisection.errors import SolverError
 from equisection.files import write_text
 from equisection.motion.modal_response import ModalStep
 from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
@@ -276,24 +277,30 @@ class Handed:
     moments: Floats
 
     @classmethod
-    def read(cls, message: str) -> Handed:
-        """Read the plain form of ``lumpedPointMovement``.
+    def read(cls, message: str, folder: Path) -> Handed:
+        """Read the plain form of ``lumpedPointMovement``, which runs in a folder.
 
         Raises
         ------
-        ValueError
+        SolverError
             The message is not of this form.
         """
         lines = message.splitlines()
-        time = next(
-            float(word.removeprefix("value="))
-            for line in lines
-            if line.startswith("# Time")
-            for word in line.split()
-            if word.startswith("value=")
-        )
-        rows = [line.split() for line in lines if line and not line.startswith("#")]
-        values = np.array(rows, dtype=float).reshape(len(rows), 9)
+        try:
+            time = next(
+                float(word.removeprefix("value="))
+                for line in lines
+                if line.startswith("# Time")
+                for word in line.split()
+                if word.startswith("value=")
+            )
+            rows = [line.split() for line in lines if line and not line.startswith("#")]
+            values = np.array(rows, dtype=float).reshape(len(rows), 9)
+        except (ValueError, StopIteration):
+            raise SolverError(
+                f"{folder}: what lumpedPointMovement handed over is not in its plain form: "
+                f"{message[:200]!r}"
+            ) from None
         return cls(time, values[:, 3:6], values[:, 6:9])
 
     def is_again(self, last: Handed | None) -> bool:

@@ -82,7 +82,7 @@ class PlateMesh:
         along, beyond = layers_of_beam(section.refinement)
         planes = [0.0, self.span]
         around, everywhere = list(blocks_around_plate()), [(i, j) for i in _FIVE for j in _FIVE]
-        layers = [(around, Layer(0, along, f"{_ratio(self.span, section.refinement):.8g}"))]
+        layers = [(around, Layer(0, along, f"{_ratio(self.span, along, section.refinement):.8g}"))]
         plate = [face_x(2, 2), face_x(3, 2), face_y(2, 2), face_y(2, 3)]
         far = around
         if self.gap:
@@ -126,8 +126,7 @@ def planes_along(span: float, refinement: float, times: float = 1.0) -> NDArray[
     There are ``times`` as many as along the plate.
     """
     along = round(times * layers_of_beam(refinement)[0])
-    ratio = 1 / expansion(span, along, _AT_TIP / refinement)
-    sizes = ratio ** (np.arange(along) / (along - 1))
+    sizes = _ratio(span, along, refinement) ** (np.arange(along) / (along - 1))
     ends = np.concatenate([[0.0], np.cumsum(sizes)])
     return np.asarray(span * ends / ends[-1], dtype=np.float64)
 
@@ -147,9 +146,8 @@ def planes_beyond(gap: float, refinement: float, longest: float = math.inf) -> N
     return np.asarray(gap * ends / ends[-1])
 
 
-def _ratio(span: float, refinement: float) -> float:
-    """Return the size of the last cell along the beam over that of the first."""
-    along, _ = layers_of_beam(refinement)
+def _ratio(span: float, along: int, refinement: float) -> float:
+    """Return the size of the last of the cells along the beam over that of the first."""
     return 1 / expansion(span, along, _AT_TIP / refinement)
 
 

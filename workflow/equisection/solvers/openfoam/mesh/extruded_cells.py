@@ -10,7 +10,7 @@ Beyond a free tip cells fill the inside of the outline as well::
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -82,17 +82,12 @@ class Extrusion:
         SolverError
             Cells overlap, or an edge is on no patch.
         """
-        around = ordered(self.around.corners)
-        more = [] if self.inside is None else [ordered(self._inner)]
-        sorted_cells = Extrusion(
-            PlaneCells(self.around.points, around),
-            None
-            if self.inside is None
-            else PlaneCells(self.inside.points, np.concatenate([around, *more])),
-            self.levels,
-            self.tip,
-        )
-        return sorted_cells._write(folder, patches, of, body)
+        corners, inside = ordered(self.around.corners), None
+        if self.inside is not None:
+            every = np.concatenate([corners, ordered(self._inner)])
+            inside = PlaneCells(self.inside.points, every)
+        around = PlaneCells(self.around.points, corners)
+        return replace(self, around=around, inside=inside)._write(folder, patches, of, body)
 
     @property
     def _inner(self) -> Indices:

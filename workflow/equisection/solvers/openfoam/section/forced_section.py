@@ -44,7 +44,6 @@ logger = logging.getLogger(__name__)
 _BEYOND = 10
 _TABLE = "motion.dat"
 _MESH_SOLVER = {"solver": "PCG", "preconditioner": "DIC", "tolerance": 1e-9, "relTol": 1e-4}
-_NOTHING = np.empty(0)
 
 
 @dataclass(frozen=True)
@@ -79,7 +78,7 @@ class ForcedRun(MovingRun[ForcedCase, SectionCells]):
         except BlowUpError as error:
             failure = str(error)
             if not is_ready(self.folder) or not has_loads(self.folder):
-                return ForcedResult(_NOTHING, _NOTHING, _NOTHING, _NOTHING, _NOTHING, failure)
+                return ForcedResult.without_history(failure)
         return self._result(failure)
 
     def solution(self) -> dict[str, Any]:
