@@ -43,7 +43,6 @@ from equisection.study.plan import model as model_named
 AT_TIPS = (1.0, 1.0)
 #: Distance z/L below which a place is that of its name.
 _ONE_PLACE = 1e-3
-#: Regimes in which the motion stays bounded, so that its mean and its extent mean something.
 #: Marks, on the axis, of runs without a mean.
 _FAILED, _DIVERGED = "x", "+"
 #: Markers of a model at most, but for the few that are of another kind than the rest.
