@@ -1,7 +1,7 @@
 """Limit of a value at vanishing cell size, with an interval, from the meshes that there are.
 
-From three meshes with monotonic convergence the limit is extrapolated with the observed order p,
-at most the order 2 of the scheme, and the interval is the grid convergence index with the factor of
+From three meshes with monotonic convergence, of an order from 0.5 to 4, the limit is
+extrapolated with the observed order p, at most the order 2 of the scheme, and the interval is the grid convergence index with the factor of
 safety 1.25 (Celik, Ghia, Roache & Freitas 2008, J. Fluids Eng. 130, 078001; the smaller of both
 orders by Roache, Verification and Validation in Computational Science and Engineering, 1998). Two
 meshes show no order: it is taken to be 2, with Roache's factor 3 for two grids. Without convergence
@@ -19,8 +19,8 @@ from equisection.analysis.grid_convergence import SAFETY, Convergence, grid_conv
 
 #: Order of the scheme: what is observed beyond it is chance.
 FORMAL_ORDER = 2.0
-#: Smallest observed order that is extrapolated with.
-LEAST_ORDER = 0.5
+#: Observed orders that are extrapolated with. Beyond them chance or round-off decides.
+LEAST_ORDER, MOST_ORDER = 0.5, 4.0
 #: Factor of safety of two meshes, and of three without convergence.
 SAFETY_OF_TWO = SAFETY_WITHOUT_ORDER = 3.0
 
@@ -80,7 +80,7 @@ def grid_limit(
         return GridLimit(limit, limit - half, limit + half, 2, math.nan, words)
     three = (values[-3], values[-2], values[-1])
     found = grid_convergence(three, (sizes[-3], sizes[-2], sizes[-1]))
-    if found.convergence is Convergence.MONOTONIC and found.order >= LEAST_ORDER:
+    if found.convergence is Convergence.MONOTONIC and is_credible(found.order):
         used = min(found.order, FORMAL_ORDER)
         limit, half = _extrapolated(values[-2:], sizes[-2:], own[-2:], used, SAFETY)
         words = (
@@ -89,8 +89,16 @@ def grid_limit(
         )
         return GridLimit(limit, limit - half, limit + half, 3, found.order, words)
     half = math.hypot(SAFETY_WITHOUT_ORDER * (max(three) - min(three)), own[-1])
-    words = f"three meshes, {found.convergence}: three times their largest difference"
+    kind = str(found.convergence)
+    if found.convergence is Convergence.MONOTONIC:
+        kind = f"order {found.order:.1f}, which is chance"
+    words = f"three meshes, {kind}: three times their largest difference"
     return GridLimit(three[-1], three[-1] - half, three[-1] + half, 3, math.nan, words)
+
+
+def is_credible(order: float) -> bool:
+    """Tell whether an observed order can be that of the scheme, and not chance."""
+    return LEAST_ORDER <= order <= MOST_ORDER
 
 
 def _extrapolated(

@@ -44,9 +44,8 @@ from equisection.study.axes import K_STAR
 from equisection.verdict.growth import AFTER_RELEASE
 
 #: Names of the quantities.
-ONSET, ONSET_DAMPED, GROWTH, GROWTH_EARLY = (
+ONSET, GROWTH, GROWTH_EARLY = (
     "onset k*",
-    "onset k* with damping",
     "growth, V/c",
     "growth over the first 30 c/V",
 )
@@ -59,7 +58,7 @@ LEARNT_AT = 6.44
 #: Structural damping (of critical) in both motions.
 DAMPING = (0.0, 0.005, 0.01, 0.02)
 #: k* at which models predict, of sections and of the plate.
-_SECTIONS_AT = np.geomspace(3.9, 11.0, 21)
+_SECTIONS_AT = np.geomspace(3.9, 11.0, 16)
 _BEAMS_AT = np.geomspace(4.0, 20.0, 13)
 #: End (c/V) of the shortest releases of the plate.
 _EARLY = 30.0
@@ -197,7 +196,7 @@ def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> li
     if not math.isfinite(found.value):
         return []
     least, most = min(one.zigzag for one in coarse), max(one.zigzag for one in coarse)
-    note = f"two iterations a step: loads zigzag by {100 * least:.0f} to {100 * most:.0f} %"
+    note = f"two iterations a step: loads zigzag by {100 * least:.2g} to {100 * most:.2g} %"
     base = MeshValue("coarse", coarse[0].cells, found.value, found.low, found.high, note)
     early = early_growth_of_plate(releases).values
     if len(early) < 2:
@@ -254,7 +253,7 @@ class LearntSectionModels:
             if one.model == "2d" and one.case.k_star == LEARNT_AT and one.mesh in polars
         ]
         for run in chosen:
-            polar, is_finest = polars[run.mesh], run is chosen[-1]
+            polar = polars[run.mesh]
             model = learnt_model(read_reference_history(run.path), polar)
             base = run.case.section
             assert base is not None, "a case of a section"
@@ -264,8 +263,7 @@ class LearntSectionModels:
             }
             if own is not None:
                 kinds[OWN_RATIOS] = own
-            dampings = DAMPING if is_finest else DAMPING[:1]
-            places = [(kind, zeta) for kind in kinds for zeta in dampings]
+            places = [(kind, zeta) for kind in kinds for zeta in DAMPING]
             lanes = [
                 (float(k), section)
                 for kind, zeta in places
@@ -285,23 +283,19 @@ class LearntSectionModels:
         return cls(onsets)
 
     def over_meshes(self) -> Iterator[MeshSeries]:
-        """Yield the onset of each model over the meshes, without damping."""
-        for kind in dict.fromkeys(model for model, _, _ in self.onsets):
+        """Yield the onset of each model over the meshes, without damping and with it."""
+        for kind, zeta in dict.fromkeys((model, zeta) for model, _, zeta in self.onsets):
             values = [
                 MeshValue(mesh, cells, found.k_star, found.low, found.high, note)
-                for (model, mesh, zeta), (found, cells, note) in self.onsets.items()
-                if model == kind and zeta == 0.0
+                for (model, mesh, damping), (found, cells, note) in self.onsets.items()
+                if (model, damping) == (kind, zeta)
             ]
-            yield MeshSeries(ONSET, kind, "", BY_MODEL, 2, tuple(values), common_error=True)
+            yield MeshSeries(ONSET, kind, damped(zeta), BY_MODEL, 2, tuple(values), True)
 
-    def over_damping(self) -> Iterator[MeshSeries]:
-        """Yield the onset of each model on the finest mesh, with structural damping."""
-        for (model, mesh, zeta), (found, cells, note) in self.onsets.items():
-            finest = [one for one, _, z in self.onsets if z > 0.0 and one == model]
-            if finest and (model, mesh, DAMPING[-1]) in self.onsets:
-                value = MeshValue(mesh, cells, found.k_star, found.low, found.high, note)
-                at = f"zeta = {100 * zeta:g} %"
-                yield MeshSeries(ONSET_DAMPED, model, at, BY_MODEL, 2, (value,))
+
+def damped(zeta: float) -> str:
+    """Return the place of a structural damping (of critical); empty without it."""
+    return f"zeta = {100 * zeta:g} %" if zeta else ""
 
 
 def _sections(
@@ -355,17 +349,12 @@ def plates_by_model(
                 models[one.mesh] = (learnt_beam(release, polars), one)
             except ResultFileError:
                 continue
-    values = []
-    for mesh, (model, run) in models.items():
-        for zeta in DAMPING:
+    for zeta in DAMPING if models else ():
+        values = []
+        for mesh, (model, run) in models.items():
             found = _onset_of_beam(model, run, zeta)
-            value = MeshValue(mesh, run.cells, found.k_star, found.low, found.high)
-            at = f"zeta = {100 * zeta:g} %"
-            yield MeshSeries(ONSET_DAMPED, "3d", at, BY_MODEL, 3, (value,))
-            if zeta == 0.0:
-                values.append(value)
-    if values:
-        yield MeshSeries(ONSET, "3d", "", BY_MODEL, 3, tuple(values), common_error=True)
+            values.append(MeshValue(mesh, run.cells, found.k_star, found.low, found.high))
+        yield MeshSeries(ONSET, "3d", damped(zeta), BY_MODEL, 3, tuple(values), True)
 
 
 def _onset_of_beam(model: ReducedBeam, run: MeshRelease, zeta: float) -> PredictedOnset:
