@@ -1,12 +1,12 @@
 """Limit of a value at vanishing cell size, with an interval, from the meshes that there are.
 
-From three meshes with monotonic convergence, of an order from 0.5 to 4, the limit is
-extrapolated with the observed order p, at most the order 2 of the scheme, and the interval is the grid convergence index with the factor of
-safety 1.25 (Celik, Ghia, Roache & Freitas 2008, J. Fluids Eng. 130, 078001; the smaller of both
-orders by Roache, Verification and Validation in Computational Science and Engineering, 1998). Two
-meshes show no order: it is taken to be 2, with Roache's factor 3 for two grids. Without convergence
-the limit is the finest value, give or take three times the largest difference (Eca & Hoekstra 2014,
-J. Comput. Phys. 262). One mesh has no limit.
+From three meshes with monotonic convergence, of an order from 0.5 to 4, the limit is extrapolated
+with the observed order p, at most the order 2 of the scheme, and the interval is the grid
+convergence index with the factor of safety 1.25 (Celik, Ghia, Roache & Freitas 2008, J. Fluids Eng.
+130, 078001; the smaller of both orders by Roache, Verification and Validation in Computational
+Science and Engineering, 1998). Two meshes show no order: it is taken to be 2, with Roache's factor
+3 for two grids. Without convergence the limit is the finest value, give or take three times the
+largest difference (Eca & Hoekstra 2014, J. Comput. Phys. 262). One mesh has no limit.
 """
 
 from __future__ import annotations

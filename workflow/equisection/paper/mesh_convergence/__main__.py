@@ -22,7 +22,12 @@ from equisection.generated import write_outdated
 from equisection.paper.mesh_convergence import convergence_figure
 from equisection.paper.mesh_convergence.convergence_page import page
 from equisection.paper.mesh_convergence.kept_releases import mesh_releases, rigid_loads
-from equisection.paper.mesh_convergence.loads_by_mesh import load_series, mean_series
+from equisection.paper.mesh_convergence.loads_by_mesh import (
+    load_series,
+    mean_series,
+    modal_series,
+    ratio_series,
+)
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, as_table
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     LearntSectionModels,
@@ -58,6 +63,8 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
         *mean_series(releases),
         *load_series(section, "2d", reference),
         *load_series(plate, "3d", reference),
+        *ratio_series(section, plate),
+        *modal_series(releases),
     ]
     return series, own_mesh
 

@@ -57,9 +57,7 @@ def draw(series: Sequence[MeshSeries], onset: tuple[float, float, float]) -> Fig
         for axes in (left, right)
         for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
     }
-    figure.legend(
-        entries.values(), entries.keys(), loc="outside upper center", ncols=len(entries)
-    )
+    figure.legend(entries.values(), entries.keys(), loc="outside upper center", ncols=len(entries))
     add_provenance(
         figure,
         "open: releases by OpenFOAM v1912; filled: model learnt from one release; at 0: limit "

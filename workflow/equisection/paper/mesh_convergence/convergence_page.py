@@ -5,7 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from equisection.paper.mesh_convergence.loads_by_mesh import MEANS, RIGID, printed_limit
+from equisection.paper.mesh_convergence.loads_by_mesh import (
+    EQUAL_CELLS,
+    FIRST_MODE,
+    MEANS,
+    RIGID,
+    printed_limit,
+)
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
@@ -17,28 +23,42 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
 from equisection.paper.printed_values import COEFFICIENTS, PAPER_ONSET
 
 MESHES = ("coarse", "medium", "fine")
+#: Kinds of the beam's modes.
+KINDS = ("torsion", "bending")
 #: Half-width of an interval, as a part of the value, up to which a value counts as converged.
 CONVERGED = 0.1
 
-_HEAD = """# The onset over the cell size
+_PICTURE = (
+    "Left: k* of the onset over the cell size, of three models, with the limit of each and the "
+    "paper's 5.5. Right: over the structural damping"
+)
+_HEAD = f"""# The onset over the cell size
 
-How the onset of the paper's plate and of its sections depends on the mesh, and how sure its limit is.
+How the onset of the paper's plate and of its sections depends on the mesh, and how sure its limit
+is.
 
-![Left: k* of the onset over the cell size, of three models, with the limit of each and the paper's 5.5. Right: over the structural damping](onset-over-cell-size.png)
+![{_PICTURE}](onset-over-cell-size.png)
 
 ```
 make paper                                          # or this step of it alone:
 python -m equisection.paper.mesh_convergence
 ```
 
-Both write this page, its figure and `results/paper-convergence/mesh_convergence.csv` from what is kept in
-`results/reference/`, with no flow solver: do not edit it. What is kept on a further mesh later is taken in.
+Both write this page, its figure and `results/paper-convergence/mesh_convergence.csv` from what is
+kept in `results/reference/`, with no flow solver: do not edit it. What is kept on a further mesh
+later is taken in.
 
-A **limit** is the value at vanishing cell size. From three meshes it is extrapolated with the observed order, at most 2,
-and its interval is the grid convergence index, with the factor of safety 1.25 (Celik et al. 2008). Two meshes show no order: it is taken to
-be 2, with the factor 3 (Roache 1998). Without convergence, or with an order beyond 0.5 to 4, it is the finest value, give or take three times the largest
-difference (Eca and Hoekstra 2014). One mesh has no limit. The intervals of growth rates, and the band of a learnt model, are added to that of the
-mesh as independent errors. *Converged* is what has an interval of ± 10 % or less.
+A **limit** is the value at vanishing cell size. Its interval is
+
+- of three meshes the grid convergence index with the observed order, at most 2, and the factor of
+  safety 1.25 (Celik et al. 2008);
+- of two meshes, which show no order, that with the order 2 and the factor 3 (Roache 1998);
+- without convergence, or with an order beyond 0.5 to 4, three times the largest difference around
+  the finest value (Eca and Hoekstra 2014);
+- of one mesh not known.
+
+The intervals of growth rates, and the band of a learnt model, are added to it as independent
+errors. *Converged* is what has an interval of ± {100 * CONVERGED:g} % or less.
 """
 
 
@@ -66,20 +86,22 @@ def page(series: Sequence[MeshSeries], own_mesh: str) -> str:
 def _onsets(series: Sequence[MeshSeries], own_mesh: str) -> str:
     chosen = [one for one in series if one.quantity == ONSET and not one.at]
     low, high = PAPER_ONSET[1:]
+    stated = f"{PAPER_ONSET[0]:g}, here taken as {low:g} to {high:g}"
     text = f"""## Onset
 
-k\\* of the onset; above it a release decays. The paper has about {PAPER_ONSET[0]:g}, here taken as {low:g} to {high:g}.
+k\\* of the onset; above it a release decays. The paper has about {stated}.
 
 {_table(("model", "basis"), [(one.model, one.basis) for one in chosen], chosen)}
-- *releases*: growth rates of the runs, zero between two k\\*. A mesh with one release has the growth curve of the next
-  coarser mesh, shifted by the difference of both at that k\\*, which hardly depends on k\\* near the onset (table of
-  growth, 6.44 to 8.5).
-- *learnt model*: learnt from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)). A polar of few angles is filled in the
-  shape of the next coarser one.
-- `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1, as the sweep does.
-  `{OWN_RATIOS}` has the ratio of this project's section to this project's plate, on equal cells in the plane
-  {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}. The first mixes two programs' errors: its moment factor grows
-  with the mesh, since Table 1 stays.
+- *releases*: growth rates of the runs, zero between two k\\*. A mesh with one release has the
+  growth curve of the next coarser mesh, shifted by the difference of both at that k\\*, which
+  hardly depends on k\\* near the onset (table of growth, 6.44 to 8.5).
+- *learnt model*: learnt from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)). A
+  polar of few angles is filled in the shape of the next coarser one.
+- `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1, as
+  the sweep does. It mixes two programs' errors: its moment factor grows with the mesh, since Table
+  1 stays.
+- `{OWN_RATIOS}` has the ratio of this project's section to this project's plate, on equal cells in
+  the plane {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}.
 """
     return text + _notes(chosen) + _of_the_plate(chosen)
 
@@ -90,9 +112,10 @@ def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
         return ""
     limit = plate[0].limit
     return f"""
-**The plate's onset is not converged**: its limit has the interval {limit.low:.1f} to {limit.high:.1f}. On `medium` there are 30 c/V with four
-iterations, from which no growth rate can be read, but only the difference from `coarse` over the same time; the longer run with two iterations is
-[not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+**The plate's onset is not converged**: its limit has the interval {limit.low:.1f} to
+{limit.high:.1f}. On `medium` there are 30 c/V with four iterations, from which no growth rate can
+be read, but only the difference from `coarse` over the same time; the longer run with two
+iterations is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
 """
 
 
@@ -101,8 +124,9 @@ def _damping(series: Sequence[MeshSeries]) -> str:
     rows = [(one.model, one.at.removeprefix("zeta = ") or "0") for one in chosen]
     return f"""## Structural damping
 
-The paper gives no damping of the structure. Plastic plates have some; in its time integration there may be more. The onset by the learnt
-models with the same damping (of critical) in bending and torsion:
+The paper gives no damping of the structure. A plastic plate has some, and so may the time
+integration of a structure. The onset by the learnt models with the same damping (of critical) in
+bending and torsion:
 
 {_table(("model", "damping"), rows, chosen)}
 """
@@ -114,15 +138,17 @@ def _growth(series: Sequence[MeshSeries]) -> str:
     rows = [(one.at.removeprefix("k* = "), one.basis.removeprefix("releases, ")) for one in chosen]
     text = f"""## Growth at one k\\*
 
-Growth of the section `2d` (V/c, with its interval of 95 %) over the same window on each mesh, from 20 c/V on:
+Growth of the section `2d` (V/c, with its interval of 95 %) over the same window on each mesh, from
+20 c/V on:
 
 {_table(("k*", "window"), rows, chosen, form="+.4f", judged=False)}
 """
     if early:
-        notes = "; ".join(f"{value.mesh}: {value.note}" for value in early[0].values)
+        notes = "; ".join(f"{value.mesh} {value.note}" for value in early[0].values)
         text += f"""
-The plate (`3d`) at {_plain(early[0].at)}, four iterations a step, 10 to 30 c/V. **No growth rate can be read from 30 c/V**: fits with and without
-the second bending mode differ by more than their errors ({notes}). Of two meshes over the same window the difference counts:
+The plate (`3d`) at {_plain(early[0].at)}, four iterations a step, 10 to 30 c/V. **No growth rate
+can be read from 30 c/V**: fits with and without the second bending mode differ by more than their
+errors ({notes}). Of two meshes over the same window the difference counts:
 
 {_table(("model",), [("3d",)], early, form="+.4f", judged=False)}
 """
@@ -162,7 +188,30 @@ The column *paper* is the limit of the paper's own three meshes by the same rule
 {_table(("incidence", "coefficient", "paper"), rows, plate, form=".4f")}
 """
         + _notes(plate)
+        + _of_one_plate(series)
     )
+
+
+def _of_one_plate(series: Sequence[MeshSeries]) -> str:
+    """Return the quotients on equal cells, and those of the plate's modes."""
+    ratios = [one for one in series if one.model == EQUAL_CELLS]
+    modes = [one for one in series if one.quantity in map(FIRST_MODE.format, KINDS)]
+    rows = [(one.at, one.quantity) for one in ratios]
+    of_modes = [(one.quantity,) for one in modes]
+    at = _plain(modes[0].at) if modes else ""
+    return f"""
+## Section over plate
+
+Loads of the rigid section over those of the rigid plate, on equal cells in the plane:
+
+{_table(("incidence", "quotient"), rows, ratios, form=".3f")}
+
+## Modes of the plate
+
+Mean of the first mode over that of the next, at {at}, four iterations a step, 10 to 30 c/V:
+
+{_table(("quantity",), of_modes, modes, form=".1f")}
+"""
 
 
 def _symbol(one: MeshSeries) -> str:

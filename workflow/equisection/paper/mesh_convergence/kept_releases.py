@@ -79,15 +79,26 @@ class MeshRelease:
 
     def growth(self, start: float, end: float, waves: int = 3) -> Growth:
         """Return the growth (V/c) over a window (c/V), fitted with so many motions at most."""
-        natural = Judge.of(self.case).waves[:waves]
-        records = self.tip.records[:waves]
-        return growth_of(self.tip.time, records, np.array(natural), (start, end))
+        return growth_over(self.case, self.tip, (start, end), waves)
 
     def behind_release(self, end: float = UNTIL) -> Growth:
         """Return the growth over the last periods before a time, behind the release (c/V)."""
-        last = min(end, self.end)
-        start = max(BEHIND_RELEASE, last - MOST_PERIODS / Judge.of(self.case).natural_frequency)
-        return self.growth(start, last)
+        return growth_behind_release(self.case, self.tip, end)
+
+
+def growth_over(
+    case: UnsteadyCase, tip: TipMotion, window: tuple[float, float], waves: int = 3
+) -> Growth:
+    """Return the growth (V/c) over a window (c/V), fitted with so many motions at most."""
+    natural = np.array(Judge.of(case).waves[:waves])
+    return growth_of(tip.time, tip.records[:waves], natural, window)
+
+
+def growth_behind_release(case: UnsteadyCase, tip: TipMotion, end: float = UNTIL) -> Growth:
+    """Return the growth over the last periods before a time (c/V), from 20 c/V on."""
+    last = min(end, float(tip.time[-1]))
+    start = max(BEHIND_RELEASE, last - MOST_PERIODS / Judge.of(case).natural_frequency)
+    return growth_over(case, tip, (start, last))
 
 
 def mesh_releases(reference: Path) -> list[MeshRelease]:
@@ -152,7 +163,7 @@ def growth_table(releases: list[MeshRelease]) -> pd.DataFrame:
 
 
 @dataclass(frozen=True)
-class RigidLoads:
+class MeshLoads:
     """Loads of a rigid body on one mesh.
 
     Attributes
@@ -176,7 +187,7 @@ class RigidLoads:
     path: Path
 
 
-def rigid_loads(reference: Path, dimension: str) -> list[RigidLoads]:
+def rigid_loads(reference: Path, dimension: str) -> list[MeshLoads]:
     """Return the kept steady results of the paper's section (``2d``) or plate (``3d``).
 
     Those with settings of their own, beside mesh and iterations, are left out.
@@ -193,11 +204,11 @@ def rigid_loads(reference: Path, dimension: str) -> list[RigidLoads]:
         data = read_dataset(kept.path)
         loads = {name: float(data[name]) for name in ("cd", "cl", "cm")}
         mesh, angle = str(settings[_OF_MESH]), float(case["incidence_deg"])
-        found[mesh, angle] = RigidLoads(mesh, _cells_of(kept), angle, loads, kept.path)
+        found[mesh, angle] = MeshLoads(mesh, _cells_of(kept), angle, loads, kept.path)
     return sorted(found.values(), key=lambda one: (one.cells, one.incidence_deg))
 
 
-def polars_of(loads: list[RigidLoads]) -> dict[str, Polar]:
+def polars_of(loads: list[MeshLoads]) -> dict[str, Polar]:
     """Return the polar of each mesh with four incidences or more, coarsest first.
 
     One with gaps where a release moves is filled in the shape of the next coarser one.
@@ -217,7 +228,7 @@ def polars_of(loads: list[RigidLoads]) -> dict[str, Polar]:
     return found
 
 
-def strip_polars_of(loads: list[RigidLoads], mesh: str) -> StripPolars:
+def strip_polars_of(loads: list[MeshLoads], mesh: str) -> StripPolars:
     """Return the polars along the span of a mesh of the plate."""
     points = [one for one in loads if one.mesh == mesh]
     read = [read_dataset(one.path) for one in points]

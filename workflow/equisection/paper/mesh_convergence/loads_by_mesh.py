@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+import numpy as np
 import pandas as pd
 
 from equisection.analysis.grid_convergence import cell_size
 from equisection.analysis.grid_limit import GridLimit, grid_limit
-from equisection.paper.mesh_convergence.kept_releases import MeshRelease, RigidLoads
+from equisection.paper.mesh_convergence.kept_releases import MeshRelease, MeshLoads
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.paper.mesh_convergence.onset_by_mesh import PLATE_ITERATIONS
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1
+from equisection.results.netcdf import read_dataset
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.verdicts import judge
+from equisection.verdict.growth import AFTER_RELEASE
 
 #: Means of a release that are compared, by their names in a verdict.
 MEANS = {
@@ -23,6 +27,8 @@ MEANS = {
 }
 #: Bodies at rest, by dimension.
 RIGID = {"2d": "rigid section", "3d": "rigid plate"}
+#: Section and plate on equal cells, and the quantity of :func:`modal_series`.
+EQUAL_CELLS, FIRST_MODE = "section over plate", "first {} mode over the next"
 #: Loads of iterations that did not end, the mesh and the incidence (deg) that they are of, and the
 #: iteration from which on they go to and fro.
 _UNFINISHED = Path("paper-plate-openfoam-3d-grid", "fine_a2.5_iterations.csv")
@@ -47,7 +53,9 @@ def mean_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
             yield MeshSeries(quantity, "2d", f"k* = {k_star:g}", basis, 2, values)
 
 
-def load_series(loads: Sequence[RigidLoads], dimension: str, reference: Path) -> Iterator[MeshSeries]:
+def load_series(
+    loads: Sequence[MeshLoads], dimension: str, reference: Path
+) -> Iterator[MeshSeries]:
     """Yield the loads of the rigid section or plate at the incidences of Table 1."""
     similar = [one for one in loads if not one.mesh.startswith("plate-")]
     for angle in next(iter(TABLE_1.values())):
@@ -66,6 +74,43 @@ def load_series(loads: Sequence[RigidLoads], dimension: str, reference: Path) ->
                 at = f"{angle:g} deg"
                 size = int(dimension[0])
                 yield MeshSeries(symbol, RIGID[dimension], at, "steady runs", size, tuple(values))
+
+
+def ratio_series(
+    section_loads: Sequence[MeshLoads], plate_loads: Sequence[MeshLoads]
+) -> Iterator[MeshSeries]:
+    """Yield the quotients of section and plate on equal cells in the plane."""
+    for angle in next(iter(TABLE_1.values())):
+        for name, short in COEFFICIENTS.items():
+            values = [
+                MeshValue(plate.mesh, plate.cells, section.loads[short] / plate.loads[short])
+                for plate in plate_loads
+                for section in section_loads
+                if section.mesh == f"plate-{plate.mesh}"
+                and section.incidence_deg == plate.incidence_deg == angle
+            ]
+            if values and angle:
+                at = f"{angle:g} deg"
+                quotient = f"{name.lower()}/{name}"
+                yield MeshSeries(quotient, EQUAL_CELLS, at, "steady runs", 3, tuple(values))
+
+
+def modal_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
+    """Yield the mean of the plate's first mode of each kind over that of the next, by the mesh.
+
+    The releases are those with four iterations; the mean is that from 10 c/V on.
+    """
+    own = [one for one in releases if one.model == "3d" and one.iterations >= PLATE_ITERATIONS]
+    for kind in ("torsion", "bending"):
+        values = []
+        for one in own:
+            part = read_dataset(one.path).sel(time=slice(AFTER_RELEASE, None))
+            means = np.abs(part[f"{kind}_amplitude"].mean("time").values)
+            values.append(MeshValue(one.mesh, one.cells, float(means[0] / means[1:].max())))
+        if values:
+            at = f"k* = {own[0].case.k_star:g}"
+            quantity = FIRST_MODE.format(kind)
+            yield MeshSeries(quantity, "3d", at, "releases, 10 to 30 c/V", 3, tuple(values))
 
 
 def _unfinished(path: Path, short: str) -> list[MeshValue]:

@@ -132,7 +132,5 @@ def as_table(series: Iterable[MeshSeries]) -> pd.DataFrame:
             (*head, v.mesh, v.cells, v.value, v.low, v.high, math.nan, v.note) for v in one.values
         ]
         limit = one.limit
-        rows.append(
-            (*head, LIMIT, 0, limit.value, limit.low, limit.high, limit.order, limit.basis)
-        )
+        rows.append((*head, LIMIT, 0, limit.value, limit.low, limit.high, limit.order, limit.basis))
     return pd.DataFrame(rows, columns=list(COLUMNS))

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from equisection.aerodynamics.polar import Polar
 from equisection.analysis.growth_onset import onset_by_growth
@@ -31,7 +32,7 @@ from equisection.cases import BeamModes
 from equisection.errors import ResultFileError
 from equisection.paper.mesh_convergence.kept_releases import (
     MeshRelease,
-    RigidLoads,
+    MeshLoads,
     growth_table,
     polars_of,
     strip_polars_of,
@@ -62,8 +63,8 @@ _SECTIONS_AT = np.geomspace(3.9, 11.0, 16)
 _BEAMS_AT = np.geomspace(4.0, 20.0, 13)
 #: End (c/V) of the shortest releases of the plate.
 _EARLY = 30.0
-#: Loads whose zigzag is larger are not converged in their time step.
-_PLATE_ITERATIONS = 4
+#: Iterations of a time step of the plate that are enough.
+PLATE_ITERATIONS = 4
 
 
 def growth_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
@@ -93,7 +94,7 @@ def early_growth_of_plate(releases: Sequence[MeshRelease]) -> MeshSeries:
     """
     values = []
     for one in releases:
-        if one.model != "3d" or one.iterations != _PLATE_ITERATIONS:
+        if one.model != "3d" or one.iterations != PLATE_ITERATIONS:
             continue
         two, three = (one.growth(AFTER_RELEASE, min(_EARLY, one.end), waves) for waves in (2, 3))
         low, high = three.interval
@@ -116,18 +117,13 @@ def onsets_by_releases(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the onset of each model over the meshes, from releases."""
     for model, dimensions in (("2d", 2), ("2d-corrected", 2), ("3d", 3)):
         own = [one for one in releases if one.model == model]
-        if model == "3d":
-            values = _of_plate(own, releases)
-        else:
-            values = _of_section(own)
+        values = _of_plate(own, releases) if model == "3d" else _of_section(own)
         if values:
             yield MeshSeries(ONSET, model, "", BY_RELEASES, dimensions, tuple(values))
 
 
 def _by_mesh(releases: Sequence[MeshRelease]) -> dict[str, list[MeshRelease]]:
-    meshes = dict.fromkeys(
-        one.mesh for one in sorted(releases, key=lambda release: release.cells)
-    )
+    meshes = dict.fromkeys(one.mesh for one in sorted(releases, key=lambda release: release.cells))
     return {mesh: [one for one in releases if one.mesh == mesh] for mesh in meshes}
 
 
@@ -159,24 +155,18 @@ def _shifted(
     if not found:
         return []
     run, known, shift, half = min(found, key=lambda one: abs(one[0].case.k_star - base.value))
-    table = growth_table(curve).sort_values("k_star")
     note = f"growth of {known.mesh} {shift:+.4f} V/c, the difference at k* = {run.case.k_star:g}"
-    return [_moved(table["k_star"], table["growth_rate"], shift, half, base, run, note)]
+    return [_moved(growth_table(curve), (shift, half), base, run, note)]
 
 
 def _moved(
-    k_star: Sequence[float],
-    rates: Sequence[float],
-    shift: float,
-    half: float,
-    base: MeshValue,
-    run: MeshRelease,
-    note: str,
+    curve: pd.DataFrame, shift: tuple[float, float], base: MeshValue, run: MeshRelease, note: str
 ) -> MeshValue:
-    """Return the zero of a growth curve that is shifted by ``shift`` +- ``half`` (V/c)."""
-    value, low, high = (
-        onset_of(k_star, np.asarray(rates) + moved) for moved in (shift, shift - half, shift + half)
-    )
+    """Return the zero of a growth curve that is moved by a shift, with its half-width (V/c)."""
+    ordered = curve.sort_values("k_star")
+    k_star, rates = ordered["k_star"].tolist(), ordered["growth_rate"].to_numpy()
+    moved, half = shift
+    value, low, high = (onset_of(k_star, rates + by) for by in (moved, moved - half, moved + half))
     own = base.half_width
     return MeshValue(
         run.mesh,
@@ -190,7 +180,7 @@ def _moved(
 
 def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> list[MeshValue]:
     """Return the onset of the plate on coarse, and on medium as far as 30 c/V tell."""
-    coarse = [one for one in own if one.mesh == "coarse" and one.iterations < _PLATE_ITERATIONS]
+    coarse = [one for one in own if one.mesh == "coarse" and one.iterations < PLATE_ITERATIONS]
     table = growth_table(coarse)
     found = onset_by_growth(table, K_STAR)
     if not math.isfinite(found.value):
@@ -205,10 +195,9 @@ def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> li
     without = [float(value.note.split()[0]) for value in (early[0], early[-1])]
     spread = abs(without[1] - without[0] - shift)
     half = math.hypot(*(value.half_width for value in early[:: len(early) - 1]), spread)
-    table = table.sort_values("k_star")
     run = next(one for one in own if one.mesh == early[-1].mesh)
     words = f"growth of coarse {shift:+.4f} +- {half:.4f} V/c, the difference over 30 c/V"
-    return [base, _moved(table["k_star"], table["growth_rate"], shift, half, base, run, words)]
+    return [base, _moved(table, (shift, half), base, run, words)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,7 +216,7 @@ class LearntSectionModels:
     def learnt(
         cls,
         releases: Sequence[MeshRelease],
-        section_loads: Sequence[RigidLoads],
+        section_loads: Sequence[MeshLoads],
         plate: Polar,
         own: CorrectionFactors | None,
     ) -> LearntSectionModels:
@@ -306,18 +295,14 @@ def _sections(
         section = base.scaled(float(k_star) / run.case.k_star)
         pitch = 2.0 * zeta * math.sqrt(section.torsional_stiffness * section.inertia)
         heave = 2.0 * zeta * math.sqrt(section.flexural_stiffness * section.mass)
-        damped = section.model_copy(
-            update={"torsional_damping": pitch, "flexural_damping": heave}
-        )
+        damped = section.model_copy(update={"torsional_damping": pitch, "flexural_damping": heave})
         if factors is not None:
-            damped, _ = corrected_section(
-                damped, factors, math.radians(run.case.incidence_deg)
-            )
+            damped, _ = corrected_section(damped, factors, math.radians(run.case.incidence_deg))
         yield float(k_star), damped
 
 
 def own_factors(
-    section_loads: Sequence[RigidLoads], plate_loads: Sequence[RigidLoads]
+    section_loads: Sequence[MeshLoads], plate_loads: Sequence[MeshLoads]
 ) -> tuple[CorrectionFactors | None, str]:
     """Return the factors of section and plate on equal cells, and the mesh that they are of.
 
@@ -332,7 +317,7 @@ def own_factors(
 
 
 def plates_by_model(
-    releases: Sequence[MeshRelease], plate_loads: Sequence[RigidLoads]
+    releases: Sequence[MeshRelease], plate_loads: Sequence[MeshLoads]
 ) -> Iterator[MeshSeries]:
     """Yield the onset of the plate by a model learnt from its release on each mesh, and damped.
 
@@ -341,7 +326,7 @@ def plates_by_model(
     """
     models: dict[str, tuple[ReducedBeam, MeshRelease]] = {}
     for one in releases:
-        usable = one.iterations >= _PLATE_ITERATIONS or one.mesh == "coarse"
+        usable = one.iterations >= PLATE_ITERATIONS or one.mesh == "coarse"
         if one.model == "3d" and one.case.k_star == LEARNT_AT and usable:
             polars = strip_polars_of(list(plate_loads), one.mesh)
             try:
@@ -381,5 +366,3 @@ def _beam_at(base: BeamModes, scale: float, zeta: float) -> BeamModes:
 def plate_of_table_1(root: Path) -> Polar:
     """Return the polar of the rigid plate of the paper's Table 1."""
     return Polar.read(root / "config" / "polars" / "paper_plate_3d.csv")
-
-
