@@ -11,6 +11,7 @@ import pytest
 from matplotlib.image import imread
 
 from equisection.paper.claims_page.__main__ import main
+from equisection.paper.mesh_convergence.__main__ import main as over_meshes
 from tests.workflow.project import ROOT, Project, jobs_planned
 
 
@@ -40,14 +41,18 @@ def paper(tmp_path_factory: pytest.TempPathFactory) -> Project:
     return project
 
 
-def test_page_of_the_claims_is_up_to_date(
+def test_pages_of_the_claims_and_the_meshes_are_up_to_date(
     paper: Project, capsys: pytest.CaptureFixture[str]
 ) -> None:
     results = paper.folder / "results"
+    reference, table = str(ROOT / "results" / "reference"), str(results / "convergence.csv")
+    of_meshes = ["--reference", reference, "--table", table]
+    of_meshes += ["--page", str(ROOT / "docs" / "mesh-convergence.md"), "--check"]
+    assert over_meshes(of_meshes) == 0, capsys.readouterr().err
     arguments = ["--figures", str(results / "paper-figures")]
     arguments += ["--plate", str(results / "paper-plate-figures")]
     arguments += ["--reductions", str(results / "paper-reductions")]
-    arguments += ["--reference", str(ROOT / "results" / "reference")]
+    arguments += ["--reference", reference, "--convergence", table]
     ended = main([*arguments, "--page", str(ROOT / "docs" / "side-by-side.md"), "--check"])
     assert ended == 0, capsys.readouterr().err
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -87,7 +88,7 @@ def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:
         [value.value - value.low for value in one.values],
         [value.high - value.value for value in one.values],
     ]
-    style = {
+    style: dict[str, Any] = {
         "color": look.colour,
         "marker": look.marker,
         "markerfacecolor": look.colour if learnt else "white",

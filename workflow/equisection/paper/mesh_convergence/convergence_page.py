@@ -174,10 +174,10 @@ def _loads(series: Sequence[MeshSeries]) -> str:
 
 {_table(("incidence", "coefficient"), rows, section, form=".4f")}
 """
-    rows = []
+    of_plate = []
     for one in plate:
         printed = printed_limit(_symbol(one), float(one.at.split()[0]))
-        rows.append((one.at, one.quantity, f"{printed.value:.4f} ± {printed.half_width:.4f}"))
+        of_plate.append((one.at, one.quantity, f"{printed.value:.4f} ± {printed.half_width:.4f}"))
     return (
         text
         + f"""
@@ -185,7 +185,7 @@ def _loads(series: Sequence[MeshSeries]) -> str:
 
 The column *paper* is the limit of the paper's own three meshes by the same rule.
 
-{_table(("incidence", "coefficient", "paper"), rows, plate, form=".4f")}
+{_table(("incidence", "coefficient", "paper"), of_plate, plate, form=".4f")}
 """
         + _notes(plate)
         + _of_one_plate(series)

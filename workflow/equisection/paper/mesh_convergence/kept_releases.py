@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -149,7 +150,7 @@ def _cells_of(kept: Kept) -> int:
     return int(words[words.index("cells") - 1])
 
 
-def growth_table(releases: list[MeshRelease]) -> pd.DataFrame:
+def growth_table(releases: Sequence[MeshRelease]) -> pd.DataFrame:
     """Return growth rates of releases with their errors, as ``summary.csv`` has them."""
     rows = []
     for one in releases:
@@ -218,9 +219,11 @@ def polars_of(loads: list[MeshLoads]) -> dict[str, Polar]:
         points = [one for one in loads if one.mesh == mesh]
         if len(points) < 4:
             continue
-        columns = [[one.loads[name] for one in points] for name in ("cd", "cl", "cm")]
+        drag, lift, moment = (
+            np.array([one.loads[name] for one in points]) for name in ("cd", "cl", "cm")
+        )
         angles = np.radians([one.incidence_deg for one in points])
-        polar = Polar(angles, *map(np.array, columns), mesh)
+        polar = Polar(angles, drag, lift, moment, mesh)
         denser = next(reversed(found.values()), None)
         if denser is not None and missing_angles(polar, SEEN):
             polar = replace(filled(polar, denser), label=f"{mesh}, in the shape of {denser.label}")
