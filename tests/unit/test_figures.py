@@ -354,6 +354,8 @@ def test_polars_join_the_incidences_that_a_resolution_is_run_at():
     coarse, fine = section_polar.draw(polar).axes[0].get_lines()[:2]
     assert len(coarse.get_xdata()) == 6
     assert list(fine.get_xdata()) == [0.0, 10.0]
+    # two points of six would cut the bend of the others
+    assert (coarse.get_linestyle(), fine.get_linestyle()) == ("-", "None")
     assert "no result" not in words(section_polar.draw(polar))
 
 
@@ -370,6 +372,15 @@ def test_polars_of_a_grid_study_show_its_index(values, said):
     assert said in words(figure)
     assert "2.0" in words(figure) or said == "oscillatory"
     lay_out(figure)
+
+
+def test_index_of_an_order_that_is_chance_is_not_drawn():
+    polar = polar_data(("coarse", "medium", "fine"))
+    for name in ("cl", "cm"):
+        polar[name] = polar[name] * xr.DataArray([1.1, 1.00001, 1.0], dims="resolution")
+    study = grid_study(polar, {"coarse": 100, "medium": 400, "fine": 1600})
+    assert study["observed_order"].max() > 10.0
+    assert "has an observed order" in words(section_polar.draw(polar, study)).replace("\n", " ")
 
 
 def test_polars_of_a_grid_study_without_an_order_say_so():
@@ -606,6 +617,26 @@ def test_response_draws(name, tmp_path):
     if name == "all failed":
         assert "every one failed or diverged" in found.replace("\n", " ")
     lay_out(figure)
+
+
+def test_response_says_how_near_section_and_beam_are_and_where(tmp_path):
+    summary, onset, paths = sweep(tmp_path, SWEEPS["all models"])
+    beam = summary["model"] == "3d"
+    summary.loc[beam, "mean_twist_deg"] *= 1.25
+    summary.loc[beam & (summary["k_star"] == 8.0), "mean_deflection_chords"] *= 1.6
+    summary.loc[beam & (summary["k_star"] == 4.0), ["regime", "mean_twist_deg"]] = "undecided", 1e3
+    figure = response.draw(response.read_response(summary, onset, paths, 6.7))
+    titles = [axes.get_title(loc="left") for axes in figure.axes[:2]]
+    assert "2D corrected within 20 % of 3D, $k^*$ = 5 to 8" in titles[0]
+    assert "2D corrected within 38 % of 3D" in titles[1]
+    alone = response.draw(response.read_response(*sweep(tmp_path, SWEEPS["no beam"]), 6.7))
+    assert "within" not in alone.axes[0].get_title(loc="left")
+
+
+def test_bracket_of_the_onset_is_drawn_by_its_two_sides(tmp_path):
+    figure = response.draw(response.read_response(*sweep(tmp_path, SWEEPS["no beam"]), 6.7))
+    edges = [line for line in figure.axes[0].get_lines() if line.get_linestyle() == "--"]
+    assert sorted(line.get_xdata()[0] for line in edges) == [4.0, 5.0]
 
 
 def test_response_draws_no_run_twice(tmp_path):

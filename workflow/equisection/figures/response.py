@@ -30,7 +30,7 @@ from equisection.figures.models_shown import beam_model, section_model
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import in_words, letter, say
-from equisection.figures.style import FAINT_GREY, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.figures.style import GREY, PAGE_WIDTH
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_dataset import oscillation_factors as factors_of
 from equisection.results.unsteady_result import BOUNDED, Regime
@@ -56,7 +56,9 @@ _QUANTITIES = {
 }
 
 
-#: Look of the range of motion: hatched, to be told from the bracket of the onset.
+#: Look of both sides of the bracket of an onset.
+_EDGE: dict[str, Any] = {"linewidth": 1.0, "linestyle": (0, (4, 2)), "zorder": 1}
+#: Look of the range of motion, hatched.
 _EXTENT: dict[str, Any] = {
     "facecolor": "none",
     "edgecolor": "#A8A8A8",
@@ -189,7 +191,7 @@ def draw(response: Response) -> Figure:
     top = [figure.add_subplot(above[0]), figure.add_subplot(above[1])]
     for axes, name, place in zip(top, _QUANTITIES, "ab", strict=True):
         _means(axes, response, name)
-        letter(axes, place)
+        letter(axes, place, _agreement(response.summary, section, beam, name))
     for row, (model, letters, places) in enumerate(rows):
         shown = {case.letter: case for case in response.cases[model]}
         drawn: dict[float, str] = {}
@@ -218,8 +220,9 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
         say(axes, "No run of the sweep has a mean: every one failed or diverged.")
         return
-    for _, unstable, stable, grey in _brackets(response):
-        axes.axvspan(unstable, stable, color=grey, linewidth=0)
+    for look, *ends in _brackets(response):
+        for end in ends:
+            axes.axvline(end, color=look.colour, **_EDGE)
     _extent(axes, response, name)
     for model, runs in summary.groupby("model", sort=False):
         look = LOOKS[str(model)]
@@ -260,6 +263,29 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     add_other_axis(axes, along, as_given(summary))
 
 
+def _agreement(summary: pd.DataFrame, section: str | None, beam: str | None, name: str) -> str:
+    """Say how far a mean of the section is from the beam's, and where both are known.
+
+    Undecided runs have no mean to be compared.
+    """
+    if section is None or beam is None:
+        return ""
+    along = onset_axis_among(summary.columns)
+    decided = summary[~summary["regime"].isin([Regime.FAILED, Regime.UNDECIDED])]
+    of_section, of_beam = (
+        decided[decided["model"] == model].set_index(along.name)[name].dropna()
+        for model in (section, beam)
+    )
+    quotient = (of_section / of_beam).replace([np.inf, -np.inf], np.nan).dropna()
+    if quotient.size < 2:
+        return ""
+    farthest = 100.0 * float((quotient - 1.0).abs().max())
+    labels = [LOOKS[model].label for model in (section, beam)]
+    low, high = float(quotient.index.min()), float(quotient.index.max())
+    where = f"{along.typeset(low)} to {high:g}"
+    return f"{labels[0]} within {farthest:.0f} % of {labels[1]}, {where}"
+
+
 def _learnt_intervals(response: Response) -> list[tuple[Look, tuple[float, float]]]:
     """Return the intervals of the onsets of learnt models along the axis, with their looks."""
     names = [f"k_star_learnt_{end}" for end in ("low", "high")]
@@ -283,8 +309,8 @@ def place_in_words(place: float) -> str:
     return f"at $z/L$ = {place:.2g}"
 
 
-def _brackets(response: Response) -> list[tuple[Look, float, float, str]]:
-    """Return the brackets that are shown: look of the model, both sides, and their grey.
+def _brackets(response: Response) -> list[tuple[Look, float, float]]:
+    """Return the brackets that are shown: look of the model, and both sides.
 
     Those of the section and of the beam, as far as both sides are known; one for both if they
     are the same.
@@ -293,12 +319,12 @@ def _brackets(response: Response) -> list[tuple[Look, float, float, str]]:
     sides = [f"{axis.name}_unstable", f"{axis.name}_stable"]
     closed = response.onset.dropna(subset=sides)
     found = []
-    for model, grey in zip(response.cases, (FAINT_GREY, LIGHT_GREY), strict=False):
+    for model in response.cases:
         for unstable, stable in closed.loc[closed["model"] == model, sides].values:
-            found.append((LOOKS[model], float(unstable), float(stable), grey))
-    if len(found) == 2 and found[0][1:3] == found[1][1:3]:
+            found.append((LOOKS[model], float(unstable), float(stable)))
+    if len(found) == 2 and found[0][1:] == found[1][1:]:
         label = f"{found[0][0].label} and {found[1][0].label}"
-        return [(replace(found[1][0], label=label), *found[1][1:])]
+        return [(replace(found[1][0], label=label, colour=GREY), *found[1][1:])]
     return found
 
 
@@ -386,8 +412,8 @@ def _handles(response: Response, models: list[str]) -> list[Line2D | Patch]:
     along = onset_axis_among(response.summary.columns)
     handles += [_mark(mark, labels[mark]) for mark in _without_mean(response.summary, along)]
     handles += [
-        Patch(color=grey, linewidth=0, label=f"onset bracket, {look.label}")
-        for look, _, _, grey in _brackets(response)
+        Line2D([], [], color=look.colour, label=f"onset between, {look.label}", **_EDGE)
+        for look, _, _ in _brackets(response)
     ]
     handles += [
         Line2D([], [], color=look.colour, **_INTERVAL, label=f"onset by learnt model, {look.label}")

@@ -17,6 +17,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter
 
+from equisection.analysis.grid_limit import is_credible
 from equisection.figures.origin import add_provenance
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.style import COLOURS, DASHES, GREY, MARKERS, PAGE_WIDTH
@@ -42,15 +43,18 @@ def draw(polar: xr.Dataset, grid_study: pd.DataFrame | None = None) -> Figure:
     rows = figure.subplots(1 if grid_study is None else 2, 2, squeeze=False)
     panels = rows[0]
     resolutions = [str(name) for name in polar["resolution"].values]
+    densest = int(polar["is_run"].sum("incidence_deg").max()) if resolutions else 0
     for axes, name in zip(panels, ("cl", "cm"), strict=True):
         for number, resolution in enumerate(resolutions):
             of_resolution = polar.sel(resolution=resolution)
             run = of_resolution.isel(incidence_deg=of_resolution["is_run"].values == 1)
+            # a line through few points would cut the bend that a denser polar shows
+            joined = 2 * run["incidence_deg"].size > densest
             axes.plot(
                 run["incidence_deg"],
                 run[name],
                 color=COLOURS[number % len(COLOURS)],
-                linestyle=DASHES[number % len(DASHES)],
+                linestyle=DASHES[number % len(DASHES)] if joined else "none",
                 marker=MARKERS[number % len(MARKERS)],
                 fillstyle="full" if number == 0 else "none",
                 label=f"{resolution}: {polar.attrs[f'solver_{resolution}']}",
@@ -76,7 +80,8 @@ def draw(polar: xr.Dataset, grid_study: pd.DataFrame | None = None) -> Figure:
 
 def _convergence(axes: Axes, study: pd.DataFrame) -> None:
     """Draw the index of the finest mesh with the observed order at each point."""
-    shown = study[np.isfinite(study["gci"].astype(float))]
+    credible = study["observed_order"].astype(float).map(is_credible)
+    shown = study[np.isfinite(study["gci"].astype(float)) & credible]
     if shown.empty:
         say(axes, "No incidence has an observed order of convergence.")
         return

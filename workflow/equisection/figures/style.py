@@ -27,7 +27,6 @@ PURPLE = "#CC79A7"
 #: Text and lines that stand behind the data.
 GREY = "#606060"
 LIGHT_GREY = "#D3D3D3"
-FAINT_GREY = "#ECECEC"
 
 #: Line styles of a series, in the order of the colours of the style file.
 DASHES: tuple[Dash, ...] = (
