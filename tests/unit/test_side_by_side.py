@@ -80,6 +80,7 @@ def kept(*rows: tuple[str, float, float, float, float]) -> pd.DataFrame:
         growth_behind_low=-0.012,
         growth_behind_high=-0.008,
         twist_amplitude_deg=0.1,
+        loads_zigzag=0.001,
         folder="a-run",
     )
 
@@ -450,6 +451,20 @@ def test_claim_of_several_parts_agrees_in_part_only_where_one_agrees() -> None:
     assert together([agrees, differs, open_]) is ClaimVerdict.PARTLY
     assert together([differs, open_]) is open_
     assert together([differs]) is differs
+
+
+def test_runs_whose_loads_zigzag_are_named() -> None:
+    whole = complete()
+    zigzag = whole.reductions.assign(
+        loads_zigzag=np.where(whole.reductions["model"] == "3d", 0.06, 0)
+    )
+    how = response.mean_twist_uncorrected(replace(whole, reductions=zigzag)).how
+    assert "the loads of 3 of them" in how
+    assert "zigzag" not in response.mean_twist_uncorrected(whole).how
+    some = whole.kept.assign(loads_zigzag=[0.06, np.nan, 0.001, 0.001])
+    text = page(replace(whole, kept=some))
+    assert "| **6 %** |" in text
+    assert "| 0.1 % |" in text
 
 
 class TestCostLadder:

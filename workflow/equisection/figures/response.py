@@ -220,9 +220,9 @@ def _means(axes: Axes, response: Response, name: str) -> None:
     if summary.empty or summary.loc[summary["regime"] != "failed", name].isna().all():
         say(axes, "No run of the sweep has a mean: every one failed or diverged.")
         return
-    for look, *ends in _brackets(response):
-        for end in ends:
-            axes.axvline(end, color=look.colour, **_EDGE)
+    for look, unstable, stable in _brackets(response):
+        for side in (unstable, stable):
+            axes.axvline(side, color=look.colour, **_EDGE)
     _extent(axes, response, name)
     for model, runs in summary.groupby("model", sort=False):
         look = LOOKS[str(model)]

@@ -25,6 +25,7 @@ from equisection.paper.claims_page.findings import Finding
 from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
 from equisection.paper.mesh_convergence.__main__ import TABLE
 from equisection.paper.printed_values import PUBLISHED
+from equisection.verdict.zigzag import LARGEST_ZIGZAG
 
 PAGE = Path("docs/side-by-side.md")
 COMMAND = "python -m equisection.paper.claims_page"
@@ -129,6 +130,7 @@ def _kept(kept: pd.DataFrame) -> str:
             str(row.regime).replace("-", " "),
             f"{row.growth_rate:+.4f}",
             f"{row.twist_amplitude_deg:.2g}",
+            _zigzag(row.loads_zigzag),
             f"{row.end_time:.0f}",
             f"{row.cpu_seconds:.0f}",
         )
@@ -142,10 +144,24 @@ def _kept(kept: pd.DataFrame) -> str:
         "regime",
         "growth, V/c",
         "amplitude, deg",
+        "zigzag of the loads",
         "end, c/V",
         "processor s",
     )
-    return "## Runs that are kept\n\n" + _table(columns, rows)
+    head = (
+        "## Runs that are kept\n\n"
+        f"Bold: more than {100 * LARGEST_ZIGZAG:g} %, so that the run is "
+        "[not converged in its time step](openfoam-sweep.md#loads-that-zigzag).\n\n"
+    )
+    return head + _table(columns, rows)
+
+
+def _zigzag(value: float) -> str:
+    """Return a zigzag of loads in percent, bold where the time step is not converged."""
+    if math.isnan(value):
+        return ""
+    words = f"{100 * value:.2g} %"
+    return f"**{words}**" if value > LARGEST_ZIGZAG else words
 
 
 def _missing(missing: pd.DataFrame) -> str:

@@ -10,6 +10,7 @@ from enum import StrEnum
 import pandas as pd
 
 from equisection.paper.mesh_convergence.convergence_page import CONVERGED
+from equisection.verdict.zigzag import LARGEST_ZIGZAG
 
 
 class ClaimVerdict(StrEnum):
@@ -129,4 +130,18 @@ def resolution_of(summary: pd.DataFrame, *models: str) -> str:
     meshes = ", ".join(sorted(set(runs["resolution"])))
     solvers = ", ".join(sorted(set(runs["solver"])))
     hours = runs["cpu_seconds"].sum() / 3600
-    return f"{solvers}, mesh {meshes}; {len(runs)} runs, {hours:.2g} h of one core"
+    words = f"{solvers}, mesh {meshes}; {len(runs)} runs, {hours:.2g} h of one core"
+    return words + _not_converged_in_time(runs)
+
+
+def _not_converged_in_time(runs: pd.DataFrame) -> str:
+    """Say how many runs are not converged in their time step, by the zigzag of their loads."""
+    if "loads_zigzag" not in runs:
+        return ""
+    count = int((runs["loads_zigzag"] > LARGEST_ZIGZAG).sum())
+    if not count:
+        return ""
+    return (
+        f"; the loads of {count} of them [zigzag](openfoam-sweep.md#loads-that-zigzag): these are "
+        "not converged in their time step"
+    )

@@ -13,6 +13,7 @@ import pandas as pd
 from equisection.cases import FREE, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.paper.mesh_convergence.kept_releases import growth_behind_release
+from equisection.results.loads_zigzag import loads_zigzag
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.verdicts import judge
 from equisection.store.judged_again import tip_motion
@@ -35,6 +36,7 @@ COLUMNS = (
     "growth_behind_low",
     "growth_behind_high",
     "twist_amplitude_deg",
+    "loads_zigzag",
     "end_time",
     "cpu_seconds",
 )
@@ -49,7 +51,7 @@ def kept_runs(folder: Path) -> pd.DataFrame:
     by the present rules, whatever those were that a run ended by. ``growth_behind`` is the growth
     rate (V/c) over the last periods of the first 100 c/V, but from 20 c/V after the release on,
     with the ends of its interval: growth changes with time, so runs of different length are
-    compared by it. NaN of a run that is too short.
+    compared by it. NaN of a run that is too short. ``loads_zigzag`` is the zigzag of the loads (-).
     """
     rows = []
     for kept in kept_results(folder):
@@ -63,6 +65,7 @@ def kept_runs(folder: Path) -> pd.DataFrame:
                 "time_step": kept.case["time_step"],
                 "settings": json.dumps(solver["settings"], sort_keys=True),
                 **_verdict(kept),
+                **loads_zigzag(kept.path, kept.attributes),
             }
             rows.append(row)
     table = pd.DataFrame(rows, columns=list(COLUMNS))
