@@ -183,11 +183,12 @@ class Adapter:
         from equisection.solvers.openfoam.beam import rigid_beam  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
-        refinement = PRESETS[self._settings.mesh].plate
+        preset = PRESETS[self._settings.mesh]
+        refinement = preset.plate
         if self._has_outline(case):
             far_field = self._settings.far_field
             return rigid_beam.outline_beam_mesh_of(case, refinement, far_field)
-        return rigid_beam.plate_mesh_of(case, refinement)
+        return rigid_beam.plate_mesh_of(case, refinement, preset.plate_spacing)
 
     def _has_outline(self, case: SteadyCase | UnsteadyCase | ForcedCase) -> bool:
         """Tell whether a case has the mesh of outlines.
