@@ -1,5 +1,6 @@
 """Correct the section's loads for the finite beam (Eq. 20)."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from equisection.aerodynamics.polar import Polar
@@ -18,6 +19,7 @@ def main(
     polar_3d: Path,
     resolution: str,
     output: Path,
+    *,
     modes: Path | None = None,
     section_of_beam: Path | None = None,
 ) -> None:
@@ -37,6 +39,13 @@ def main(
     write_dataset(output, factors.assign_attrs(correction=correction))
 
 
+def _only(files: Sequence[str] | str) -> Path | None:
+    """Return the one file of an input that may have none."""
+    if not files:
+        return None
+    return Path(files if isinstance(files, str) else files[0])
+
+
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
         main(
@@ -44,6 +53,6 @@ if __name__ == "__main__":
             Path(snakemake.input.polar_3d),
             snakemake.params.resolution,
             Path(snakemake.output[0]),
-            Path(snakemake.input.modes) if snakemake.input.modes else None,
-            Path(snakemake.input.section_of_beam[0]) if snakemake.input.section_of_beam else None,
+            modes=_only(snakemake.input.modes),
+            section_of_beam=_only(snakemake.input.section_of_beam),
         )

@@ -109,7 +109,7 @@ def test_finest_has_the_papers_sizes(installation: Installation, tmp_path: Path)
 
 def test_five_layers_are_the_papers(installation: Installation, tmp_path: Path) -> None:
     """Five on each side of the plate, 0.075 c in all, and one size along the walls to the edges."""
-    points, corners = read_cells(made(installation, mesh("five-layers", 0.0), tmp_path))
+    points, _ = read_cells(made(installation, mesh("five-layers", 0.0), tmp_path))
     off = np.unique(points[np.isclose(points[:, 0], 0.0) & (points[:, 1] > 0.01), 1]) - 0.02
     assert off[:2] == pytest.approx([0.0, FIRST_LAYER], abs=1e-6)
     assert off[LAYERS] == pytest.approx(LAYERS_THICK, abs=1e-6)

@@ -40,6 +40,7 @@ from equisection.solvers.openfoam.section.rigid_section import mesh_of, require_
 from equisection.solvers.openfoam.section.section_history import read_section
 from equisection.solvers.openfoam.section.section_motion import write_motion
 from equisection.solvers.openfoam.settings import Settings
+from equisection.solvers.openfoam.stream_turbulence import StreamTurbulence
 from equisection.solvers.registry import SOLVERS, check_provided, solver_from_config
 from equisection.study import plan
 
@@ -109,7 +110,7 @@ def test_flow_has_the_viscosity_of_its_reynolds_number(tmp_path: Path) -> None:
 
 
 def test_laminar_flow_has_no_model_of_the_turbulence(tmp_path: Path) -> None:
-    write_flow(tmp_path, 100.0, turbulence="laminar")
+    write_flow(tmp_path, 100.0, turbulence=StreamTurbulence("laminar"))
     said = (tmp_path / "constant" / "turbulenceProperties").read_text()
     assert "simulationType laminar;" in said
     assert "kOmegaSST" not in said
@@ -120,7 +121,7 @@ def test_unsteady_run_starts_from_the_fields_of_its_flow(tmp_path: Path) -> None
     """A laminar flow has no fields of the turbulence; of a turbulent one none may be missing."""
     for turbulence in ("laminar", "k-omega-sst"):
         source = tmp_path / turbulence
-        write_flow(source, 100.0, turbulence=turbulence)
+        write_flow(source, 100.0, turbulence=StreamTurbulence(turbulence))
         shutil.copytree(source / "0", source / "300")
         (source / "300" / "phi").write_text("")
         copy_flow(source, tmp_path / "target")

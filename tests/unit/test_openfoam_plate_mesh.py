@@ -18,9 +18,7 @@ from equisection.solvers.openfoam.ranks import divisions
 CHANNEL = ChannelBox(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
 
 
-def plate_mesh(
-    refinement: float = 0.55, gap: float = 0.3, spacing: Spacing = SIMILAR
-) -> PlateMesh:
+def plate_mesh(refinement: float = 0.55, gap: float = 0.3, spacing: Spacing = SIMILAR) -> PlateMesh:
     return PlateMesh(Mesh(CHANNEL, math.radians(2.5), refinement, spacing), 3.7, gap)
 
 

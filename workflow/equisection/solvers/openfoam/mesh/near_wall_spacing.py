@@ -37,7 +37,7 @@ _GROWTH, _INTO_WAKE, _OUTWARD = 1.2, 1.05, 1.15
 #: Layers of prisms of the paper (Section 4.1): number, thickness and, of this project's choice, the
 #: first of them (chords), which is about as thin as y+ below 1 asks for.
 LAYERS, LAYERS_THICK, FIRST_LAYER = 5, 0.075, 3e-4
-#: Sizes of the plate's mesh in three dimensions (chords; Section 4.2): along the walls, and far off.
+#: Sizes of the plate's mesh in three dimensions (chords; Section 4.2): at the walls, and far off.
 WALL_OF_PLATE, DOMAIN_OF_PLATE = 0.010, 0.400
 #: The near field's size behind the plate, up to the growth into the wake (chords).
 _NEAR_BEHIND = 0.38
@@ -61,6 +61,9 @@ def layers(first: float, number: int = LAYERS, thickness: float = LAYERS_THICK) 
     return thickness, number, expansion(thickness, number, first)
 
 
+_OFF_SIDES, _OFF_EDGES = (growing(first, NEAR_FIELD, _GROWTH) for first in (OFF_WALL, OFF_EDGE))
+
+
 @dataclass(frozen=True)
 class WallCells:
     """Cells at the walls of the plate, from which on they have the size of the near field.
@@ -79,8 +82,8 @@ class WallCells:
         First size (chords) and number of cells across the thickness.
     """
 
-    off_sides: Part = growing(OFF_WALL, NEAR_FIELD, _GROWTH)
-    off_edges: Part = growing(OFF_EDGE, NEAR_FIELD, _GROWTH)
+    off_sides: Part = _OFF_SIDES
+    off_edges: Part = _OFF_EDGES
     along: float = WALL
     at_edge: float = _AT_EDGE
     across: tuple[float, int] = (_ACROSS, 16)

@@ -62,6 +62,7 @@ _OWN: Mapping[str, Preset] = {
     "five-layers": Preset(1.0, FIVE_LAYERS, plate_spacing=FIVE_LAYERS_OF_PLATE),
 }
 _OF_PLATE = {
-    ON_CELLS_OF_PLATE + name: Preset(own.plate, own.plate_spacing, own.plate, own.plate_spacing) for name, own in _OWN.items()
+    ON_CELLS_OF_PLATE + name: Preset(own.plate, own.plate_spacing, own.plate, own.plate_spacing)
+    for name, own in _OWN.items()
 }
 PRESETS: Mapping[str, Preset] = {**_OWN, **_OF_PLATE}
