@@ -108,7 +108,7 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         folder / "polar_3d.nc",
         "thin",
         folder / "correction_modal.nc",
-        folder / "modes.nc",
+        modes=folder / "modes.nc",
     )
     made_from = {name: folder / f"{name}.nc" for name in ("modes", "equivalent", "correction")}
     for model in ("2d-corrected", "3d"):

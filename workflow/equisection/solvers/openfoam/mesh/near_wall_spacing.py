@@ -5,7 +5,7 @@ geometrically to that of a region, and stay there. The counts are those that the
 channel 4 c high. In another channel, or around another thickness, the uniform part of each block
 takes up the difference. Length of the wake region and growth away from the near field are this
 project's, and so are growth and first cell (y+ below 1) at the wall of :data:`BY_CELL_SIZE`.
-:data:`FIVE_LAYERS` has the paper's layers of prisms at the wall.
+:data:`FIVE_LAYERS` has five layers at the wall, as Section 4.1 has them.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ WALL, NEAR_FIELD, WAKE, DOMAIN = 0.004, 0.020, 0.040, 0.200
 OFF_WALL, OFF_EDGE, _AT_EDGE, _ACROSS = 1e-4, 3e-4, 1e-3, 4e-4
 #: Growth from cell to cell: off the plate, into the wake, and towards inlet, floor and ceiling.
 _GROWTH, _INTO_WAKE, _OUTWARD = 1.2, 1.05, 1.15
-#: Layers of prisms of the paper (Section 4.1): number, thickness and, of this project's choice, the
-#: first of them (chords), which is about as thin as y+ below 1 asks for.
+#: Layers of prisms of Section 4.1: number, thickness and, of this project's choice, the first of
+#: them (chords), which is about as thin as y+ below 1 asks for.
 LAYERS, LAYERS_THICK, FIRST_LAYER = 5, 0.075, 3e-4
 #: Sizes of the plate's mesh in three dimensions (chords; Section 4.2): at the walls, and far off.
 WALL_OF_PLATE, DOMAIN_OF_PLATE = 0.010, 0.400
@@ -213,7 +213,7 @@ def _parts(parts: Sequence[Part], direction: int) -> str:
 
 #: Cells that grow by a fifth from walls with y+ below 1, and are finer at the edges.
 BY_CELL_SIZE = by_size(WallCells())
-#: The paper's cells at the walls: five layers, and one size along them, edges included.
+#: Cells at the walls as in Section 4.1: five layers, and one size along them, edges included.
 _LAYERS = layers(FIRST_LAYER)
 FIVE_LAYERS = by_size(WallCells(_LAYERS, _LAYERS, WALL, WALL, (WALL, 10)))
 #: The same of the plate in three dimensions, with cells of the near field's size at its tip.

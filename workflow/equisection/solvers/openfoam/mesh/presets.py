@@ -53,7 +53,7 @@ class Preset:
 
 
 #: About 1e4, 2e4 and 6e4 cells, and cells of given sizes; of the plate 8e4, 3e5, 1e6 and 5e6; and
-#: the paper's layers at the wall, of section and plate.
+#: five layers at the wall, of section and plate.
 _OWN: Mapping[str, Preset] = {
     "coarse": Preset(1.0, plate=0.52),
     "medium": Preset(math.sqrt(2.0), plate=0.81),
