@@ -4,8 +4,8 @@ open: cells at the wall, numerical schemes, turbulence of the stream. One change
     python -m tests.benchmarks.near_wall [--run [NAME ...]]
 
 Prints `results/reference/near-wall.csv`. With `--run` the changes named, or all that have no line
-there, are run at 2.5 deg (steady, ten to thirty seconds each, `five-layers` two minutes), and the lines
-are added to it. The files of the last run stay in `results/near-wall`.
+there, are run at 2.5 deg (steady, ten to thirty seconds each, `five-layers` two minutes), and their
+lines are added to it. The files of the last run stay in `results/near-wall`.
 """
 
 import argparse
