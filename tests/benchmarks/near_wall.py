@@ -5,7 +5,7 @@ open: cells at the wall, numerical schemes, turbulence of the stream. One change
 
 Prints `results/reference/near-wall.csv`. With `--run` the changes named, or all that have no line
 there, are run at 2.5 deg (steady, ten to thirty seconds each, `five-layers` two minutes), and their
-lines are added to it. The files of the last run stay in `results/near-wall`.
+lines are added to it. The files of the runs stay in `results/near-wall`.
 """
 
 import argparse
@@ -152,7 +152,7 @@ def run(name: str) -> dict[str, object]:
     """Run one change and return its line."""
     change, case = CHANGES[name], section(INCIDENCE_DEG)
     mesh = mesh_of(case, change.refinement, change.spacing)
-    folder = emptied(Path("results") / "near-wall" / "steady")
+    folder = emptied(Path("results") / "near-wall" / name.replace(" ", "-") / "steady")
     reynolds = flow.reynolds_number(case.geometry, case.medium)
     flow.write_flow(folder, reynolds, turbulence=change.turbulence)
     schemes = flow.schemes(steady=True)
