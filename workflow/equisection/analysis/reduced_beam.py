@@ -91,7 +91,7 @@ def learnt_beam(release: BeamRelease, polars: StripPolars) -> ReducedBeam:
     ResultFileError
         The release cannot be learnt from.
     """
-    early, middle, late = ends_of_records(float(release.time[-1]))
+    early, middle, late = ends_of_records(release.time)
     return ReducedBeam(
         loads=learn_strips(release, polars, middle),
         refits=(

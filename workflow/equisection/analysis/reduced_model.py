@@ -131,7 +131,7 @@ def learnt_model(history: ReferenceHistory, polar: Polar) -> ReducedModel:
     ResultFileError
         The release cannot be learnt from.
     """
-    early, middle, late = ends_of_records(float(history.time[-1]))
+    early, middle, late = ends_of_records(history.time)
     return ReducedModel(
         loads=learn(history, polar, middle),
         refits=tuple(learn(history, polar, end) for end in (early, late)),
@@ -141,12 +141,14 @@ def learnt_model(history: ReferenceHistory, polar: Polar) -> ReducedModel:
     )
 
 
-def ends_of_records(last: float) -> tuple[float, float, float]:
-    """Return the ends (c/V) of a refit, of the model and of another refit, by that of the record.
+def ends_of_records(time: Floats) -> tuple[float, float, float]:
+    """Return the ends (c/V) of a refit, of the model and of another refit, by the times of a record.
 
-    Of a record shorter than 50 c/V they are 5 c/V before its end, its end, and 2.5 before.
+    Of a record shorter than 50 c/V they are 5 c/V before its end, its end, and 2.5 before. The last
+    sample may be one interval before 50.
     """
-    return ENDS if last >= ENDS[-1] - 1e-6 else (last - 5.0, last, last - 2.5)
+    last, step = float(time[-1]), float(np.diff(time[-2:]).sum())
+    return ENDS if last + step >= ENDS[-1] - 1e-6 else (last - 5.0, last, last - 2.5)
 
 
 def predicted(

@@ -28,6 +28,7 @@ from equisection.aerodynamics.learnt_loads import (
     lagged,
     rate_of_least,
     require_lesson,
+    require_swing,
 )
 from equisection.aerodynamics.learnt_strips import (
     REAR_POINT,
@@ -138,6 +139,7 @@ class _Lesson:
                 f"{release.name}: the motion is beyond the polars of the strips, which cover "
                 f"{np.degrees(polars.incidence_range)} deg; add angles to steady.incidence_deg"
             )
+        require_swing(release.name, a[used])
         return cls(
             step=float(s[1] - s[0]),
             a=a,
@@ -185,8 +187,8 @@ def learn_strips(
     Raises
     ------
     ResultFileError
-        The record is too short, has gaps, is too coarse in time, or is of a beam with its axis off
-        mid-chord.
+        The record is too short, has gaps, is too coarse in time, has settled, or is of a beam with
+        its axis off mid-chord.
     """
     whole = polars.continued
     lesson = _Lesson.of(release, whole, until, free_slope)
