@@ -8,8 +8,8 @@ of these in the span, and the apparent mass on the left,
     (m + M_a) W'' - S^T Theta'' = sum_s h_s g_s F_s - c W' - k W,
     F_s = c_l,s + (pi/2) theta_s',    c_m,ea,s = c_m,s + x_ea (F_s + r_s).
 
-With the elastic axis x_ea chords behind mid-chord S and I_a have the parts of the apparent mass that
-:func:`equisection.motion.strip_system.mass_with_air` has.
+With the elastic axis x_ea chords behind mid-chord S and I_a have the parts of the apparent mass
+that :func:`equisection.motion.strip_system.mass_with_air` has.
 """
 
 from __future__ import annotations
@@ -97,7 +97,8 @@ class LearntBeams:
         on_strips = np.concatenate([self._f, np.zeros_like(self._g)])
         self._to_twist_rate = np.concatenate([none, on_strips])
         of_bending = np.concatenate([np.zeros_like(self._f), self._g])
-        self._to_incidence = np.concatenate([on_strips, (REAR_POINT - self._axis) * on_strips - of_bending])
+        by_rate = (REAR_POINT - self._axis) * on_strips - of_bending
+        self._to_incidence = np.concatenate([on_strips, by_rate])
 
     @property
     def swings_along(self) -> NDArray[np.intp]:
