@@ -95,7 +95,7 @@ class LearntSectionBodies:
         return 2.0 * np.pi * min(self.sections[0].uncoupled_frequencies)
 
     def at_rest(self, loads: LearntLoads) -> tuple[Floats, Floats]:
-        """Return states of equilibrium (N, 5) and matrices of small motions (N, 5, 5) about them."""
+        """Return states of equilibrium (N, 5), and matrices of small motions (N, 5, 5)."""
         moved = LearntSections(self.sections, loads)
         linear = moved.linearised()[:, _OF_SECTION][:, :, _OF_SECTION]
         twist, deflection = moved.equilibria()
@@ -166,7 +166,7 @@ class LearntBeamBodies:
         return np.concatenate([theta, modes + theta, w, modes + w, lags])
 
     def at_rest(self, loads: LearntStrips) -> tuple[Floats, Floats]:
-        """Return states of equilibrium (N, n) and matrices of small motions (N, n, n) about them."""
+        """Return states of equilibrium (N, n), and matrices of small motions (N, n, n)."""
         moved = LearntBeams(self.parameters, loads)
         rest = moved.equilibria()
         torsion, _ = self._modes

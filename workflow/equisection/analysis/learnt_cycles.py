@@ -101,7 +101,7 @@ def cycles_of_beams(
     beams = [case.beam for case in cases if case.beam is not None]
     if not beams:
         return no_cycles(len(cases))
-    loads = learn_strips(grown, polars)
+    loads = learn_strips(grown, polars, large=True)
     found = limit_cycles_of_beams(loads, on_strips(beams, loads.polars.strips), start=start)
     there = [case.beam is not None for case in cases]
     return _of_tips(there, found, np.ones(len(beams)), grown)

@@ -123,7 +123,7 @@ def _origin_of(data: xr.Dataset) -> dict[str, Any]:
 def _coefficients(
     fit: Mapping[str, Any], incidence_deg: float, seen_deg: Sequence[float]
 ) -> dict[str, Any]:
-    """Return the coefficients of a fit by the names of :data:`_OF_FIT`, with where it was learnt."""
+    """Return coefficients of a fit by the names of :data:`_OF_FIT`, with where it was learnt."""
     low, high = map(math.radians, seen_deg)
     return {
         "incidence_rad": math.radians(incidence_deg),

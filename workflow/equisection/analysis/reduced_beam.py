@@ -19,7 +19,6 @@ from equisection.aerodynamics.filled_polar import missing_between
 from equisection.aerodynamics.learnt_strips import STRIP_TERMS, LearntStrips
 from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.analysis.reduced_model import (
-    LONG,
     PredictedReleases,
     ends_of_records,
     ends_of_swings,
@@ -36,6 +35,8 @@ from equisection.motion.learnt_beams import LearntBeams
 #: growth at k* 10 to 14 by so much (rms, ``python -m tests.benchmarks learnt``). It was raised from
 #: 0.004 after these misses, on the plates that the form was chosen on: no independent test.
 SMALLEST_BAND_OF_BEAM = 0.005
+#: Duration (c/V) after which a release of a beam, which grows slowly, has come to its limit cycle.
+LONG_OF_BEAM = 1200.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -163,7 +164,7 @@ def released_beams(
 def limit_cycles_of_beams(
     loads: LearntStrips,
     parameters: BeamParameters,
-    duration: float = LONG,
+    duration: float = LONG_OF_BEAM,
     start: tuple[float, float] = (0.0, 0.0),
 ) -> pd.DataFrame:
     """Return the amplitude that a release comes to in the end, of each beam.
@@ -172,7 +173,7 @@ def limit_cycles_of_beams(
     ----------
     loads
         Loads that were learnt from the whole of a release that grows
-        (:func:`equisection.motion.beam_lesson.learn_strips`).
+        (:func:`equisection.motion.beam_lesson.learn_strips`), with terms of large amplitudes.
     parameters
         Modes of the N beams at the strips of the loads.
     duration

@@ -142,7 +142,7 @@ def learnt_model(history: ReferenceHistory, polar: Polar) -> ReducedModel:
 
 
 def ends_of_records(time: Floats) -> tuple[float, float, float]:
-    """Return the ends (c/V) of a refit, of the model and of another refit, by the times of a record.
+    """Return the ends (c/V) of a refit, of the model and of another refit, by a record's times.
 
     Of a record shorter than 50 c/V they are 5 c/V before its end, its end, and 2.5 before. The last
     sample may be one interval before 50.
