@@ -71,7 +71,9 @@ if __name__ == "__main__":
             marks=snakemake.params.marks,
             config=snakemake.params.config,
             map_files=MapFiles(
-                *map(Path, snakemake.input.map), design_speed=snakemake.params.design_speed
+                Path(snakemake.input.map[0]),
+                Path(snakemake.input.map[1]),
+                snakemake.params.design_speed,
             )
             if snakemake.input.map
             else None,

@@ -1,4 +1,4 @@
-"""Captions of figures and tables: templates in reStructuredText, as Snakemake's own report has them."""
+"""Captions of figures and tables: templates in reStructuredText, those of Snakemake's report."""
 
 from __future__ import annotations
 

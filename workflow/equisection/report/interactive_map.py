@@ -118,29 +118,27 @@ def _growth(one: xr.Dataset) -> Any:
 
 def _words_of_points(one: xr.Dataset) -> list[list[str]]:
     """Return what is said of each point, a line for each speed."""
-    over = one.transpose("speed", "incidence_deg", ...)
-    names = ("growth_rate", "frequency", "mechanism", "equilibrium_twist")
-    values = [over[name].values for name in names]
+    names = ["growth_rate", "frequency", "mechanism", "equilibrium_twist"]
+    over = one[names].transpose("speed", "incidence_deg")
     return [
         [
-            _words_of_point(angle, speed, *(each[row, column] for each in values))
-            for column, angle in enumerate(over["incidence_deg"].values)
+            _words_of_point(over.isel(speed=row, incidence_deg=column))
+            for column in range(over.sizes["incidence_deg"])
         ]
-        for row, speed in enumerate(over["speed"].values)
+        for row in range(over.sizes["speed"])
     ]
 
 
-def _words_of_point(
-    angle: float, speed: float, growth: float, frequency: float, mechanism: str, twist_rad: float
-) -> str:
-    where = f"<b>{speed:.4g} m/s at {angle:g} deg</b><br>"
+def _words_of_point(here: xr.Dataset) -> str:
+    growth, mechanism = float(here["growth_rate"]), str(here["mechanism"].values)
+    where = f"<b>{float(here['speed']):.4g} m/s at {float(here['incidence_deg']):g} deg</b><br>"
     if not np.isfinite(growth):
         name = "" if mechanism in ("none", "unknown") else f": {html.escape(mechanism)}"
         return f"{where}no static equilibrium from rest{name}"
-    kind = "stable" if growth <= 0.0 else html.escape(str(mechanism))
+    kind = "stable" if growth <= 0.0 else html.escape(mechanism)
     return (
-        f"{where}{kind}<br>growth {growth:.3g} 1/s at {frequency:.3g} Hz<br>"
-        f"static twist of the tip {np.degrees(twist_rad):.3g} deg"
+        f"{where}{kind}<br>growth {growth:.3g} 1/s at {float(here['frequency']):.3g} Hz<br>"
+        f"static twist of the tip {np.degrees(float(here['equilibrium_twist'])):.3g} deg"
     )
 
 
@@ -177,9 +175,7 @@ def _critical_speeds(one: xr.Dataset, rows: pd.DataFrame) -> list[Any]:
             for place in range(angle.size)
         ],
         hovertemplate="%{text}<extra></extra>",
-        name="critical speed and its interval"
-        if np.isfinite(below).any()
-        else "critical speed",
+        name="critical speed and its interval" if np.isfinite(below).any() else "critical speed",
     )
     stable = np.isnan(speed) & np.isfinite(one["speed_low"].values)
     if not stable.any():
@@ -205,7 +201,8 @@ def _bars(length: Floats) -> list[float]:
 
 def _words_of_speed(here: xr.Dataset, row: pd.Series) -> str:
     """Return what is said of a critical speed."""
-    lines = [f"<b>{float(here['critical_speed']):.4g} m/s at {float(here['incidence_deg']):g} deg</b>"]
+    speed, angle = float(here["critical_speed"]), float(here["incidence_deg"])
+    lines = [f"<b>{speed:.4g} m/s at {angle:g} deg</b>"]
     frequency = float(here["critical_frequency"])
     at = f" at {frequency:.3g} Hz" if np.isfinite(frequency) and frequency > 0.0 else ""
     lines.append(f"{html.escape(str(here['critical_mechanism'].values))}{at}")

@@ -96,7 +96,7 @@ def write_report(
     run
         Folder of the run, which has the answer and its cases.
     figures, tables
-        What is shown, in reading order.
+        What is shown. Numbered ones are put in the order of their numbers, before the others.
     map_files
         Map of stability; None for a run without one.
     config_text
@@ -118,6 +118,7 @@ def write_report(
     script = _SCRIPT.read_text(encoding="utf-8")
     scripts = [] if drawn is None else [_one_line_ends(_plotly()), _one_line_ends(script)]
     first = [one for name in _FIRST for one in figures if one.name == name]
+    further = [one for one in sorted(figures, key=_place) if one not in first]
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
@@ -130,8 +131,10 @@ def write_report(
         map=Markup(_as_script(drawn)) if drawn else None,  # noqa: S704, without < and &
         lacks=lacks,
         first=[(one, picture(one.path)) for one in first],
-        figures=[(one, picture(one.path)) for one in figures if one not in first],
-        tables=[(one, table_shown(one.path), one.name in _OPEN) for one in tables],
+        figures=[(one, picture(one.path)) for one in further],
+        tables=[
+            (one, table_shown(one.path), one.name in _OPEN) for one in sorted(tables, key=_place)
+        ],
         title=_title,
         config=config_text,
         made_by=made_by_this(),
@@ -155,7 +158,7 @@ def _answer(run: Path) -> tuple[list[tuple[str, str]], str]:
     speed, *others = answer.parts()
     model = str(answer.chosen["model"])
     label = f" ({LOOKS[model].label})" if model in LOOKS else ""
-    return [speed, ("of", f"model {model}{label}"), *others], model
+    return [speed, ("model", f"{model}{label}"), *others], model
 
 
 def _untold(status: RunStatus) -> list[tuple[str, str, str]]:
@@ -165,6 +168,13 @@ def _untold(status: RunStatus) -> list[tuple[str, str, str]]:
         for one in status.entries
         if one.state != State.DONE or one.regime in _UNTOLD
     ]
+
+
+def _place(one: Shown) -> tuple[int, int]:
+    """Return what puts figures and tables in reading order: numbered ones by their numbers."""
+    if one.name in _OPEN:
+        return 0, _OPEN.index(one.name)
+    return (1, int(one.number)) if one.number else (2, 0)
 
 
 def _title(one: Shown, kind: str) -> str:
