@@ -1,4 +1,4 @@
-"""Headless Chromium, asked over a pipe in its DevTools protocol: one start for any number of pages."""
+"""Headless Chromium, asked over a pipe in its DevTools protocol: one start for many pages."""
 
 from __future__ import annotations
 
