@@ -142,8 +142,8 @@ def test_axis_far_away_is_refused() -> None:
     with pytest.raises(OutlineError, match="it is 20 c away from its axis at 1, -40; allowed"):
         placed(panel, None, (1.0, -40.0, 0.5))
     with pytest.raises(OutlineError, match="it is 500 c away from y = 0, where its axis is"):
-        placed(panel + (0.0, 1000.0))
-    assert_allclose(placed(panel + (0.0, 9.0))[0], [-0.5, 4.5])
+        placed(panel + np.array([0.0, 1000.0]))
+    assert_allclose(placed(panel + np.array([0.0, 9.0]))[0], [-0.5, 4.5])
 
 
 def test_axis_below_the_panel_is_the_origin() -> None:
