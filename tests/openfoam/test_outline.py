@@ -50,7 +50,10 @@ def made(installation: Installation, mesh: OutlineMesh, folder: Path) -> Path:
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_meshes_are_sound(installation: Installation, tmp_path: Path, name: str) -> None:
-    mesh = outline_mesh_of(case_of(SHAPES[name], 5.0), 1.0)
+    case = case_of(SHAPES[name], 5.0)
+    if name == "naca 4412":  # thinner cells at the wall, those of a Reynolds number of 1e7
+        case = case.model_copy(update={"medium": case.medium.model_copy(update={"speed": 1600.0})})
+    mesh = outline_mesh_of(case, 1.0)
     folder = made(installation, mesh, tmp_path)
     found = quality(folder / "log.checkMesh")
     assert found["max_non_orthogonality_deg"] < 80.0
