@@ -32,6 +32,9 @@ STEPS = {"2d": 0.02, "3d": 0.04}
 ITERATIONS_OF_SECTION = 8
 #: Range of the incidence (rad) in which a release of the section moves.
 SEEN = (0.0, math.radians(5.0))
+#: The section corrected by this project's plate on the section's cells, and the end of the name of
+#: the folder that its releases are kept in (``config/paper/own_ratios.yaml``).
+OWN_RATIOS, _OWN_FOLDER = "2d-corrected, own ratios", "own-ratios"
 _MODELS = ("2d", "2d-corrected", "3d")
 _OF_MESH = "mesh"
 
@@ -65,8 +68,8 @@ class MeshRelease:
 
     @property
     def model(self) -> str:
-        """Model of the sweep."""
-        return self.path.parent.name
+        """Model of the sweep, and which plate corrects it."""
+        return _model_of(self.path)
 
     @property
     def mesh(self) -> str:
@@ -114,7 +117,7 @@ def mesh_releases(reference: Path) -> list[MeshRelease]:
             continue
         settings = kept.case["solver"]["settings"]
         iterations = int(settings["outer_correctors"])
-        key = (kept.path.parent.name, kept.case["k_star"], settings[_OF_MESH], iterations)
+        key = (_model_of(kept.path), kept.case["k_star"], settings[_OF_MESH], iterations)
         if key not in chosen:
             chosen[key] = MeshRelease(
                 kept.path,
@@ -143,6 +146,11 @@ def _is_compared(kept: Kept) -> bool:
     return kept.path.parent.name in _MODELS and (
         not is_section or settings["outer_correctors"] == ITERATIONS_OF_SECTION
     )
+
+
+def _model_of(path: Path) -> str:
+    """Return the model of a result, by the folders that it is in."""
+    return OWN_RATIOS if path.parents[2].name.endswith(_OWN_FOLDER) else path.parent.name
 
 
 def _cells_of(kept: Kept) -> int:

@@ -31,6 +31,7 @@ from equisection.beam.section import Section
 from equisection.cases import BeamModes
 from equisection.errors import ResultFileError
 from equisection.paper.mesh_convergence.kept_releases import (
+    OWN_RATIOS,
     MeshLoads,
     MeshRelease,
     growth_table,
@@ -52,8 +53,6 @@ ONSET, GROWTH, GROWTH_EARLY = (
 )
 #: Bases of an onset.
 BY_RELEASES, BY_MODEL = "releases", "learnt model"
-#: The section corrected by this project's plate on the section's cells.
-OWN_RATIOS = "2d-corrected, own ratios"
 #: k* of the release that models are learnt from.
 LEARNT_AT = 6.44
 #: Structural damping (of critical) in both motions.
@@ -115,7 +114,7 @@ def early_growth_of_plate(releases: Sequence[MeshRelease]) -> MeshSeries:
 
 def onsets_by_releases(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the onset of each model over the meshes, from releases."""
-    for model, dimensions in (("2d", 2), ("2d-corrected", 2), ("3d", 3)):
+    for model, dimensions in (("2d", 2), ("2d-corrected", 2), (OWN_RATIOS, 2), ("3d", 3)):
         own = [one for one in releases if one.model == model]
         values = _of_plate(own, releases) if model == "3d" else _of_section(own)
         if values:
