@@ -87,9 +87,9 @@ def ratio_series(
                 for plate in plate_loads
                 for section in section_loads
                 if section.mesh == f"plate-{plate.mesh}"
-                and section.incidence_deg == plate.incidence_deg == angle
+                and section.incidence_deg == plate.incidence_deg == angle > 0.0
             ]
-            if values and angle:
+            if values:
                 at = f"{angle:g} deg"
                 quotient = f"{name.lower()}/{name}"
                 yield MeshSeries(quotient, EQUAL_CELLS, at, "steady runs", 3, tuple(values))

@@ -1,0 +1,140 @@
+"""What is made of kept results on several meshes: polars, quotients, limits, and the page."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from equisection.paper.mesh_convergence.convergence_figure import draw
+from equisection.paper.mesh_convergence.convergence_page import is_converged, page
+from equisection.paper.mesh_convergence.kept_releases import MeshLoads, polars_of
+from equisection.paper.mesh_convergence.loads_by_mesh import (
+    EQUAL_CELLS,
+    load_series,
+    printed_limit,
+    ratio_series,
+)
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.paper.mesh_convergence.onset_by_mesh import (
+    BY_MODEL,
+    BY_RELEASES,
+    ONSET,
+    OWN_RATIOS,
+    damped,
+    own_factors,
+)
+from equisection.paper.printed_values import PAPER_ONSET
+
+DENSE = [0.0, 1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 10.0]
+SPARSE = [0.0, 2.5, 5.0, 10.0]
+
+
+def loads(mesh: str, cells: int, angles: list[float], factor: float = 1.0) -> list[MeshLoads]:
+    """Return loads of a body whose lift and moment bend at 4 deg, times a factor."""
+    return [
+        MeshLoads(
+            mesh,
+            cells,
+            angle,
+            {
+                "cd": 0.05,
+                "cl": factor * 0.1 * min(angle, 4.0),
+                "cm": factor * 0.02 * min(angle, 4.0),
+            },
+            Path(f"{mesh}_a{angle:g}.nc"),
+        )
+        for angle in angles
+    ]
+
+
+def test_polar_of_few_angles_keeps_the_bend_of_a_denser_one() -> None:
+    found = polars_of([*loads("coarse", 100, DENSE), *loads("medium", 400, SPARSE, 1.1)])
+    medium = found["medium"]
+    assert "in the shape of coarse" in medium.label
+    at_bend = float(medium.lift_coefficient(math.radians(4.0)))
+    assert at_bend == pytest.approx(1.1 * 0.4)
+    straight = np.interp(4.0, [2.5, 5.0], [1.1 * 0.25, 1.1 * 0.4])
+    assert at_bend > straight + 0.02
+    assert found["coarse"].label == "coarse"
+
+
+def test_polar_of_three_angles_is_none() -> None:
+    assert not polars_of(loads("coarse", 100, [0.0, 2.5, 5.0]))
+
+
+def test_own_ratios_are_those_of_the_finest_mesh_that_both_have() -> None:
+    section = [
+        *loads("plate-coarse", 30, DENSE, 1.3),
+        *loads("plate-medium", 70, DENSE, 1.2),
+        *loads("fine", 500, DENSE, 9.0),
+    ]
+    plate = [*loads("coarse", 800, DENSE), *loads("medium", 3000, DENSE)]
+    factors, mesh = own_factors(section, plate)
+    assert mesh == "medium"
+    assert factors is not None
+    assert float(factors.lift_factor(math.radians(3.0))) == pytest.approx(1.2)
+    assert own_factors(section, loads("fine", 9000, DENSE)) == (None, "")
+    quotients = {one.quantity: one for one in ratio_series(section, plate) if one.at == "5 deg"}
+    assert [v.value for v in quotients["c_l/C_L"].values] == pytest.approx([1.3, 1.2])
+    assert all(one.model == EQUAL_CELLS for one in quotients.values())
+
+
+def test_loads_are_taken_at_the_incidences_of_table_1_on_similar_meshes(tmp_path: Path) -> None:
+    kept = [*loads("plate-coarse", 30, DENSE), *loads("coarse", 100, DENSE)]
+    found = list(load_series(kept, "2d", tmp_path))
+    assert {one.at for one in found} == {"0 deg", "2.5 deg", "5 deg", "10 deg"}
+    assert {value.mesh for one in found for value in one.values} == {"coarse"}
+    assert [one.quantity for one in found if one.at == "0 deg"] == ["c_d"]  # the rest is nil
+
+
+def test_intervals_of_table_1_hold_its_finest_mesh() -> None:
+    for name, angle, finest in (("C_L", 2.5, 0.2613), ("C_M", 5.0, 0.0697), ("C_D", 10.0, 0.1535)):
+        found = printed_limit(name, angle)
+        assert found.low < finest < found.high
+        assert found.meshes == 3
+
+
+def onset(model: str, basis: str, k_star: list[float], at: str = "") -> MeshSeries:
+    meshes = zip(("coarse", "medium", "fine"), (100, 400, 1600), k_star, strict=False)
+    values = tuple(MeshValue(*one, one[2] - 0.2, one[2] + 0.2) for one in meshes)
+    return MeshSeries(ONSET, model, at, basis, 2, values, common_error=basis == BY_MODEL)
+
+
+SERIES = [
+    onset("2d", BY_MODEL, [8.4, 7.5, 7.2]),
+    onset("2d-corrected", BY_MODEL, [7.2, 6.2, 5.8]),
+    onset(OWN_RATIOS, BY_MODEL, [7.8, 7.0, 6.7]),
+    onset("2d", BY_MODEL, [7.0, 6.3], damped(0.01)),
+    onset("3d", BY_RELEASES, [10.2, 7.8]),
+    onset("2d-corrected", BY_RELEASES, [7.4]),
+]
+
+
+def test_limit_is_converged_only_where_its_interval_is_narrow() -> None:
+    assert [is_converged(one) for one in SERIES] == [True, True, True, False, False, False]
+
+
+def test_page_says_which_limits_are_converged() -> None:
+    text = page(SERIES, "coarse")
+    lines = {
+        line.split(" | ")[0][2:]: line for line in text.splitlines() if line.startswith("| 2d")
+    }
+    assert "| 2d | learnt model | 8.40 ± 0.20 | 7.50 ± 0.20 | 7.20 ± 0.20 |" in text
+    assert "| 2d-corrected | releases | 7.40 ± 0.20 |  |  |  |  | none | no |" in text
+    assert lines[OWN_RATIOS].endswith("yes |")
+    assert "The plate's onset is not converged" in text
+    assert "k*" not in text.replace("k\\*", "").replace("Left: k* of", "")
+
+
+def test_figure_has_each_model_with_its_limit_and_the_papers_onset() -> None:
+    figure = draw(SERIES, PAPER_ONSET)
+    left, right = figure.axes
+    shown = {text for axes in (left, right) for text in axes.get_legend_handles_labels()[1]}
+    assert {"2D", "2D corrected by Table 1", "2D corrected, own ratios", "paper"} <= shown
+    # limits stand left of h = 0: four of six series have one, of which one is damped
+    limits = [
+        line for line in left.get_lines() if len(line.get_xdata()) and line.get_xdata()[0] < 0
+    ]
+    assert len(limits) >= 4
+    figure.draw_without_rendering()
