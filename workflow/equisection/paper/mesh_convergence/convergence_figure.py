@@ -31,6 +31,8 @@ _LOOKS = {
 }
 #: Places of the limits of the models beside h = 0, one beside the other.
 _APART = 0.022
+#: Distance of models of one mesh, so that their intervals do not hide each other.
+_ASIDE = 0.012
 _MODELS = ("2d", "2d-corrected", OWN_RATIOS, "3d")
 
 
@@ -77,12 +79,24 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
                 if (one.model, one.at, one.basis) == (model, "", basis):
                     _series(axes, one, -_APART * (number + 1) - 0.5 * _APART * (basis == BY_MODEL))
     axes.axvline(0.0, color=GREY, linewidth=0.6)
+    axes.annotate(
+        "limits",
+        (0.0, 1.0),
+        xycoords=("data", "axes fraction"),
+        xytext=(-3, -4),
+        textcoords="offset points",
+        ha="right",
+        va="top",
+        fontsize=7,
+        color=GREY,
+    )
     axes.set_xlim(-_APART * (len(_MODELS) + 2), 1.06)
 
 
 def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:
     look, learnt = _LOOKS[one.model], one.basis == BY_MODEL
-    sizes = [size / one.sizes[0] for size in one.sizes]
+    aside = _ASIDE * (_MODELS.index(one.model) - 1.5) + 0.4 * _ASIDE * learnt
+    sizes = [size / one.sizes[0] + aside for size in one.sizes]
     values = [value.value for value in one.values]
     errors = [
         [value.value - value.low for value in one.values],
