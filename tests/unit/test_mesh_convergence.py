@@ -8,7 +8,7 @@ import pytest
 
 from equisection.paper.mesh_convergence.convergence_figure import draw
 from equisection.paper.mesh_convergence.convergence_page import is_converged, page
-from equisection.paper.mesh_convergence.kept_releases import MeshLoads, polars_of
+from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS, MeshLoads, polars_of
 from equisection.paper.mesh_convergence.loads_by_mesh import (
     EQUAL_CELLS,
     load_series,
@@ -20,7 +20,6 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
     ONSET,
-    OWN_RATIOS,
     damped,
     own_factors,
 )

@@ -98,6 +98,8 @@ def limits(**values: tuple[float, float]) -> pd.DataFrame:
         "first torsion mode over the next|3d|k* = 6.44|releases": (200.0, 20.0),
         "c_l/C_L|section over plate|2.5 deg|steady runs": (1.2, 0.01),
         "c_m/C_M|section over plate|2.5 deg|steady runs": (1.1, 0.01),
+        "mean twist|two iterations over four|k* = 6.44|releases": (0.995, 0.01),
+        "mean deflection|two iterations over four|k* = 6.44|releases": (0.999, 0.01),
         **values,
     }
     for angle, at in ((2.5, 1.2), (10.0, 0.9)):
@@ -111,7 +113,7 @@ def limits(**values: tuple[float, float]) -> pd.DataFrame:
     rows = []
     for key, (value, half) in known.items():
         head = key.split("|")
-        rows += [(*head, mesh, 1, value, np.nan, np.nan, np.nan, "") for mesh in ("a", "b")]
+        rows += [(*head, mesh, 1, value, np.nan, np.nan, np.nan, "") for mesh in ("coarse", "b")]
         rows.append((*head, LIMIT, 0, value, value - half, value + half, 2.0, "three meshes"))
     return pd.DataFrame(rows, columns=list(COLUMNS))
 
@@ -366,6 +368,16 @@ def test_other_reduction_stands_beside_the_papers_and_is_not_judged() -> None:
     finding = response.mean_twist_uncorrected(replace(complete(), reductions=both))
     assert finding.verdict is ClaimVerdict.AGREES
     assert "With the consistent reduction mean twist: +219 % at 8" in finding.why
+
+
+@pytest.mark.parametrize("error", ["mesh", "iterations"])
+def test_means_are_not_judged_within_the_error_of_mesh_and_iterations(error: str) -> None:
+    wide = {
+        "mesh": {"c_m/C_M|section over plate|2.5 deg|steady runs": (1.1, 0.2)},
+        "iterations": {"mean twist|two iterations over four|k* = 6.44|releases": (0.8, 0.01)},
+    }[error]
+    finding = response.mean_twist_uncorrected(replace(complete(), convergence=limits(**wide)))
+    assert finding.verdict is ClaimVerdict.NOT_CONVERGED
 
 
 def test_means_of_a_large_motion_are_not_compared() -> None:

@@ -18,7 +18,12 @@ from equisection.paper.claims_page.findings import (
     together,
 )
 from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
-from equisection.paper.mesh_convergence.loads_by_mesh import EQUAL_CELLS, FIRST_MODE
+from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
+from equisection.paper.mesh_convergence.loads_by_mesh import (
+    EQUAL_CELLS,
+    FIRST_MODE,
+    TWO_OVER_FOUR,
+)
 from equisection.paper.mesh_convergence.mesh_series import LIMIT
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
@@ -28,7 +33,6 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     GROWTH_EARLY,
     LEARNT_AT,
     ONSET,
-    OWN_RATIOS,
     damped,
 )
 from equisection.paper.printed_values import ABOUT, PAPER_ONSET, PUBLISHED
@@ -146,9 +150,16 @@ def _quotients(evidence: Evidence, pairs: pd.DataFrame, column: str) -> Known:
 
 
 def _part_of_mesh(evidence: Evidence, column: str) -> float:
-    """Return the half-width of the quotient of the rigid loads over the meshes, as a part of it."""
+    """Return what mesh and iterations may change in section over plate, as a part of it.
+
+    The first is the half-width of the quotient of the rigid loads over the meshes, the second the
+    difference of the plate's means with two iterations from those with four.
+    """
     limit = evidence.limit(_LOADS[column], EQUAL_CELLS, "2.5 deg")
-    return limit.half_width / limit.value
+    rows = evidence.over_meshes(_name(column), TWO_OVER_FOUR, _LEARNT_AT)
+    coarse = rows.loc[rows["mesh"] == "coarse", "value"]
+    of_iterations = abs(float(coarse.iloc[0]) - 1.0) if len(coarse) else math.nan
+    return math.hypot(limit.half_width / limit.value, of_iterations)
 
 
 def _of_the_mesh(evidence: Evidence, columns: tuple[str, ...]) -> str:
@@ -158,8 +169,8 @@ def _of_the_mesh(evidence: Evidence, columns: tuple[str, ...]) -> str:
             f"{100 * part:.2g} % ({_name(column)})"
             for column, part in zip(columns, parts, strict=True)
         )
-        return f". The mesh may change section over plate by {words}"
-    return ". What the mesh changes in it is not known: one mesh of both is kept"
+        return f". Mesh and iterations may change section over plate by {words}"
+    return ". What mesh and iterations change in it is not known"
 
 
 def _by_the_other_reduction(evidence: Evidence, model: str, columns: tuple[str, ...]) -> str:

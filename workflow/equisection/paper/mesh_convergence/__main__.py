@@ -23,6 +23,7 @@ from equisection.paper.mesh_convergence import convergence_figure
 from equisection.paper.mesh_convergence.convergence_page import page
 from equisection.paper.mesh_convergence.kept_releases import mesh_releases, rigid_loads
 from equisection.paper.mesh_convergence.loads_by_mesh import (
+    iteration_series,
     load_series,
     mean_series,
     modal_series,
@@ -65,6 +66,7 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
         *load_series(plate, "3d", reference),
         *ratio_series(section, plate),
         *modal_series(releases),
+        *iteration_series(releases),
     ]
     return series, own_mesh
 

@@ -13,13 +13,13 @@ from equisection.figures.models import LOOKS, Look
 from equisection.figures.origin import add_provenance
 from equisection.figures.panels import letter
 from equisection.figures.style import GREEN, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
     DAMPING,
     ONSET,
-    OWN_RATIOS,
     damped,
 )
 

@@ -29,6 +29,8 @@ MEANS = {
 RIGID = {"2d": "rigid section", "3d": "rigid plate"}
 #: Section and plate on equal cells, and the quantity of :func:`modal_series`.
 EQUAL_CELLS, FIRST_MODE = "section over plate", "first {} mode over the next"
+#: Two iterations of a time step of the plate over four, and the means that are compared so.
+TWO_OVER_FOUR, MEANS_OF_TIP = "two iterations over four", ("mean twist", "mean deflection")
 #: Loads of iterations that did not end, the mesh and the incidence (deg) that they are of, and the
 #: iteration from which on they go to and fro.
 _UNFINISHED = Path("paper-plate-openfoam-3d-grid", "fine_a2.5_iterations.csv")
@@ -111,6 +113,32 @@ def modal_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
             at = f"k* = {own[0].case.k_star:g}"
             quantity = FIRST_MODE.format(kind)
             yield MeshSeries(quantity, "3d", at, "releases, 10 to 30 c/V", 3, tuple(values))
+
+
+def iteration_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
+    """Yield the plate's means with two iterations of a time step over those with four, by mesh.
+
+    They are means over the first 30 c/V, from 10 c/V on, of releases that have both.
+    """
+    own = [one for one in releases if one.model == "3d"]
+    for name in MEANS_OF_TIP:
+        values = []
+        for four in own:
+            for two in own:
+                alike = (two.mesh, two.case.k_star) == (four.mesh, four.case.k_star)
+                if alike and two.iterations < PLATE_ITERATIONS <= four.iterations:
+                    end = min(two.end, four.end)
+                    quotient = _mean_of_tip(two, name, end) / _mean_of_tip(four, name, end)
+                    values.append(MeshValue(four.mesh, four.cells, quotient))
+                    at = f"k* = {four.case.k_star:g}"
+        if values:
+            yield MeshSeries(name, TWO_OVER_FOUR, at, "releases, 10 to 30 c/V", 3, tuple(values))
+
+
+def _mean_of_tip(release: MeshRelease, name: str, end: float) -> float:
+    time = release.tip.time
+    record = release.tip.twist if name == MEANS_OF_TIP[0] else release.tip.deflection
+    return float(record[(time >= AFTER_RELEASE) & (time <= end)].mean())
 
 
 def _unfinished(path: Path, short: str) -> list[MeshValue]:
