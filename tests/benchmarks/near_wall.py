@@ -144,6 +144,9 @@ CHANGES: Mapping[str, Change] = {
         "coarse", spacing=off_sides(layers(FIRST_LAYER), 36)
     ),
     "medium": Change("medium", PRESETS["medium"].refinement),
+    "medium, gradient of the velocity limited": Change(
+        "medium", PRESETS["medium"].refinement, schemes={"gradSchemes": {"grad(U)": _LIMITED}}
+    ),
     "five-layers": Change("medium", 1.0, PRESETS["five-layers"].spacing),
 }
 
