@@ -96,7 +96,7 @@ def outline_mesh_of(
     case: SteadyCase | UnsteadyCase | ForcedCase,
     refinement: float,
     far_field: float = 0.0,
-    sizes: OutlineSizes = SIZES,
+    sizes: OutlineSizes | None = None,
 ) -> OutlineMesh:
     """Return the mesh of a case around its outline, or around the rectangle of its thickness.
 
@@ -111,7 +111,8 @@ def outline_mesh_of(
     far_field
         Distance of the far field (chords) in free air.
     sizes
-        Sizes of the cells, which are refined.
+        Sizes of the cells, which are refined. By default those of a section at the Reynolds number
+        of the case.
 
     Raises
     ------
@@ -124,6 +125,8 @@ def outline_mesh_of(
         channel = ChannelBox(geometry.thickness, 2 * far_field, far_field, far_field)
     else:
         channel = _channel(geometry)
+    if sizes is None:
+        sizes = SIZES.resolving(flow.reynolds_number(geometry, case.medium))
     return OutlineMesh(outline, channel, _incidence(case), refinement, sizes)
 
 
