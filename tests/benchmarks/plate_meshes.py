@@ -2,12 +2,13 @@
 
     python -m tests.benchmarks.plate_meshes
 
-Reads what is kept, and extrapolates to cells of no size with a range (`equisection.analysis.
-limit_range`):
+Reads what is kept, and extrapolates to cells of no size with an interval (`equisection.analysis.
+grid_limit`):
 
 * the plate on its three meshes, of which the finest did not converge and wavers (mean and half
   range of its last iterations);
-* the section on the same cells in the plane, and on its own three meshes, which are finer;
+* the section on the same cells in the plane, of which the finest wavers too, and on its own three
+  meshes, which are finer;
 * the ratio of plate to section on equal cells, and the plate by that ratio of the section's limit.
 """
 
@@ -18,42 +19,47 @@ import pandas as pd
 import xarray as xr
 
 from equisection.analysis.grid_convergence import cell_size
-from equisection.analysis.limit_range import LimitRange, limit_range
+from equisection.analysis.grid_limit import GridLimit, grid_limit
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.rigid_flow import CONVERGED
 
 KEPT = Path("results/reference")
 NAMES = ("coarse", "medium", "fine")
-PLATE = {
-    "coarse": KEPT / "paper-plate-openfoam-3d/steady/3d/coarse_a2.5.nc",
-    "medium": KEPT / "paper-plate-openfoam-3d-grid/steady/3d/medium_a2.5.nc",
-}
-ITERATIONS = KEPT / "paper-plate-openfoam-3d-grid/fine_a2.5_iterations.csv"
-#: Iterations of the finest mesh that are left out.
-BEFORE = 400
-ON_CELLS_OF_PLATE = [KEPT / f"plate-cells/steady/2d/{name}_a2.5.nc" for name in NAMES]
-ON_OWN = [
-    KEPT / f"paper-plate-openfoam{run}/steady/2d/{name}_a2.5.nc"
-    for run, name in zip(("", "-grid", "-grid"), NAMES, strict=True)
-]
+PLATE = (
+    KEPT / "paper-plate-openfoam-3d/steady/3d/coarse_a2.5.nc",
+    KEPT / "paper-plate-openfoam-3d-grid/steady/3d/medium_a2.5.nc",
+    KEPT / "paper-plate-openfoam-3d-grid/fine_a2.5_iterations.csv",
+)
+ON_CELLS_OF_PLATE = (
+    KEPT / "paper-reductions/steady/2d/coarse_a2.5.nc",
+    KEPT / "plate-cells/medium_a2.5_iterations.csv",
+    KEPT / "plate-cells/fine_a2.5_iterations.csv",
+)
+ON_OWN = (
+    KEPT / "paper-plate-openfoam/steady/2d/coarse_a2.5.nc",
+    KEPT / "paper-plate-openfoam-grid/steady/2d/medium_a2.5.nc",
+    KEPT / "paper-plate-openfoam-grid/steady/2d/fine_a2.5.nc",
+)
+#: Part of the iterations that is left out, of those that waver.
+EARLY = 0.5
 
 Three = tuple[float, float, float]
 
 
-def of_plate(name: str) -> tuple[Three, Three]:
-    """Return a load of the plate on its meshes, and the half range within which it is known."""
-    coarse, medium = (float(xr.load_dataset(path)[name]) for path in PLATE.values())
-    late = pd.read_csv(ITERATIONS, comment="#").query(f"iteration > {BEFORE}")[name]
-    half = float(late.max() - late.min()) / 2
-    known = (CONVERGED * abs(coarse), CONVERGED * abs(medium), half)
-    return (coarse, medium, float(late.mean())), known
+def known(path: Path, name: str) -> tuple[float, float]:
+    """Return a load of a result, or the mean of iterations, and the half range it is known to."""
+    if path.suffix == ".nc":
+        value = float(xr.load_dataset(path)[name])
+        return value, CONVERGED * abs(value)
+    history = pd.read_csv(path, comment="#")
+    late = history[history["iteration"] > EARLY * history["iteration"].max()][name]
+    return float(late.mean()), float(late.max() - late.min()) / 2
 
 
-def of_section(paths: list[Path], name: str) -> tuple[Three, Three]:
-    """Return the same of the section."""
-    coarse, medium, fine = (float(xr.load_dataset(path)[name]) for path in paths)
-    known = (CONVERGED * abs(coarse), CONVERGED * abs(medium), CONVERGED * abs(fine))
-    return (coarse, medium, fine), known
+def of(paths: tuple[Path, Path, Path], name: str) -> tuple[Three, Three]:
+    """Return a load on three meshes, and the half ranges that it is known to."""
+    (coarse, medium, fine) = (known(path, name) for path in paths)
+    return (coarse[0], medium[0], fine[0]), (coarse[1], medium[1], fine[1])
 
 
 def _ratio(whole: tuple[Three, Three], plane: tuple[Three, Three]) -> tuple[Three, Three]:
@@ -70,15 +76,14 @@ def _sizes(dimensions: int, cells: list[int]) -> Three:
     return coarse, medium, fine
 
 
-def _line(what: str, values: Three, found: LimitRange) -> dict[str, object]:
+def _line(what: str, values: Three, found: GridLimit) -> dict[str, object]:
     return {
         "": what,
         **dict(zip(NAMES, values, strict=True)),
-        "order from": found.order_low,
-        "to": found.order_high,
+        "order": found.order,
         "limit": found.value,
-        "least": found.low,
-        "greatest": found.high,
+        "from": found.low,
+        "to": found.high,
     }
 
 
@@ -88,8 +93,8 @@ def rows() -> Iterator[dict[str, object]]:
     in_plane = _sizes(2, [PRESETS[f"plate-{name}"].cells for name in NAMES])
     of_own = _sizes(2, [PRESETS[name].cells for name in NAMES])
     for name in ("cl", "cm", "cd"):
-        whole, plane = of_plate(name), of_section(ON_CELLS_OF_PLATE, name)
-        own, ratio = of_section(ON_OWN, name), _ratio(whole, plane)
+        whole, plane = of(PLATE, name), of(ON_CELLS_OF_PLATE, name)
+        own, ratio = of(ON_OWN, name), _ratio(whole, plane)
         limits = {}
         for what, (values, errors), sizes in (
             (f"plate {name.upper()}", whole, of_3d),
@@ -97,14 +102,14 @@ def rows() -> Iterator[dict[str, object]]:
             (f"section {name}, own meshes", own, of_own),
             (f"{name.upper()}/{name}", ratio, of_3d),
         ):
-            limits[what] = limit_range(values, sizes, errors)
+            limits[what] = grid_limit(values, sizes, errors)
             yield _line(what, values, limits[what])
         section, of_ratio = list(limits.values())[2:]
         yield {
             "": f"plate {name.upper()} by the section",
             "limit": section.value * of_ratio.value,
-            "least": section.low * of_ratio.low,
-            "greatest": section.high * of_ratio.high,
+            "from": section.low * of_ratio.low,
+            "to": section.high * of_ratio.high,
         }
 
 
