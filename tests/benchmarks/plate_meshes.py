@@ -6,7 +6,7 @@ Reads what is kept, and extrapolates to cells of no size with an interval (`equi
 grid_limit`):
 
 * the plate on its three meshes, of which the finest did not converge and wavers (mean and half
-  range of its last iterations);
+  range of its last 150 iterations);
 * the section on the same cells in the plane, of which the finest wavers too, and on its own three
   meshes, which are finer;
 * the ratio of plate to section on equal cells, and the plate by that ratio of the section's limit.
@@ -21,7 +21,7 @@ import xarray as xr
 from equisection.analysis.grid_convergence import cell_size
 from equisection.analysis.grid_limit import GridLimit, grid_limit
 from equisection.solvers.openfoam.mesh.presets import PRESETS
-from equisection.solvers.openfoam.rigid_flow import CONVERGED
+from equisection.solvers.openfoam.rigid_flow import CONVERGED, WINDOW
 
 KEPT = Path("results/reference")
 NAMES = ("coarse", "medium", "fine")
@@ -40,9 +40,6 @@ ON_OWN = (
     KEPT / "paper-plate-openfoam-grid/steady/2d/medium_a2.5.nc",
     KEPT / "paper-plate-openfoam-grid/steady/2d/fine_a2.5.nc",
 )
-#: Part of the iterations that is left out, of those that waver.
-EARLY = 0.5
-
 Three = tuple[float, float, float]
 
 
@@ -52,7 +49,7 @@ def known(path: Path, name: str) -> tuple[float, float]:
         value = float(xr.load_dataset(path)[name])
         return value, CONVERGED * abs(value)
     history = pd.read_csv(path, comment="#")
-    late = history[history["iteration"] > EARLY * history["iteration"].max()][name]
+    late = history[history["iteration"] > history["iteration"].max() - WINDOW][name]
     return float(late.mean()), float(late.max() - late.min()) / 2
 
 
