@@ -166,6 +166,7 @@ def run(name: str) -> dict[str, object]:
     sides = [found.surface.on(side) for side in ("upper", "lower")]
     y_plus = np.concatenate([side.y_plus for side in sides])
     length = np.concatenate([side.length for side in sides])
+    assert case.geometry.upstream is not None
     left = change.turbulence.after(case.geometry.upstream - 0.5, 1.0 / reynolds)
     return {
         "change": name,

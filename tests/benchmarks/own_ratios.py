@@ -10,7 +10,6 @@ import math
 from collections.abc import Iterator
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 
 from equisection.aerodynamics.polar import Polar
@@ -26,7 +25,7 @@ POLARS = ROOT / "config" / "polars"
 INCIDENCE = math.radians(2.5)
 #: k* of the releases that a model is learnt from, and at which it predicts.
 LEARNT_FROM = (5.5, 6.44, 7.5)
-K_STAR = np.array([5.0, 5.5, 6.0, 6.44, 7.0, 7.5, 8.0, 8.5, 9.0, 10.0])
+K_STAR = (5.0, 5.5, 6.0, 6.44, 7.0, 7.5, 8.0, 8.5, 9.0, 10.0)
 #: Place of k* 7 among them.
 _AT = 4
 #: The moment factor with a change of its own: what the ratio is known to.
