@@ -29,7 +29,7 @@ from equisection.aerodynamics.vortex_rings import SpanGeometry
 from equisection.cases import UnsteadyCase
 from equisection.config.groups import Embedded
 from equisection.motion.beams import BeamParameters, beam_system, release_beams
-from equisection.motion.release_judgement import judge_release
+from equisection.motion.release_judgement import release_of
 from equisection.motion.sections import section_system
 from equisection.motion.steady_states import equilibrium, jacobian, least_stable_eigenvalue
 from equisection.results.netcdf import read_dataset
@@ -38,6 +38,7 @@ from equisection.solvers.embedded.known_errors import FILE
 from equisection.solvers.known_error import KnownError
 from equisection.solvers.verdicts import Judge, TipMotion, first_modes, growths_of_tips
 from equisection.store.judged_again import tip_motion
+from equisection.verdict.growth import growth_of
 from tests.benchmarks.measure import Row, limit
 from tests.workflow.project import ROOT
 
@@ -56,9 +57,9 @@ STRIPS = cosine_strips(12)
 class Growth:
     """Growth (V/c) of a release: recorded, released with the model, and of the model's eigenvalue.
 
-    That of the plate is fitted to its first modes together, in which the second bending mode beats
-    with the pitch, and its eigenvalue is that of the least stable motion near the pitch; that of
-    sections is read off the amplitude of the twist.
+    It is fitted to pitch and heave together, that of the plate to its first modes, in which the
+    second bending mode beats with the pitch. The plate's eigenvalue is that of the least stable
+    motion near the pitch.
     ``wanted_frequency`` and ``frequency`` are omega c/V.
     """
 
@@ -151,15 +152,23 @@ def growth_of_sections() -> tuple[Growth, ...]:
 
 
 def _growth_of(history: ReferenceHistory, loads: UnsteadyLoads) -> Growth:
-    judged = judge_release(history, loads)
-    system = section_system([history.section], loads, history.incidence_rad)
+    section, run = history.section, release_of(history, loads)
+    part = slice(0, int(run.samples[0]))
+    recorded, released = (
+        growth_of(time, np.stack(records), section.uncoupled_frequencies)
+        for time, *records in (
+            (history.time, history.twist, history.deflection),
+            (run.time[part], run.twist[part, 0], run.deflection[part, 0]),
+        )
+    )
+    system = section_system([section], loads, history.incidence_rad)
     return Growth(
         history.name,
-        judged.recorded.growth_rate,
-        judged.modelled.growth_rate,
+        recorded.rate,
+        released.rate,
         float(least_stable_eigenvalue(system)[0].real),
-        judged.recorded.frequency,
-        judged.modelled.frequency,
+        math.tau * recorded.frequency,
+        math.tau * released.frequency,
     )
 
 

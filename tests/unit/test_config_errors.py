@@ -366,7 +366,13 @@ MALFORMED = [
         {"solver": "openfoam", "unsteady": {"time_step": 0.02, "start": {"state": "equilibrium"}}},
         "unsteady.start.state",
         "'equilibrium'",
-        "'rigid' with solver 'openfoam'",
+        "'rigid' with solver 'openfoam' and the model 3d",
+    ),
+    (
+        {"solver": "given", "unsteady": {"start": {"state": "equilibrium", "twist_deg": 0.2}}},
+        "unsteady.start.state",
+        "'equilibrium'",
+        "'rigid' with solver 'given'",
     ),
     ({"embedded": {"incidence_point": 0}}, "embedded.incidence_point", "0", "0.25"),
     (
