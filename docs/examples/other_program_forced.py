@@ -2,9 +2,9 @@
 
     python docs/examples/other_program_forced.py data/other-program-forced
 
-A thin plate of the chord of Goland's wing, moved in its air at 100 m/s: blank-separated with a line
-of names behind ``#``, milliseconds, degrees nose down, millimetres downwards, and forces of a slab of
-0.1 m. Heave and moment are those of the quarter chord.
+A thin plate of the chord of Goland's wing, moved in its air at 100 m/s: blank-separated with a
+line of names behind ``#``, milliseconds, degrees nose down, millimetres downwards, and forces of a
+slab of 0.1 m. Heave and moment are those of the quarter chord.
 """
 
 import sys

@@ -178,7 +178,6 @@ def test_scripts_leave_the_table_and_name_a_missing_file(
 @pytest.mark.parametrize(
     ("raw", "words"),
     [
-        ({"given": {**RUN["given"], "forced": ""}}, r"given\.forced: '': .*derivatives\.table"),
         ({"given": {**RUN["given"], "forced": "{model}.csv"}}, r"given\.forced: .*\{component\}"),
         ({"forced": {**RUN["forced"], "beam_modes": 1}}, r"forced\.beam_modes: 1: allowed .* is 0"),
     ],

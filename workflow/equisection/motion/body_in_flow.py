@@ -170,7 +170,7 @@ class BodyInFlow:
         """Frequencies (Hz) of the bending modes in vacuum, without imbalance, ascending."""
         structure = self.structure
         squares = structure.bending_stiffness[0] / structure.bending_mass[0]
-        return np.sqrt(squares) * self.speed / (math.tau * self.chord)
+        return np.asarray(np.sqrt(squares) * self.speed / (math.tau * self.chord))
 
     def tip(self, states: NDArray[Any]) -> tuple[Any, Any]:
         """Return twist (rad) and deflection (chords) of the tip in states Y of shape (..., n)."""

@@ -145,58 +145,70 @@ def _part(found: ForcedResult, kept: NDArray[np.bool_]) -> ForcedResult:
 def _require_motion(path: Path, record: ForcedResult, case: ForcedCase) -> None:
     """Refuse a motion that is not the one that the case asks for."""
     is_pitch = case.component == "pitch"
-    quantity, factors = ("twist", ANGLES) if is_pitch else ("deflection", DISTANCES)
+    quantity = "twist" if is_pitch else "deflection"
     moved = record.twist if is_pitch else record.deflection
     frequencies = signal_of(case).frequencies
-    try:
-        answer = load_response(record.time, moved, frequencies)
-    except ArgumentError as error:
-        raise HistoryFileError(f"{path}: {error}") from None
     if float(np.ptp(moved)) == 0.0:
         raise HistoryFileError(
             f"{path}: the {quantity} does not change; wanted the motion in {case.component}: "
             f"correct given.columns.{quantity} or given.forced"
         )
+    try:
+        answer = load_response(record.time, moved, frequencies)
+    except ArgumentError as error:
+        raise HistoryFileError(f"{path}: {error}") from None
     if answer.rest > _REST:
         raise HistoryFileError(
             f"{path}: {100 * answer.rest:.0f} % of the {quantity} is not at the frequencies of "
             f"forced.reduced_velocity (allowed is {100 * _REST:g} %); "
             f"{_other_frequency(record.time, moved, frequencies)}"
         )
-    # as angles of incidence, which pitch has itself and heave by its speed
-    rate = np.ones_like(frequencies) if is_pitch else frequencies
-    each = np.abs(answer.response) * rate
-    found = math.sqrt(float(np.sum(each**2)))
-    asked = math.sqrt(
-        sum((one.amplitude * w) ** 2 for one, w in zip(case.harmonics, rate, strict=True))
-    )
-    if abs(found / asked - 1.0) > _OFF:
-        known = [
-            words for factor, words in factors.items() if abs(factor * found / asked - 1.0) < _OFF
-        ]
-        advice = (
-            f"({known[0]}): units.{quantity}"
-            if known
-            else f"(forced.amplitude_deg: {math.degrees(found):.3g} is that of the record)"
-        )
-        raise HistoryFileError(
-            f"{path}: the {case.component} has an amplitude of {math.degrees(found):.3g} deg of "
-            f"incidence, and forced.amplitude_deg asks for {math.degrees(asked):.3g} {advice}"
-        )
-    weak = np.flatnonzero(each < _WEAK * found / math.sqrt(each.size))
-    if weak.size:
-        velocity = math.tau / frequencies[weak[0]]
-        raise HistoryFileError(
-            f"{path}: no {case.component} at V/(f c) = {velocity:.3g}; leave it out of "
-            "forced.reduced_velocity"
-        )
-    mean = float(np.mean(record.twist))
-    if abs(mean) > _MEAN * asked:
+    _require_amplitude(path, np.abs(answer.response), case)
+    amplitude, mean = _asked(case), float(np.mean(record.twist))
+    if abs(mean) > _MEAN * amplitude:
         raise HistoryFileError(
             f"{path}: the mean twist is {math.degrees(mean):.3g} deg; wanted is 0, counted from "
             f"forced.incidence_deg ({case.incidence_deg:g} deg): subtract it, or correct that key"
         )
     _require_one_motion(path, record, case, frequencies)
+
+
+def _rates(case: ForcedCase) -> Floats:
+    """Return the factors from amplitudes to angles of incidence: heave has them by its speed."""
+    frequencies = signal_of(case).frequencies
+    return np.ones_like(frequencies) if case.component == "pitch" else frequencies
+
+
+def _asked(case: ForcedCase) -> float:
+    """Return the amplitude of incidence (rad) that a case asks for, of all harmonics together."""
+    return float(np.linalg.norm(signal_of(case).amplitudes * _rates(case)))
+
+
+def _require_amplitude(path: Path, amplitudes: Floats, case: ForcedCase) -> None:
+    """Refuse amplitudes of the harmonics (rad or chords) that the case does not ask for."""
+    is_pitch = case.component == "pitch"
+    quantity, factors = ("twist", ANGLES) if is_pitch else ("deflection", DISTANCES)
+    each, asked = amplitudes * _rates(case), _asked(case)
+    found = float(np.linalg.norm(each))
+    if abs(found / asked - 1.0) > _OFF:
+        known = [
+            f"({words}): units.{quantity}"
+            for factor, words in factors.items()
+            if abs(factor * found / asked - 1.0) < _OFF
+        ]
+        advice = f"(forced.amplitude_deg: {math.degrees(found):.3g} is that of the record)"
+        raise HistoryFileError(
+            f"{path}: the {case.component} has an amplitude of {math.degrees(found):.3g} deg of "
+            f"incidence, and forced.amplitude_deg asks for {math.degrees(asked):.3g} "
+            f"{known[0] if known else advice}"
+        )
+    weak = np.flatnonzero(each < _WEAK * found / math.sqrt(each.size))
+    if weak.size:
+        velocity = math.tau / signal_of(case).frequencies[weak[0]]
+        raise HistoryFileError(
+            f"{path}: no {case.component} at V/(f c) = {velocity:.3g}; leave it out of "
+            "forced.reduced_velocity"
+        )
 
 
 def _require_one_motion(
