@@ -34,7 +34,8 @@ SOURCES = {
     "2d": KEPT / "paper-plate-openfoam/unsteady/2d",
     "3d": KEPT / "paper-plate-openfoam-3d/unsteady/3d",
 }
-#: Kept releases of a section by OpenFOAM (3,132 cells) from both starts, and times (c/V) to judge at.
+#: Kept releases of a section by OpenFOAM (3,132 cells) from both starts, and the times (c/V) at
+#: which they are judged.
 BY_OPENFOAM = {
     "rigid": KEPT / "paper-reductions/unsteady/2d-consistent",
     "equilibrium": KEPT / "openfoam-equilibrium/unsteady/2d",
