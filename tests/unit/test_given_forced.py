@@ -154,6 +154,19 @@ def test_a_twist_from_the_stream_is_refused(folder: Path, tmp_path: Path) -> Non
     assert "the mean twist is 1.99 deg; wanted is 0" in result.failure
 
 
+def test_path_of_a_harmonic_names_component_and_reduced_velocity(folder: Path) -> None:
+    raw = changed(folder, {"motion": "harmonic"})
+    raw["given"]["forced"] = "x/{component}-{reduced_velocity}-{incidence_deg}.csv"
+    config = load_config(raw)
+    case = forced_case(config, "heave_v4.5", solver_from_config(config, "thin"))
+    assert case.solver.settings["file"] == "x/heave-4.5-0.csv"
+    assert case.solver.settings["moment_axis"] == 0.25
+    raw["given"]["moment_axis"] = None  # then it is the elastic axis
+    config = load_config(raw)
+    case = forced_case(config, "heave_v4.5", solver_from_config(config, "thin"))
+    assert case.solver.settings["moment_axis"] == 0.33
+
+
 def test_scripts_leave_the_table_and_name_a_missing_file(
     folder: Path, tmp_path: Path, load_script: Callable[[str], ModuleType]
 ) -> None:
