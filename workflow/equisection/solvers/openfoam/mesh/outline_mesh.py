@@ -148,7 +148,8 @@ class OutlineMesh:
         x, y = x0 * cosine + y0 * sine, y0 * cosine - x0 * sine
         channel = self.channel
         fits = (
-            abs(y) + radius + _TO_WALL <= channel.height / 2
+            channel.floor <= y - radius - _TO_WALL
+            and y + radius + _TO_WALL <= channel.ceiling
             and radius - x + _TO_END <= channel.upstream
             and radius + x + _TO_END <= channel.downstream
         )
@@ -156,7 +157,7 @@ class OutlineMesh:
             raise SolverError(
                 f"the mesh around the outline, of radius {radius:.3g} c, does not fit into a "
                 f"channel of {channel.height:g} c from {-channel.upstream:g} c to "
-                f"{channel.downstream:g} c; enlarge flow.channel"
+                f"{channel.downstream:g} c{channel.words}; enlarge flow.channel"
             )
 
     def write(self, folder: Path, time_limit: float = TIME_LIMIT) -> None:
