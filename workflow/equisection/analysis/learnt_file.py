@@ -56,9 +56,7 @@ def model_of(data: xr.Dataset, polar: Polar) -> ReducedModel:
     ResultFileError
         There is no model in it, but the reason why; or it is that of a beam on strips.
     """
-    if "rate" not in data:
-        reason = data.attrs.get("refusal") or "it has no coefficients"
-        raise ResultFileError(f"{data.attrs.get('model', 'the file')}: no model: {reason}")
+    _require_model(data)
     if data.sizes["term"] != len(TERMS):
         raise ResultFileError(
             f"{data.attrs['model']}: a model of the strips of a beam, of {data.sizes['term']} "
@@ -77,6 +75,12 @@ def model_of(data: xr.Dataset, polar: Polar) -> ReducedModel:
         k_star=float(attrs["learnt_from_k_star"]),
         source=str(attrs["source"]),
     )
+
+
+def _require_model(data: xr.Dataset) -> None:
+    if "rate" not in data:
+        reason = data.attrs.get("refusal") or "it has no coefficients"
+        raise ResultFileError(f"{data.attrs.get('model', 'the file')}: no model: {reason}")
 
 
 def _model(
@@ -212,6 +216,7 @@ def export(data: xr.Dataset, polar: Polar, output: Path) -> None:
     if output.suffix == ".json":
         write_text(output, json.dumps(as_json(data, polar), indent=1) + "\n")
     elif output.suffix == ".csv":
+        _require_model(data)
         words = f"# {data.attrs['words']}; {data.attrs['confirmation']}\n"
         with written_whole(output) as aside:
             table = as_table(data).to_csv(index=False, float_format="%.6g")
