@@ -54,7 +54,7 @@ class ExportedFile:
 
 
 @dataclass(frozen=True)
-class _Run:
+class _ExportedRun:
     """Folder of a run, with its configuration and the files that every kind needs."""
 
     folder: Path
@@ -118,7 +118,7 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
         The folder is no run, a file in it is broken, the folder ``to`` cannot be written to, or
         the run has nothing of these kinds yet.
     """
-    opened = _Run(run, to)
+    opened = _ExportedRun(run, to)
     _ = opened.configuration
     try:
         files = [file for kind in kinds or KINDS for file in KINDS[kind](opened)]
@@ -133,7 +133,7 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
     return files
 
 
-def _polars(run: _Run) -> Iterator[ExportedFile]:
+def _polars(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write each steady polar as an airfoil table of AeroDyn."""
     for dimension, whose in (("2d", "section"), ("3d", "beam")):
         polar = run.read(f"steady/polar_{dimension}.nc")
@@ -145,7 +145,7 @@ def _polars(run: _Run) -> Iterator[ExportedFile]:
             yield run.wrote("polars", name, text, f"polar of the {whose}, airfoil table of AeroDyn")
 
 
-def _table(run: _Run, polar: xr.Dataset, resolution: str, *, unsteady: bool = False) -> str:
+def _table(run: _ExportedRun, polar: xr.Dataset, resolution: str, *, unsteady: bool = False) -> str:
     chosen = at_resolution(polar, resolution)
     values = np.stack([chosen[name].values for name in COLUMNS], axis=1)
     there = values[np.isfinite(values).all(axis=1)]
@@ -157,7 +157,7 @@ def _table(run: _Run, polar: xr.Dataset, resolution: str, *, unsteady: bool = Fa
     return aerodyn_text(there.tolist(), run.reynolds_number, comments, unsteady=unsteady)
 
 
-def _models(run: _Run) -> Iterator[ExportedFile]:
+def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write each learnt model as JSON, and its prediction as CSV."""
     found = sorted((run.folder / "rom").glob("*/model*.nc"))
     polar_file = run.read("steady/polar_2d.nc") if found else None
@@ -179,7 +179,7 @@ def _models(run: _Run) -> Iterator[ExportedFile]:
                 yield ExportedFile("models", output, holds)
 
 
-def _derivatives(run: _Run) -> Iterator[ExportedFile]:
+def _derivatives(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write tables of derivatives as they are, and as JSON with their convention."""
     for dimension, holds in (
         ("2d", "flutter derivatives of the section"),
@@ -197,7 +197,7 @@ def _derivatives(run: _Run) -> Iterator[ExportedFile]:
         yield run.as_json("derivatives", f"{name}.json", content, holds)
 
 
-def _modes(run: _Run) -> Iterator[ExportedFile]:
+def _modes(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write the modes of the beam: frequencies and shapes."""
     data = run.read("structure/modes.nc")
     if data is None:
@@ -228,7 +228,7 @@ def _modes(run: _Run) -> Iterator[ExportedFile]:
     yield run.as_json("modes", "modes.json", content, "frequencies (Hz) and shapes over z/L")
 
 
-def _sections(run: _Run) -> dict[str, Section]:
+def _sections(run: _ExportedRun) -> dict[str, Section]:
     """Return the equivalent section of each reduction that has one."""
     data = run.read("structure/equivalent.nc")
     if data is None:
@@ -239,7 +239,7 @@ def _sections(run: _Run) -> dict[str, Section]:
     }
 
 
-def _section(run: _Run) -> Iterator[ExportedFile]:
+def _section(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write the equivalent section of each reduction, SI per metre of span."""
     sections = _sections(run)
     if not sections:
@@ -271,7 +271,7 @@ def _section(run: _Run) -> Iterator[ExportedFile]:
 _AIRFOIL = "ua_airfoil.dat"
 
 
-def _openfast(run: _Run) -> Iterator[ExportedFile]:
+def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write the section as input of OpenFAST's unsteady-aerodynamics driver, with its airfoil."""
     polar = run.read("steady/polar_2d.nc")
     sections = _sections(run)
@@ -293,7 +293,7 @@ def _openfast(run: _Run) -> Iterator[ExportedFile]:
         )
 
 
-def _driver_section(run: _Run, section: Section) -> DriverSection:
+def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
     flow, unsteady = run.flow, run.configuration["unsteady"]
     speed = float(flow["speed"])
     convective = section.chord / speed
@@ -333,7 +333,7 @@ def _finite(content: Any) -> Any:
 
 
 #: Kinds of exports, in the order in which they are written.
-KINDS: dict[str, Callable[[_Run], Iterator[ExportedFile]]] = {
+KINDS: dict[str, Callable[[_ExportedRun], Iterator[ExportedFile]]] = {
     "polars": _polars,
     "models": _models,
     "derivatives": _derivatives,
