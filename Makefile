@@ -96,7 +96,8 @@ lint: $(ENV)/lint
 docs: $(ENV)/docs
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --nitpicky \
 		--conf-dir docs --doctree-dir .sphinx . site
-	@echo "site: site/docs/index.html"
+	cp docs/_static/to-the-landing-page.html site/index.html
+	@echo "site: site/index.html"
 
 drawing: $(ENV)/run
 	$(BIN)/python docs/drawings/beam_and_section.py docs/beam-and-section.svg
