@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon, Rectangle
 
 from equisection.beam.beam import Beam
+from equisection.config.groups.flow import Flow
 from equisection.figures.save import save_figure
 from equisection.figures.style import BLUE, GREY, LIGHT_GREY, VERMILLION, drawing_style
 
@@ -30,17 +31,18 @@ EXAMPLES = {
     "plate": "config/examples/plate_over_incidence.yaml",
 }
 #: Span and chord from above, and chord of the section, on the page (in).
-SPAN, DEPTH, SECTION = 3.4, 0.72, 1.5
+SPAN, DEPTH, SECTION = 3.1, 0.72, 1.5
 HEIGHT = 1.75
 #: Places on the page: left end and middle of the beam, elastic axis of the section.
-ROOT_END, MIDDLE, AXIS = 0.45, 0.82, (5.5, 0.82)
+ROOT_END, MIDDLE, AXIS = 0.45, 0.82, (5.65, 0.82)
 BODY = "#D6E6F2"
 
 
 def draw(beam: Beam, incidence_deg: float) -> Figure:
     """Draw a beam from above and its section from its root, at a rigid incidence (deg)."""
     figure = Figure(figsize=(7.1, HEIGHT))
-    axes = figure.add_axes((0, 0, 1, 1), xlim=(0, 7.1), ylim=(0, HEIGHT), aspect="equal")
+    axes = figure.subplots()
+    axes.set(xlim=(0, 7.1), ylim=(0, HEIGHT), aspect="equal")
     axes.set_axis_off()
     _from_above(axes, beam)
     _section(axes, beam, incidence_deg)
@@ -68,8 +70,8 @@ def _from_above(axes: Axes, beam: Beam) -> None:
     top = leading + DEPTH + 0.2
     _arrow(axes, (ends[0], top), (ends[1], top), "<|-|>", 0.6)
     axes.text(sum(ends) / 2, top + 0.14, f"span {beam.length:g} m", ha="center", va="center")
-    _arrow(axes, (ends[1] + 0.2, leading), (ends[1] + 0.2, leading + DEPTH), "<|-|>", 0.6)
-    axes.text(ends[1] + 0.27, MIDDLE, f"{beam.chord:g} m", va="center")
+    _arrow(axes, (ends[1] + 0.28, leading), (ends[1] + 0.28, leading + DEPTH), "<|-|>", 0.6)
+    axes.text(ends[1] + 0.34, MIDDLE, f"{beam.chord:g} m", va="center")
 
 
 def _end(axes: Axes, x: float, name: str, elastic: float, leading: float) -> None:
@@ -99,17 +101,17 @@ def _section(axes: Axes, beam: Beam, incidence_deg: float) -> None:
         return AXIS[0] + x * cos + up * sin, AXIS[1] - x * sin + up * cos
 
     corners = [place(0, half), place(1, half), place(1, -half), place(0, -half)]
-    axes.plot([4.75, 6.9], [AXIS[1], AXIS[1]], color=LIGHT_GREY, lw=0.8, zorder=0)
+    axes.plot([4.85, 6.95], [AXIS[1], AXIS[1]], color=LIGHT_GREY, lw=0.8, zorder=0)
     axes.add_patch(Polygon(corners, fc=BODY, ec=BLUE, lw=1.0))
     axes.plot(*AXIS, marker="o", ms=5, mfc="white", mec="black", zorder=4)
-    axes.text(AXIS[0], AXIS[1] - 0.42, "elastic axis", ha="center", va="center")
+    axes.text(AXIS[0], AXIS[1] - 0.45, "elastic axis", ha="center", va="center")
     if beam.mass_axis != beam.elastic_axis:
         centre = place(beam.mass_axis, 0.0)
         axes.plot(*centre, marker="o", ms=4, color=VERMILLION, zorder=4)
         axes.text(centre[0] + 0.1, centre[1] + 0.3, "centre of mass", color=VERMILLION, va="center")
     _arrow(axes, (4.25, 1.2), (4.65, 1.2))
     axes.text(4.25, 1.36, "wind", color=GREY, va="center")
-    axes.text(6.95, AXIS[1] + 0.34, f"{incidence_deg:g} deg", ha="right", va="center")
+    axes.text(6.95, AXIS[1] - 0.2, f"{incidence_deg:g} deg", ha="right", va="center")
 
 
 def _arrow(axes: Axes, start: Any, end: Any, style: str = "-|>", width: float = 1.1) -> None:
@@ -121,8 +123,9 @@ def main(folder: Path) -> None:
     """Write the drawing of each example to a folder."""
     with drawing_style(ROOT / "envs" / "equisection.mplstyle"):
         for name, path in EXAMPLES.items():
-            flow = yaml.safe_load((ROOT / path).read_text(encoding="utf-8")).get("flow", {})
-            figure = draw(Beam.from_yaml(ROOT / path), float(flow.get("incidence_deg", 2.5)))
+            keys = yaml.safe_load((ROOT / path).read_text(encoding="utf-8"))
+            beam = Beam.from_yaml(ROOT / path) if "beam" in keys else Beam()
+            figure = draw(beam, float(keys["flow"].get("incidence_deg", Flow().incidence_deg)))
             save_figure(figure, [folder / f"{name}-drawing.png"])
 
 
