@@ -19,7 +19,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run report paper validation cost identification cost-model status verify test lint docs drawing bench openfoam slurm clean
+.PHONY: run install report paper validation cost identification cost-model status verify test lint docs drawing gallery bench openfoam slurm clean
 
 run: $(ENV)/run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && echo "$(SNAKEMAKE)" && $(SNAKEMAKE) && printf '%s\n' '' \
@@ -27,6 +27,9 @@ run: $(ENV)/run
 		"tables:     $$folder/tables/ and $$folder/comparison/" \
 		"report:     make report$(if $(CONFIG), CONFIG=$(CONFIG)) writes $$folder/report.html" \
 		"each run:   $(BIN)/equisection status $$folder"
+
+install: $(ENV)/run
+	@echo "installed in $(ENV): source $(BIN)/activate"
 
 report: run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && \
@@ -101,6 +104,17 @@ docs: $(ENV)/docs
 
 drawing: $(ENV)/run
 	$(BIN)/python docs/drawings/beam_and_section.py docs/beam-and-section.svg
+	$(BIN)/python docs/drawings/examples.py docs/gallery
+
+# Pictures of the gallery: configuration, run and figure of each.
+GALLERY := tracker_over_tilt/tracker-over-tilt/critical-speed bridge_deck/bridge-deck/growth-rate \
+	goland_wing/goland-wing/growth-rate plate_over_incidence/plate-over-incidence/modes-over-speed
+gallery: drawing
+	@for words in $(GALLERY); do set -- $$(echo $$words | tr / ' '); \
+		$(SNAKEMAKE) --configfile config/examples/$$1.yaml -- results/$$2/comparison/critical_speed.csv \
+			results/$$2/figures/$$3.png || exit 1; \
+		cp results/$$2/figures/$$3.png docs/gallery/$$2.png; \
+	done
 
 bench: $(ENV)/test
 	$(BIN)/python -m tests.benchmarks
