@@ -106,14 +106,15 @@ drawing: $(ENV)/run
 	$(BIN)/python docs/drawings/beam_and_section.py docs/beam-and-section.svg
 	$(BIN)/python docs/drawings/examples.py docs/gallery
 
-# Pictures of the gallery: configuration, run and figure of each.
-GALLERY := tracker_over_tilt/tracker-over-tilt/critical-speed bridge_deck/bridge-deck/growth-rate \
-	goland_wing/goland-wing/growth-rate plate_over_incidence/plate-over-incidence/modes-over-speed
+# Pictures of the gallery: configuration, figure and place in docs/ of each.
+GALLERY := tracker_over_tilt,tracker-over-tilt/figures/critical-speed,gallery/tracker \
+	bridge_deck,bridge-deck/figures/growth-rate,gallery/bridge \
+	goland_wing,goland-wing/figures/growth-rate,gallery/wing \
+	plate_over_incidence,plate-over-incidence/figures/critical-speed,critical-speed-over-incidence
 gallery: drawing
-	@for words in $(GALLERY); do set -- $$(echo $$words | tr / ' '); \
-		$(SNAKEMAKE) --configfile config/examples/$$1.yaml -- results/$$2/comparison/critical_speed.csv \
-			results/$$2/figures/$$3.png || exit 1; \
-		cp results/$$2/figures/$$3.png docs/gallery/$$2.png; \
+	@for words in $(GALLERY); do set -- $$(echo $$words | tr , ' '); \
+		$(SNAKEMAKE) --configfile config/examples/$$1.yaml -- results/$$2.png && \
+		cp results/$$2.png docs/$$3.png || exit 1; \
 	done
 
 bench: $(ENV)/test
