@@ -278,6 +278,15 @@ def polar_of_learnt(name):
     return {polar: f"{RESULTS}/steady/{polar}.nc"}
 
 
+def polars_of_learnt():
+    """Return the polars that the learnt models of the run have as their steady parts."""
+    return {
+        name: path
+        for model in CONFIG.sweep.models
+        for name, path in polar_of_learnt(model).items()
+    }
+
+
 def learnt_before_round(wildcards):
     """Return the files that a round of learning decides on."""
     return learnt_from(wildcards.model, plan.batches_before(wildcards.batch))
@@ -451,3 +460,19 @@ def comparison_files():
 def table_files():
     """Return the tables of the steady cases."""
     return [*grid_study_of_section(), *bubble_of_section()]
+
+
+def files_of_run():
+    """Return every figure, table and comparison of the run, and every result behind them."""
+    return [
+        f"{RESULTS}/config.resolved.yaml",
+        *structure_files(),
+        *steady_files(),
+        *indices_of_sweep(CONFIG, RESULTS),
+        *learnt_models(),
+        *comparison_files(),
+        *derivative_files(),
+        *figure_files(),
+        *table_files(),
+        *FURTHER_FILES,
+    ]
