@@ -14,6 +14,7 @@ project = "equisection"
 author = "the equisection authors"
 release = equisection.__version__
 extensions = ["myst_parser", "mathml"]
+highlight_language = "text"
 html_math_renderer = "mathml"
 myst_fence_as_directive = ["math"]
 root_doc = "docs/index"

@@ -19,7 +19,7 @@ from equisection.analysis import exported
 from equisection.beam.section import QUANTITIES, Section
 from equisection.io.polar_columns import COLUMNS
 from equisection.results.modes_dataset import modes_to_dataset
-from equisection.results.netcdf import write_dataset
+from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.run.command_line import EXPORTS, main
 from equisection.structure.mode_set import ModeSet
 
@@ -137,6 +137,37 @@ def test_everything_is_written_and_reads_back(
     kept = pd.read_csv(run / "derivatives" / "2d.csv", comment="#")
     pd.testing.assert_frame_equal(pd.DataFrame(derivatives["columns"]), kept)
     assert "convention: Scanlan" in derivatives["convention"]
+
+
+def test_half_polar_of_a_symmetric_section_gets_its_other_half(run: Path, tmp_path: Path) -> None:
+    """OpenFAST looks for the attached flow on both sides of zero lift."""
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    half = read_dataset(copy / "steady" / "polar_2d.nc")
+    half["incidence_deg"] = [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
+    half["cl"][0], half["cm"][0] = [0.0, 0.3, 0.5, 0.6, 0.65, np.nan], 0.0
+    write_dataset(copy / "steady" / "polar_2d.nc", half)
+    assert main(["export", str(copy), "--only", "openfast"]) == 0
+    table = copy / "export" / "ua_airfoil.dat"
+    assert "! Negative angles by symmetry." in table.read_text()
+    whole = Polar.read(table, symmetric=False)
+    np.testing.assert_allclose(np.degrees(whole.incidence), [-8, -6, -4, -2, 0, 2, 4, 6, 8])
+    np.testing.assert_allclose(whole.lift, -whole.lift[::-1])
+
+
+def test_polar_of_too_few_incidences_says_so(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    few = read_dataset(copy / "steady" / "polar_2d.nc").isel(incidence_deg=slice(3))
+    write_dataset(copy / "steady" / "polar_2d.nc", few)
+    assert main(["export", str(copy), "--only", "polars", "--only", "openfast"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert len(said) == 2
+    assert all(
+        line.startswith("left out") and "3 incidences with a result" in line for line in said
+    )
 
 
 def test_start_of_the_driver_is_that_of_the_section(run: Path, tmp_path: Path) -> None:

@@ -23,11 +23,10 @@ from equisection.beam.section import QUANTITIES, Section
 from equisection.errors import ResultFileError
 from equisection.files import write_text
 from equisection.io.aerodyn_polar import aerodyn_text
-from equisection.io.polar_columns import COLUMNS
 from equisection.io.ua_driver import DriverSection, ua_driver_text
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
-from equisection.results.polar_dataset import at_resolution, polar_at
+from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import no_section, section_from_dataset
 
 
@@ -136,25 +135,39 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
 def _polars(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write each steady polar as an airfoil table of AeroDyn."""
     for dimension, whose in (("2d", "section"), ("3d", "beam")):
-        polar = run.read(f"steady/polar_{dimension}.nc")
-        if polar is None:
-            continue
-        for resolution in map(str, polar["resolution"].values):
+        data = run.read(f"steady/polar_{dimension}.nc")
+        holds = f"polar of the {whose}, airfoil table of AeroDyn"
+        for resolution in [] if data is None else map(str, data["resolution"].values):
             name = f"polar_{dimension}_{resolution}.dat"
-            text = _table(run, polar, resolution)
-            yield run.wrote("polars", name, text, f"polar of the {whose}, airfoil table of AeroDyn")
+            try:
+                yield run.wrote("polars", name, _table(run, data, resolution), holds)
+            except ResultFileError as error:
+                yield ExportedFile("polars", run.to / name, holds, str(error))
 
 
-def _table(run: _ExportedRun, polar: xr.Dataset, resolution: str, *, unsteady: bool = False) -> str:
-    chosen = at_resolution(polar, resolution)
-    values = np.stack([chosen[name].values for name in COLUMNS], axis=1)
-    there = values[np.isfinite(values).all(axis=1)]
+def _table(
+    run: _ExportedRun, data: xr.Dataset | None, resolution: str, *, unsteady: bool = False
+) -> str:
+    """Return an airfoil table; the half polar of a symmetric section gets its other half.
+
+    Raises
+    ------
+    ResultFileError
+        Too few incidences have a result.
+    """
+    if data is None:
+        raise ResultFileError("the run has no steady polar of the section yet")
+    given = polar_at(data, resolution)
+    whole = given.continued
     comments = [
-        f"{polar.attrs[f'solver_{resolution}']}.",
+        f"{given.label}.",
         f"Written by 'equisection export' from the run {run.configuration['run']}; the Reynolds "
         "number is that of its flow.",
     ]
-    return aerodyn_text(there.tolist(), run.reynolds_number, comments, unsteady=unsteady)
+    if whole is not given:
+        comments.append("Negative angles by symmetry.")
+    points = np.stack([np.degrees(whole.incidence), whole.lift, whole.moment, whole.drag], axis=1)
+    return aerodyn_text(points.tolist(), run.reynolds_number, comments, unsteady=unsteady)
 
 
 def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
@@ -273,24 +286,22 @@ _AIRFOIL = "ua_airfoil.dat"
 
 def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write the section as input of OpenFAST's unsteady-aerodynamics driver, with its airfoil."""
-    polar = run.read("steady/polar_2d.nc")
     sections = _sections(run)
-    if not sections or polar is None or run.resolution not in polar["resolution"].values:
+    if not sections:
         return
-    yield run.wrote(
-        "openfast",
-        _AIRFOIL,
-        _table(run, polar, run.resolution, unsteady=True),
-        "airfoil table of the driver",
-    )
+    kind, holds = "openfast", "airfoil table of the driver"
+    try:
+        polar = run.read("steady/polar_2d.nc")
+        table = _table(run, polar, run.resolution, unsteady=True)
+    except ResultFileError as error:
+        yield ExportedFile(kind, run.to / _AIRFOIL, holds, str(error))
+        return
+    yield run.wrote(kind, _AIRFOIL, table, holds)
     for reduction, section in sections.items():
         title = f"{run.configuration['run']}: equivalent section, {reduction} reduction"
-        yield run.wrote(
-            "openfast",
-            f"ua_{reduction}.dvr",
-            ua_driver_text(_driver_section(run, section), title),
-            f"section of the {reduction} reduction, UnsteadyAero_Driver",
-        )
+        text = ua_driver_text(_driver_section(run, section), title)
+        holds = f"section of the {reduction} reduction, UnsteadyAero_Driver"
+        yield run.wrote(kind, f"ua_{reduction}.dvr", text, holds)
 
 
 def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
