@@ -144,7 +144,8 @@ def test_half_polar_of_a_symmetric_section_gets_its_other_half(run: Path, tmp_pa
     copy = tmp_path / "run"
     shutil.copytree(run, copy)
     half = read_dataset(copy / "steady" / "polar_2d.nc")
-    half["incidence_deg"] = [0.0, 2.0, 4.0, 6.0, 8.0, 10.0]
+    angles = half["incidence_deg"]
+    half = half.assign_coords(incidence_deg=angles.copy(data=angles.values + 2.0))
     half["cl"][0], half["cm"][0] = [0.0, 0.3, 0.5, 0.6, 0.65, np.nan], 0.0
     write_dataset(copy / "steady" / "polar_2d.nc", half)
     assert main(["export", str(copy), "--only", "openfast"]) == 0
