@@ -312,15 +312,6 @@ MALFORMED = [
         "allowed with sweep.onset 'model' is 'rigid'",
     ),
     (
-        {
-            "sweep": {"onset": "model", "models": ["2d", "3d"]},
-            "unsteady": {"start": {"twist_deg": 0.2}},
-        },
-        "sweep.models",
-        "['2d', '3d']",
-        "models without 3d",
-    ),
-    (
         {"sweep": {"onset": "refine", "k_star": [3]}},
         "sweep.k_star",
         "[3",
