@@ -19,7 +19,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run report paper validation cost identification cost-model status verify test lint docs drawing bench openfoam slurm clean
+.PHONY: run report paper validation cost identification cost-model status verify test lint docs drawing bench openfoam slurm chromium clean
 
 run: $(ENV)/run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && echo "$(SNAKEMAKE)" && $(SNAKEMAKE) && printf '%s\n' '' \
@@ -28,9 +28,9 @@ run: $(ENV)/run
 		"report:     make report$(if $(CONFIG), CONFIG=$(CONFIG)) writes $$folder/report.html" \
 		"each run:   $(BIN)/equisection status $$folder"
 
-report: run
-	@folder=$$($(BIN)/equisection folder $(CONFIG)) && \
-	$(SNAKEMAKE) --report $$folder/report.html && echo "report: $$folder/report.html"
+report: $(ENV)/report
+	@folder=$$($(BIN)/equisection folder $(CONFIG)) && $(SNAKEMAKE) -- report_page && \
+		echo "report: $$folder/report.html"
 
 paper: $(ENV)/run
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER_FROM_$(FROM)) \
@@ -42,6 +42,7 @@ paper: $(ENV)/run
 		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml config/paper/reductions-modal.yaml \
 		--config $(PAPER_FROM_$(FROM)) -- $(PAPER_REDUCTIONS)-modal/figures/section-and-beam.png
+	$(BIN)/python -m equisection.paper.mesh_convergence
 	$(BIN)/python -m equisection.paper.claims_page
 	cp results/paper-figures/figures/fig16-response.png results/paper-figures/figures/growth-rate.png \
 		$(PAPER_REDUCTIONS)/figures/section-and-beam.png docs/
@@ -124,6 +125,16 @@ slurm: $(ENV)/slurm/installed
 	as_root=$$([ $$(id -u) -eq 0 ] || echo sudo); \
 	$$as_root apt-get update --quiet && $$as_root apt-get install --quiet --yes slurm-wlm munge libpmix-dev
 
+# A browser, in which the tests look at the report; Debian and Ubuntu, as root or with sudo.
+chromium:
+	@for name in chromium chromium-browser google-chrome; do \
+		command -v $$name >/dev/null && { echo "Chromium is there: $$(command -v $$name)"; exit 0; }; \
+	done; \
+	command -v apt-get >/dev/null || \
+		{ echo "error: no apt-get here; install Chromium by hand" >&2; exit 1; }; \
+	as_root=$$([ $$(id -u) -eq 0 ] || echo sudo); \
+	$$as_root apt-get update --quiet && $$as_root apt-get install --quiet --yes chromium
+
 clean:
 	find results -mindepth 1 -maxdepth 1 ! -name reference -exec rm -rf {} +
 	rm -rf .snakemake .sphinx site
@@ -139,12 +150,16 @@ $(ENV)/run: $(ENV)/python-is-new-enough envs/constraints.txt pyproject.toml
 	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable .
 	@touch $@
 
+$(ENV)/report: $(ENV)/run
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[report]'
+	@touch $@
+
 $(ENV)/openfoam: $(ENV)/run
 	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[openfoam]'
 	@touch $@
 
 $(ENV)/test: $(ENV)/run
-	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[test,openfoam]'
+	$(BIN)/python -m pip install --quiet --constraint envs/constraints.txt --editable '.[test,openfoam,report]'
 	@touch $@
 
 $(ENV)/docs: $(ENV)/run

@@ -38,6 +38,7 @@ ROOMS = (
     "analysis",
     "figures",
     "run",
+    "report",
     "validation",
     "paper",
 )

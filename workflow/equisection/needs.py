@@ -26,6 +26,7 @@ MODULES = (
     "shtab",
     "pygments",
     "jinja2",
+    "docutils",
 )
 #: Where this package is, in a clone of the project or installed without one.
 _PROJECT = Path(__file__).resolve().parents[2]

@@ -460,3 +460,19 @@ def comparison_files():
 def table_files():
     """Return the tables of the steady cases."""
     return [*grid_study_of_section(), *bubble_of_section()]
+
+
+def files_of_run():
+    """Return every figure, table and comparison of the run, and every result behind them."""
+    return [
+        f"{RESULTS}/config.resolved.yaml",
+        *structure_files(),
+        *steady_files(),
+        *indices_of_sweep(CONFIG, RESULTS),
+        *learnt_models(),
+        *comparison_files(),
+        *derivative_files(),
+        *figure_files(),
+        *table_files(),
+        *FURTHER_FILES,
+    ]

@@ -70,18 +70,21 @@ class Answer:
 
     def lines(self) -> Iterator[str]:
         """Yield the answer, a line each: speed, mechanism, margin, how sure, other models."""
+        return (f"{name:<15} {words}" for name, words in self.parts())
+
+    def parts(self) -> Iterator[tuple[str, str]]:
+        """Yield the name and the words of each line."""
         is_open = self.chosen["speed"] is None and self.chosen["speed_low"] is None
         lower = is_open and self.chosen["speed_high"] is not None
         hint = "; run lower speeds to find it" if lower else ""
-        yield f"critical speed  {_speed(self.chosen)}{self._incidence()}{hint}"
-        yield f"mechanism       {_mechanism(self.chosen)}"
-        yield f"margin          {self._margin()}"
-        yield f"how sure        {_sure(self.chosen)}"
+        yield "critical speed", f"{_speed(self.chosen)}{self._incidence()}{hint}"
+        yield "mechanism", _mechanism(self.chosen)
+        yield "margin", self._margin()
+        yield "how sure", _sure(self.chosen)
         others = [row for row in self.rows if self._is_another_there(row)]
         if others:
-            yield "others          " + "; ".join(
-                f"{row['model']} {_speed(row)} ({row['basis']})" for row in others
-            )
+            words = (f"{row['model']} {_speed(row)} ({row['basis']})" for row in others)
+            yield "others", "; ".join(words)
 
     def as_json(self) -> str:
         """Return run, the line that answers, and all lines of the table as JSON."""
