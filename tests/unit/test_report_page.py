@@ -175,7 +175,7 @@ def test_without_plotly_the_page_says_how_to_get_the_map(
 def test_what_cannot_be_read_or_written_is_named(tmp_path: Path) -> None:
     run = Run(tmp_path)
     parts: dict[str, Any] = {"tables": [], "map_files": None, "config_text": ""}
-    with pytest.raises(EmbeddingError, match="gone.png: cannot be read"):
+    with pytest.raises(EmbeddingError, match=r"gone\.png: cannot be read"):
         write_report(
             tmp_path / "a.html", run.folder, figures=[shown(tmp_path / "gone.png")], **parts
         )
