@@ -35,7 +35,7 @@ for end, wanted in zip(ends, (3, 4)):
 os.execv(sys.argv[3], sys.argv[3:])
 """
 #: Seconds that an answer may take; the machine may be busy.
-_PATIENCE = 120.0
+_PATIENCE = 300.0
 
 
 def program() -> str | None:

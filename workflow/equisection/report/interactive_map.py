@@ -60,7 +60,7 @@ def interactive_map(
 def _figure(one: xr.Dataset, stability: pd.DataFrame, design_speed: float | None) -> Any:
     figure = graph_objects.Figure(layout=_layout())
     if np.isfinite(one["growth_rate"].values).any():
-        figure.add_trace(_growth(one))
+        figure.add_traces(_growth(one))
     figure.add_traces(_critical_speeds(one, _rows_of(one, stability)))
     if design_speed is not None:
         ends = one["incidence_deg"].values[[0, -1]]
@@ -83,10 +83,9 @@ def _layout() -> dict[str, Any]:
         "height": _HEIGHT,
         "margin": {"l": 60, "r": 10, "t": 10, "b": 60},
         "xaxis": {**axis, "title": {"text": "incidence (deg)"}},
-        "yaxis": {**axis, "title": {"text": "speed (m/s)"}, "rangemode": "tozero"},
+        "yaxis": {**axis, "title": {"text": "speed (m/s)"}},
         "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0},
         "hoverlabel": {"align": "left"},
-        "plot_bgcolor": LIGHT_GREY,  # where there is no equilibrium to be stable or not
     }
 
 
@@ -97,23 +96,42 @@ def _rows_of(one: xr.Dataset, stability: pd.DataFrame) -> pd.DataFrame:
     return by_angle.reindex(one["incidence_deg"].values.round(6))
 
 
-def _growth(one: xr.Dataset) -> Any:
-    """Return the growth rate of the least stable motion as colours, white where it is nil."""
+def _growth(one: xr.Dataset) -> list[Any]:
+    """Return the growth rate of the least stable motion as colours, white where it is nil.
+
+    Where there is no equilibrium to be stable or not, the colour is grey.
+    """
     growth = one["growth_rate"].transpose("speed", "incidence_deg").values
     sizes = np.abs(growth[np.isfinite(growth)])
     strong = float(np.percentile(sizes, _STRONG)) or 1.0
-    return graph_objects.Heatmap(
-        x=one["incidence_deg"].values,
-        y=one["speed"].values,
+    place = {
+        "x": one["incidence_deg"].values,
+        "y": one["speed"].values,
+        "text": _words_of_points(one),
+        "hovertemplate": "%{text}<extra></extra>",
+        "hoverongaps": False,
+    }
+    coloured = graph_objects.Heatmap(
+        **place,
         z=growth,
         zmin=-strong,
         zmax=strong,
         colorscale=[[0.0, BLUE], [0.5, "#FFFFFF"], [1.0, VERMILLION]],
         colorbar={"title": {"text": "growth (1/s)", "side": "right"}, "thickness": 12},
-        text=_words_of_points(one),
-        hovertemplate="%{text}<extra></extra>",
         name="growth",
     )
+    lost = np.isnan(growth)
+    if not lost.any():
+        return [coloured]
+    grey = [[0.0, LIGHT_GREY], [1.0, LIGHT_GREY]]
+    without = graph_objects.Heatmap(
+        **place,
+        z=np.where(lost, 1.0, np.nan),
+        colorscale=grey,
+        showscale=False,
+        name="no static equilibrium",
+    )
+    return [without, coloured]
 
 
 def _words_of_points(one: xr.Dataset) -> list[list[str]]:
