@@ -54,12 +54,12 @@ def stability_map() -> xr.Dataset:
 
 @pytest.fixture(scope="module")
 def stability(stability_map: xr.Dataset) -> pd.DataFrame:
-    """Critical speeds of the map, known to 2 m/s of those of the section."""
+    """Critical speeds of the map, known to 2 m/s of those of the section, one open above."""
     speed = stability_map["critical_speed"].to_dataframe().reset_index()
     speed = speed[["model", "incidence_deg", "critical_speed"]]
     return speed.rename(columns={"critical_speed": "speed"}).assign(
         speed_from=lambda table: table["speed"] - 2.0,
-        speed_to=lambda table: table["speed"] + 2.0,
+        speed_to=lambda table: [*table["speed"][:1] + 2.0, np.inf, *table["speed"][2:]],
         margin=lambda table: table["speed"] / DESIGN_SPEED,
     )
 
@@ -126,6 +126,11 @@ def test_colour_of_the_map_changes_at_the_critical_speed(
     words = section["figure"]["data"][0]["text"]
     assert "stable" in words[0][0]
     assert "flutter" in words[first][column]
+    assert [one["name"] for one in section["figure"]["data"]][1:] == [
+        "critical speed and its interval",
+        "interval is open above",
+        "design speed",
+    ]
     assert [one["name"] for one in beam["figure"]["data"]] == ["critical speed", "design speed"]
 
 
@@ -231,7 +236,7 @@ def test_wide_window_shows_answer_map_and_figures(
         "document.querySelectorAll('#map .heatmaplayer image, #map .scatterlayer .trace').length"
     )
     assert chromium.value("document.getElementById('map-model').selectedOptions[0].label") == "2D"
-    assert chromium.value(drawn) == 3
+    assert chromium.value(drawn) == 4
     chromium.value("document.getElementById('stability').scrollIntoView()")
     seen = red_less_blue(chromium.picture(tmp_path / "wide.png"))
     assert np.mean(seen > 0.2) > 0.05  # it grows at high speeds,

@@ -165,8 +165,10 @@ def _critical_speeds(one: xr.Dataset, rows: pd.DataFrame) -> list[Any]:
     angle, speed = one["incidence_deg"].values, one["critical_speed"].values
     # of models that were learnt at these incidences alone nothing is known in between
     joined = one.attrs["basis"] != "model"
-    ends = [rows[name].to_numpy(dtype=np.float64) for name in ("speed_from", "speed_to")]
-    below, above = speed - ends[0], ends[1] - speed
+    low, high = (rows[name].to_numpy(dtype=np.float64) for name in ("speed_from", "speed_to"))
+    top = float(np.nanmax([*one["speed"].values, *speed]))
+    opened = np.isinf(high) & np.isfinite(speed)
+    below, above = speed - low, np.where(opened, top, high) - speed
     found = graph_objects.Scatter(
         x=angle,
         y=speed,
@@ -196,24 +198,27 @@ def _critical_speeds(one: xr.Dataset, rows: pd.DataFrame) -> list[Any]:
         name="critical speed and its interval" if np.isfinite(below).any() else "critical speed",
     )
     stable = np.isnan(speed) & np.isfinite(one["speed_low"].values)
-    if not stable.any():
-        return [found]
-    low = one["speed_low"].values[stable]
-    return [
-        found,
-        graph_objects.Scatter(
-            x=angle[stable],
-            y=low,
-            mode="markers",
-            marker={"symbol": "arrow-bar-up", "size": 12, "color": BLACK},
-            hovertemplate="stable up to %{y:.4g} m/s at %{x:g} deg<extra></extra>",
-            name="stable up to here",
-        ),
-    ]
+    marks = (
+        (opened, np.full(angle.size, top), "triangle-up", "interval is open above"),
+        (stable, one["speed_low"].values, "arrow-bar-up", "stable up to here"),
+    )
+    return [found, *(_marks(angle[at], y[at], *look) for at, y, *look in marks if at.any())]
+
+
+def _marks(angle: Floats, speed: Floats, symbol: str, name: str) -> Any:
+    """Return marks of one kind."""
+    return graph_objects.Scatter(
+        x=angle,
+        y=speed,
+        mode="markers",
+        marker={"symbol": symbol, "size": 12, "color": BLACK},
+        hovertemplate=f"{name}: %{{y:.4g}} m/s at %{{x:g}} deg<extra></extra>",
+        name=name,
+    )
 
 
 def _bars(length: Floats) -> list[float]:
-    """Return lengths of error bars, nil where they are open or not known."""
+    """Return lengths of error bars, nil where they are not known."""
     return [float(one) if np.isfinite(one) and one > 0.0 else 0.0 for one in length]
 
 
