@@ -42,6 +42,7 @@ paper: $(ENV)/run
 		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml config/paper/reductions-modal.yaml \
 		--config $(PAPER_FROM_$(FROM)) -- $(PAPER_REDUCTIONS)-modal/figures/section-and-beam.png
+	$(BIN)/python -m equisection.paper.mesh_convergence
 	$(BIN)/python -m equisection.paper.claims_page
 	cp results/paper-figures/figures/fig16-response.png results/paper-figures/figures/growth-rate.png \
 		$(PAPER_REDUCTIONS)/figures/section-and-beam.png docs/

@@ -1,7 +1,11 @@
 """Correct the section's loads for the finite beam (Eq. 20)."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
+from equisection.aerodynamics.polar import Polar
+from equisection.io.polar_rows import MID_CHORD
+from equisection.reduction.carried_beam import beam_carried_over
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.correction_dataset import factors_to_dataset
 from equisection.results.modes_dataset import modes_from_dataset
@@ -11,18 +15,35 @@ from equisection.run.script import logged
 
 
 def main(
-    polar_2d: Path, polar_3d: Path, resolution: str, output: Path, modes: Path | None = None
+    polar_2d: Path,
+    polar_3d: Path,
+    resolution: str,
+    output: Path,
+    *,
+    modes: Path | None = None,
+    section_of_beam: Path | None = None,
 ) -> None:
     """Divide the section's coefficients by the beam's, at the run's resolution.
 
-    With modes the beam's coefficients are the loads on these (:mod:`.modal_load`).
+    With modes the beam's coefficients are the loads on these (:mod:`.modal_load`). With the polar
+    of another section, that of the beam, their ratio is kept (:mod:`.carried_beam`).
     """
     weights = None if modes is None else modes_from_dataset(read_dataset(modes))
     section = polar_at(read_dataset(polar_2d), resolution)
     beam = polar_at(read_dataset(polar_3d), resolution, weights)
+    if section_of_beam is not None:
+        belongs = Polar.read(section_of_beam, symmetric=False, moment_axis=MID_CHORD)
+        beam = beam_carried_over(section, CorrectionFactors(belongs, beam))
     factors = factors_to_dataset(CorrectionFactors(section, beam))
     correction = "mean" if modes is None else "modal"
     write_dataset(output, factors.assign_attrs(correction=correction))
+
+
+def _only(files: Sequence[str] | str) -> Path | None:
+    """Return the one file of an input that may have none."""
+    if not files:
+        return None
+    return Path(files if isinstance(files, str) else files[0])
 
 
 if __name__ == "__main__":
@@ -32,5 +53,6 @@ if __name__ == "__main__":
             Path(snakemake.input.polar_3d),
             snakemake.params.resolution,
             Path(snakemake.output[0]),
-            Path(snakemake.input.modes) if snakemake.input.modes else None,
+            modes=_only(snakemake.input.modes),
+            section_of_beam=_only(snakemake.input.section_of_beam),
         )

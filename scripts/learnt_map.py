@@ -26,8 +26,8 @@ def main(
 ) -> None:
     """Write the map and the critical speeds.
 
-    ``files`` are ``equivalent``, ``polar_2d`` and, of corrected models, ``correction``; ``learnt``
-    are the models, by their folders.
+    ``files`` are ``equivalent``, ``polar_2d`` of sections, ``correction`` of corrected ones, and
+    ``modes`` with ``polar_3d`` of beams; ``learnt`` are the models, by their folders.
     """
     config = load_config(raw_config)
     chord = config.beam.chord
@@ -38,8 +38,7 @@ def main(
         own = [read_dataset(path) for path in learnt if path.parent.name == name]
         lines += learnt_lines(lessons, own, given, speeds_of_map(config, given))
     table = stability_of_learnt(lines, chord=chord, design_speed=config.flow.design_speed)
-    polar = lines[0].lessons.polar.label
-    write_dataset(stability_map, map_of_learnt(lines, table, chord=chord, polar=polar))
+    write_dataset(stability_map, map_of_learnt(lines, table, chord=chord))
     for row in table.to_dict("records"):
         logging.getLogger(__name__).info(
             "%s at %g deg (%s): %s %.4g m/s [%.4g, %.4g]; %s; %s",
@@ -63,7 +62,7 @@ if __name__ == "__main__":
             snakemake.params.config,
             {
                 name: str(snakemake.input[name])
-                for name in ("equivalent", "polar_2d", "correction")
+                for name in ("equivalent", "polar_2d", "correction", "modes", "polar_3d")
                 if name in snakemake.input.keys()  # noqa: SIM118 - these are no mapping
             },
             [Path(path) for path in snakemake.input.learnt],

@@ -4,8 +4,8 @@
 
 The free section is an oscillator under loads that its motion damps. Rows and states are written
 piece by piece, so that a kill leaves what kills leave. ``STAND_IN_FAULT`` names what
-goes wrong, ``STAND_IN_SOFTEST`` the torsional stiffness k*/2 below which it does, ``STAND_IN_PACE``
-the seconds of a time step, ``STAND_IN_WRONG_FROM`` the time of the fault.
+goes wrong, ``STAND_IN_SOFTEST`` the torsional stiffness k*/2 below which it does,
+``STAND_IN_WRONG_FROM`` the time of the fault.
 
 ``STAND_IN_HOLD``, as ``pimpleFoam:17:/tmp/held``, holds the program behind the 17th piece that it
 writes: half a row, or half a state. It writes its number to the file and waits to be killed, or for
@@ -39,7 +39,6 @@ FOAM exiting
 FAULT = os.environ.get("STAND_IN_FAULT", "")
 #: Time (c/V) from which a fault is due.
 WRONG_FROM = float(os.environ.get("STAND_IN_WRONG_FROM", "7"))
-PACE = float(os.environ.get("STAND_IN_PACE", "0"))
 HOLD = os.environ.get("STAND_IN_HOLD", "::").split(":", 2)
 #: Pieces that have been written.
 written = itertools.count(1)
@@ -105,7 +104,6 @@ def free() -> None:
         row(loads, now, f"0.05 {seen!r} {moment + 0.05 * motion['lift']!r}")
         row(places, now, f"(0 {motion['lift']!r} 0) (0 0 {-motion['twist']!r})")
         say("ExecutionTime = 0 s\n")
-        time.sleep(PACE)
         stop = Path("stop").exists()
         if number % states == 0 or stop:
             write_state(now, motion)
@@ -195,7 +193,6 @@ def write(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("w") as opened:
         pieces(opened, text)
-        time.sleep(PACE)
 
 
 def say(text: str) -> None:

@@ -1,31 +1,15 @@
-"""Processes that a test has to find, since it did not start them itself."""
+"""Processes that a test waits for: by what they do, and not by the clock."""
 
-import contextlib
 import time
 from collections.abc import Callable
-from pathlib import Path
 
-import psutil
-
-
-def process_in(folder: Path, seconds: float = 30.0) -> psutil.Process:
-    """Return the process that runs in a folder, for instance the solver of a case, once it does.
-
-    Its log may be there before it is.
-    """
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        for process in psutil.process_iter():
-            with contextlib.suppress(psutil.Error):
-                if Path(process.cwd()) == folder:
-                    return process
-        time.sleep(0.02)
-    raise AssertionError(f"nothing runs in {folder} within {seconds:g} s")
+#: Seconds after which what is waited for will not come any more, on a machine that is busy too.
+LONG = 600.0
 
 
-def wait_until(condition: Callable[[], object], seconds: float) -> None:
+def wait_until(condition: Callable[[], object]) -> None:
     """Wait for a condition."""
-    end = time.monotonic() + seconds
+    end = time.monotonic() + LONG
     while not condition():
-        assert time.monotonic() < end, f"not within {seconds:g} s"
-        time.sleep(0.1)
+        assert time.monotonic() < end, f"not within {LONG:g} s"
+        time.sleep(0.05)

@@ -18,6 +18,7 @@ for variable in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"):
 
 from tests.benchmarks import (  # noqa: E402
     beam_growth,
+    busy,
     campaign,
     checking,
     default_run,
@@ -44,6 +45,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "campaign": campaign.rows,
     "checking": checking.rows,
     "beam-growth": beam_growth.rows,
+    "busy": busy.rows,
     "default-run": default_run.rows,
     "early-verdict": early_verdict.rows,
     "flips": flips.rows,

@@ -1,10 +1,13 @@
-"""Meshes of random polygons: how many are sound, and what they cost.
+"""Meshes of outlines: how many of random polygons are sound, what they cost, how far to trust them.
 
-Every polygon without a sound mesh is named on the error output, with the reason.
+Random polygons; the outlines of the examples at rest, and turned by 10 deg half a chord up; the
+rectangle of the paper on its three meshes; and the time that an airfoil takes from its digits to a
+verdict. Every polygon without a sound mesh is named on the error output, with the reason.
 """
 
 from __future__ import annotations
 
+import math
 import re
 import resource
 import sys
@@ -15,15 +18,25 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from equisection.beam.outline import outline_of, placed
+from equisection.beam.outline import Outline, outline_of, placed
 from equisection.errors import EquisectionError
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.dictionaries import control, write_system
 from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
+from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.mesh.outline_mesh import LOG, OutlineMesh
-from equisection.solvers.openfoam.section.rigid_section import check_mesh
-from tests.benchmarks.measure import Row, limit, processor_seconds
+from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.solvers.openfoam.section.rigid_section import (
+    check_mesh,
+    outline_mesh_of,
+    rigid_loads,
+)
+from tests.benchmarks.measure import Row, limit, measured, processor_seconds
+from tests.sample_cases import STEADY
+from tests.sample_outlines import EXAMPLES, SHAPES
+from tests.watching import nothing
+from tests.workflow.project import ROOT
 
 #: Number of polygons, and of those that are to have a sound mesh.
 POLYGONS, WANTED = 200, 195
@@ -32,6 +45,13 @@ CORNERS, INCIDENCE_DEG = (3, 12), 5.0
 CHANNEL = ChannelBox(0.1, 4.0, 5.0, 15.0)
 #: Processor seconds and megabytes of a mesh, at the most.
 SECONDS, MEGABYTES = 5.0, 400.0
+#: Twist (deg) and deflection (chords) at which the examples' meshes are to be sound.
+TWIST_DEG, DEFLECTION = 10.0, 0.5
+#: Incidence of the rectangle (deg), and the range of its loads over the meshes (%), at the most.
+RECTANGLE_DEG, RANGE = 2.5, 1.0
+#: Test that leads an airfoil from its digits to a verdict, and the seconds that it may take.
+TO_VERDICT = "tests/openfoam/test_outline.py::test_airfoil_from_digits_to_verdict"
+VERDICT_SECONDS = 90.0
 
 
 def random_polygon(generator: np.random.Generator) -> NDArray[np.float64]:
@@ -45,9 +65,8 @@ def random_polygon(generator: np.random.Generator) -> NDArray[np.float64]:
     return points / points.max(axis=0) * np.array([1.0, height])
 
 
-def cells_of(installation: Installation, points: NDArray[np.float64], folder: Path) -> int:
+def cells_of(installation: Installation, outline: Outline, folder: Path) -> int:
     """Return the number of cells of a mesh that ``checkMesh`` finds sound."""
-    outline = outline_of(placed(points))
     OutlineMesh(outline.as_pairs(), CHANNEL, np.radians(INCIDENCE_DEG), 1.0).write(folder)
     entries = control("simpleFoam", 1, 1, 1)
     write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
@@ -58,15 +77,67 @@ def cells_of(installation: Installation, points: NDArray[np.float64], folder: Pa
 
 
 def rows(polygons: int = POLYGONS) -> Iterator[Row]:
-    """Yield number of sound meshes, their cells, and what the dearest mesh takes."""
-    generator, installation = np.random.default_rng(1), find()
+    """Yield the rows, those of the random polygons last."""
+    installation = find()
+    yield from _moved(installation)
+    yield from _on_three_meshes(installation)
+    command = [sys.executable, "-m", "pytest", "-q", TO_VERDICT]
+    cost = measured(command, ROOT)
+    yield limit("airfoil from digits to verdict", cost.processor_seconds, VERDICT_SECONDS, "s")
+    yield Row("the same by the clock of this machine", f"{cost.seconds:.3g} s")
+    yield from _random(installation, polygons)
+
+
+def _moved(installation: Installation) -> Iterator[Row]:
+    """Yield whether the examples' meshes are sound at rest and where the section has moved."""
+    for name in EXAMPLES:
+        before = processor_seconds()
+        with tempfile.TemporaryDirectory() as place:
+            rest = Path(place) / "rest"
+            cells = cells_of(installation, SHAPES[name], rest)
+            seconds = processor_seconds() - before
+            moving = MorphingMesh(installation, rest, CHANNEL.height)
+            twist = math.radians(TWIST_DEG)
+            found = moving.along(twist, DEFLECTION, 1, Path(place) / "moved")[-1]
+        yield limit(f"{name}, {cells} cells: mesh and check", seconds, SECONDS, "processor s")
+        yield Row(
+            f"{name}, {TWIST_DEG:g} deg and {DEFLECTION:g} c on",
+            found.faults or f"sound, {found.non_orthogonality_deg:.0f} deg oblique at most",
+            "sound",
+            not found.faults,
+        )
+
+
+def _on_three_meshes(installation: Installation) -> Iterator[Row]:
+    """Yield the loads of the paper's rectangle on three meshes, and their ranges."""
+    case = STEADY.model_copy(update={"incidence_deg": RECTANGLE_DEG})
+    found = []
+    for name in ("coarse", "medium", "fine"):
+        mesh = outline_mesh_of(case, PRESETS[name].refinement)
+        with tempfile.TemporaryDirectory() as place:
+            loads = rigid_loads(
+                installation, case, mesh, Path(place), nothing, coupling=flow.Coupling()
+            )
+        found.append((loads.lift, loads.moment))
+        yield Row(
+            f"rectangle, {RECTANGLE_DEG:g} deg, {name}: c_l, c_m, c_d",
+            f"{loads.lift:.4f}, {loads.moment:.4f}, {loads.drag:.4f}; {loads.method}",
+        )
+    for what, values in zip(("c_l", "c_m"), np.transpose(found), strict=True):
+        apart = 100.0 * float(np.ptp(values) / np.mean(values))
+        yield limit(f"range of {what} over the three", apart, RANGE, "%")
+
+
+def _random(installation: Installation, polygons: int) -> Iterator[Row]:
+    """Yield number of sound meshes of polygons, their cells, and what the dearest mesh takes."""
+    generator = np.random.default_rng(1)
     cells, seconds = [], []
     for number in range(polygons):
         points = random_polygon(generator)
         before = processor_seconds()
         with tempfile.TemporaryDirectory() as place:
             try:
-                cells.append(cells_of(installation, points, Path(place)))
+                cells.append(cells_of(installation, outline_of(placed(points)), Path(place)))
             except EquisectionError as error:
                 print(f"polygon {number}: {error}", file=sys.stderr, flush=True)
         seconds.append(processor_seconds() - before)

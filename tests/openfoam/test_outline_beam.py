@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from foamlib import FoamFile
-from tests.openfoam.test_outline import SHAPES
 from tests.sample_cases import GEOMETRY, STEADY_PLATE, UNSTEADY_PLATE, beam_modes
+from tests.sample_outlines import SHAPES
 from tests.watching import nothing
 
 from equisection.cases import SteadyCase

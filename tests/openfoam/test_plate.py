@@ -428,7 +428,7 @@ def test_solver_ends_with_the_structure_that_is_killed(
     assert Path(f"/proc/{solver}").exists()
     structure.kill()
     structure.wait()
-    wait_until(lambda: not Path(f"/proc/{solver}").exists(), 60)
+    wait_until(lambda: not Path(f"/proc/{solver}").exists())
 
 
 def test_plate_that_diverges_ends_before_it_meets_the_wall(

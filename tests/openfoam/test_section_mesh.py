@@ -17,6 +17,9 @@ from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.block_mesh import Mesh
 from equisection.solvers.openfoam.mesh.near_wall_spacing import (
     DOMAIN,
+    FIRST_LAYER,
+    LAYERS,
+    LAYERS_THICK,
     NEAR_FIELD,
     OFF_WALL,
     WAKE,
@@ -102,6 +105,20 @@ def test_finest_has_the_papers_sizes(installation: Installation, tmp_path: Path)
     at_walls = np.isclose(np.abs(middle[:, 1]), 2.0) & (np.abs(middle[:, 0]) > 4.0)
     assert length[at_walls, 0].max() == pytest.approx(DOMAIN, rel=0.05)
     assert length.max() == pytest.approx(DOMAIN, rel=0.15)
+
+
+def test_five_layers_are_the_papers(installation: Installation, tmp_path: Path) -> None:
+    """Five on each side of the plate, 0.075 c in all, and one size along the walls to the edges."""
+    points, _ = read_cells(made(installation, mesh("five-layers", 0.0), tmp_path))
+    off = np.unique(points[np.isclose(points[:, 0], 0.0) & (points[:, 1] > 0.01), 1]) - 0.02
+    assert off[:2] == pytest.approx([0.0, FIRST_LAYER], abs=1e-6)
+    assert off[LAYERS] == pytest.approx(LAYERS_THICK, abs=1e-6)
+    assert np.diff(off)[LAYERS : LAYERS + 20] == pytest.approx(NEAR_FIELD, rel=0.05)
+    ahead = -0.5 - np.unique(points[np.isclose(points[:, 1], 0.02), 0])
+    assert np.isclose(ahead, LAYERS_THICK, atol=1e-6).sum() == 1
+    on_top = np.unique(points[np.isclose(points[:, 1], 0.02), 0].round(9))
+    on_top = on_top[np.abs(on_top) <= 0.5 + 1e-9]
+    assert np.diff(on_top) == pytest.approx(WALL, rel=1e-6)
 
 
 def test_courant_number_is_that_of_the_stream_far_ahead(

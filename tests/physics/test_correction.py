@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from equisection.aerodynamics.polar import Polar
 from equisection.errors import DivergenceError, IncidenceOutOfRangeError, ReductionError
+from equisection.reduction.carried_beam import beam_carried_over
 from equisection.reduction.correction import CorrectionFactors, corrected_equilibrium
 from equisection.results.correction_dataset import factor_at, factors_to_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -280,3 +281,47 @@ def test_first_of_several_roots_is_taken() -> None:
     crossings = twist[1:][np.diff(np.sign(balance)) != 0]
     assert crossings.size == 3
     assert found.twist_rad[0] == pytest.approx(crossings[0], abs=1e-4)
+
+
+#: Section and plate on equal cells.
+PAIR = CorrectionFactors(
+    Polar.read(POLARS / "plate_2d_3132.csv", symmetric=False),
+    Polar.read(POLARS / "plate_3d_85284.csv", symmetric=False),
+)
+
+
+def test_beam_carried_over_to_its_own_section_is_itself() -> None:
+    """Up to what the solver leaves of zero lift at 0 deg (3.7e-4), which a ratio leaves out."""
+    carried = beam_carried_over(PAIR.section, PAIR)
+    at = np.radians([1.0, 2.5, 4.0, 5.0, 10.0])
+    assert carried.lift_cubic(at) == pytest.approx(PAIR.beam.lift_cubic(at), abs=4e-4)
+    assert carried.moment_cubic(at) == pytest.approx(PAIR.beam.moment_cubic(at), abs=4e-4)
+    assert carried.drag_coefficient(at) == pytest.approx(PAIR.beam.drag_coefficient(at), rel=1e-4)
+
+
+def test_ratio_is_kept_whatever_mesh_does_to_both() -> None:
+    """A section with 1.1 times the lift and 0.9 times the moment has a beam that has them too."""
+    other = scaled(PAIR.section, 1.1, 0.9)
+    factors = CorrectionFactors(other, beam_carried_over(other, PAIR))
+    at = np.radians([0.0, 0.5, 2.5, 4.0, 7.0])
+    assert factors.lift_factor(at) == pytest.approx(PAIR.lift_factor(at), rel=2e-3)
+    assert factors.moment_factor(at) == pytest.approx(PAIR.moment_factor(at), rel=2e-3)
+    pair, own = (corrected_equilibrium(each, THETA_0, 7.0, RATIO) for each in (PAIR, factors))
+    assert own.deflection_chords / pair.deflection_chords == pytest.approx(1.1, rel=0.05)
+    assert own.twist_rad < pair.twist_rad
+
+
+def test_own_ratio_of_lift_is_less_than_that_of_other_cells() -> None:
+    """The excess of lift of a mesh is in section and beam and goes out of the ratio of both."""
+    own = CorrectionFactors(SECTION, beam_carried_over(SECTION, PAIR))
+    mixed = CorrectionFactors(SECTION, Polar.read(POLARS / "paper_plate_3d.csv", symmetric=False))
+    at = np.radians(3.1)
+    assert 1.15 < own.lift_factor(at) < 1.30 < mixed.lift_factor(at)
+    assert own.moment_factor(at) < mixed.moment_factor(at)
+
+
+def test_pair_with_too_few_incidences_in_common_is_refused() -> None:
+    high = Polar(np.radians([5.0, 8, 9, 12]), np.ones(4), np.ones(4), np.ones(4), "high")
+    low = Polar(np.radians([0.5, 1, 2, 6]), np.ones(4), np.ones(4), np.ones(4), "low")
+    with pytest.raises(ReductionError, match=r"at 2 incidences .* steady\.beam_polar_section"):
+        beam_carried_over(low, CorrectionFactors(high, high))

@@ -197,7 +197,7 @@ def test_incidence_without_a_model_says_why_and_the_others_go_on(
     both = stability_of_learnt(lines, chord=CHORD, design_speed=None)
     assert both["note"].tolist() == [table["note"].iloc[0], "too short"]
     assert both["mechanism"].tolist()[1] == "unknown"
-    found = map_of_learnt(lines, both, chord=CHORD, polar="known")
+    found = map_of_learnt(lines, both, chord=CHORD)
     write_dataset(tmp_path / "map.nc", found)  # every variable has units
     assert found.attrs["basis"] == "model"
     growth = found["growth_rate"].sel(model="2d")

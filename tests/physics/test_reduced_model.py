@@ -12,6 +12,8 @@ from equisection.aerodynamics.learnt_loads import LearntLoads, lagged, learn
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.analysis.reduced_model import (
+    ENDS,
+    ends_of_records,
     learnt_model,
     limit_cycles,
     next_release,
@@ -240,8 +242,14 @@ def cut(history: ReferenceHistory, kept: slice | np.ndarray) -> ReferenceHistory
 
 def test_records_that_say_nothing_are_refused_by_name(sweep):
     history = sweep["2d"][6.44]
-    with pytest.raises(ResultFileError, match=r"2d/k6.44: a record of 20 c/V is too short"):
+    with pytest.raises(ResultFileError, match=r"2d/k6.44: a record of 20.1 c/V is too short"):
         learn(cut(history, history.time <= 20.0), POLAR)
+    with pytest.raises(ResultFileError, match=r"34.9 c/V is too short .* 35 c/V or more"):
+        learn(cut(history, history.time < 34.85), POLAR)
+    # a sample stands for its interval: none has to be at the end of 35 c/V
+    learn(cut(history, history.time < 34.95), POLAR)
+    assert ends_of_records(np.arange(0.0, 49.9, 0.2)) == ENDS
+    assert ends_of_records(np.arange(0.0, 49.7, 0.2))[1] == pytest.approx(49.6)
     gap = cut(history, (history.time < 20.0) | (history.time > 22.0))
     with pytest.raises(ResultFileError, match=r"samples are 2.2 c/V apart at s = 19.9"):
         learn(gap, POLAR)

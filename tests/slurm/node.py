@@ -123,7 +123,7 @@ class Node:
         munged = self._daemon(
             "munged", "--foreground", "--force", *(f"--{k}={v}" for k, v in options.items())
         )
-        wait_until((place / "socket").exists, 60)
+        wait_until((place / "socket").exists)
         return munged
 
     def _daemon(self, *command: str) -> subprocess.Popen[bytes]:
@@ -139,7 +139,7 @@ class Node:
     def start_node(self) -> None:
         """Start the node and wait until it takes jobs."""
         self._node = self._daemon("slurmd", "-D", "-N", self.host)
-        wait_until(lambda: self._state() in {"idle", "mixed", "allocated"}, 120)
+        wait_until(lambda: self._state() in {"idle", "mixed", "allocated"})
 
     def lose_node(self) -> None:
         """Take the power from the node: its daemon is gone, and all processes of its jobs.
@@ -189,7 +189,7 @@ class Node:
 
     def running(self) -> str:
         """Wait for a job that runs; return its number."""
-        wait_until(lambda: self.jobs("running"), 180)
+        wait_until(lambda: self.jobs("running"))
         (number, *_) = self.jobs("running")
         return number
 

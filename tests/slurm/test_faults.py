@@ -1,6 +1,6 @@
 """Faults under the scheduler: nothing that was computed is lost, nothing runs twice.
 
-OpenFOAM is a stand-in here, slow enough to be disturbed.
+OpenFOAM is a stand-in here, held at one of its steps to be disturbed.
 """
 
 import json
@@ -13,11 +13,10 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-import psutil
 import pytest
 
 from equisection.results.netcdf import read_dataset
-from tests.processes import process_in, wait_until
+from tests.processes import wait_until
 from tests.slurm.cluster_project import ClusterProject
 from tests.slurm.conftest import RESULT
 from tests.slurm.node import AS_ROOT, Node, said
@@ -25,8 +24,9 @@ from tests.workflow.project import Project, has_nothing_to_do
 
 Begun = Callable[..., tuple[subprocess.Popen[str], str]]
 SUMMARY = "comparison/summary.csv"
-#: Seconds of a time step at which there is time to find the program of a run of 1000 of them.
-SLOW = "0.01"
+#: Piece of the free section's output behind which it is held: it has written its first state, at
+#: 2 c/V or behind 100 steps of four pieces, and gone on to 2.2 c/V.
+PIECE = 470
 
 
 def free_folder(project: Project) -> Path | None:
@@ -34,31 +34,25 @@ def free_folder(project: Project) -> Path | None:
     return next(iter((project.folder / "results" / ".store").glob("*/case0/free")), None)
 
 
-def solver_of(project: Project) -> psutil.Process:
-    """Return the program that runs the free section."""
-    folder = free_folder(project)
-    assert folder is not None
-    return process_in(folder)
-
-
-def can_be_gone_on_with(project: Project) -> bool:
-    """Tell whether the run has written its first state (at 2 c/V) and gone on."""
-    folder = free_folder(project)
-    log = folder / "log.pimpleFoam" if folder else None
-    return log is not None and log.is_file() and "Time = 2.2\n" in log.read_text()
+@pytest.fixture
+def held(tmp_path: Path) -> Path:
+    """File that is there once the free section is held."""
+    return tmp_path / "held"
 
 
 @pytest.fixture
-def begun(case: ClusterProject, node: Node, monkeypatch: pytest.MonkeyPatch) -> Begun:
-    """Start a slow run and return it with the number of its job, held a while into it."""
+def begun(case: ClusterProject, node: Node, held: Path, monkeypatch: pytest.MonkeyPatch) -> Begun:
+    """Start a run and return it with the number of its job, held a while into it."""
 
     def start(*arguments: str) -> tuple[subprocess.Popen[str], str]:
-        monkeypatch.setenv("STAND_IN_PACE", SLOW)
+        monkeypatch.setenv("STAND_IN_HOLD", f"pimpleFoam:{PIECE}:{held}")
         workflow = case.start(*arguments, case.target(RESULT))
-        monkeypatch.delenv("STAND_IN_PACE")
+        monkeypatch.delenv("STAND_IN_HOLD")
         job = node.running()
-        wait_until(lambda: can_be_gone_on_with(case), 180)
-        solver_of(case).suspend()  # or it may come to its end before it is disturbed
+        wait_until(held.exists)
+        folder = free_folder(case)
+        assert folder is not None
+        assert "Time = 2.2\n" in (folder / "log.pimpleFoam").read_text()
         return workflow, job
 
     return start
@@ -118,7 +112,7 @@ def test_case_over_its_time_limit_goes_on_in_a_new_job(
 ) -> None:
     workflow, job = begun()
     subprocess.run(["scontrol", "update", f"JobId={job}", "EndTime=now"], check=True)
-    wait_until(lambda: node.jobs()[job] == "TIMEOUT", 180)
+    wait_until(lambda: node.jobs()[job] == "TIMEOUT")
     ends_well(workflow)
     assert_same_result(case, undisturbed)
     assert [owner["ended"] > 0 for owner in owners(case)] == [False, True]
@@ -131,7 +125,7 @@ def test_case_whose_node_is_lost_goes_on_when_it_returns(
     """SLURM puts the same job into the queue again (`slurm-requeue`)."""
     workflow, job = begun()
     node.lose_node()
-    wait_until(lambda: job not in node.jobs("running"), 180)
+    wait_until(lambda: job not in node.jobs("running"))
     node.start_node()
     ends_well(workflow)
     assert_same_result(case, undisturbed)
@@ -146,7 +140,7 @@ def test_case_that_is_preempted_goes_on_in_the_same_job(
     workflow, job = begun()
     wanted = ("--partition=urgent", "--exclusive", "--output=/dev/null", "--wrap=true")
     urgent = said("sbatch", "--parsable", *wanted).strip()
-    wait_until(lambda: node.jobs().get(urgent) == "COMPLETED", 180)
+    wait_until(lambda: node.jobs().get(urgent) == "COMPLETED")
     ends_well(workflow)
     assert_same_result(case, undisturbed)
     assert [owner["job"] for owner in owners(case)] == [job, job]
@@ -154,7 +148,7 @@ def test_case_that_is_preempted_goes_on_in_the_same_job(
 
 
 def test_job_that_a_killed_workflow_left_is_waited_for(
-    begun: Begun, node: Node, case: ClusterProject, undisturbed: Project
+    begun: Begun, node: Node, case: ClusterProject, undisturbed: Project, held: Path
 ) -> None:
     """The second workflow cannot know of the job, but its own finds the directory owned."""
     workflow, job = begun()
@@ -164,9 +158,9 @@ def test_job_that_a_killed_workflow_left_is_waited_for(
     workflow = case.start(case.target(RESULT))
     log = case.results / "logs" / "unsteady_2d_k5.log"
     words = f"SLURM job {job}, process "
-    wait_until(lambda: log.is_file() and words in log.read_text(), 180)
+    wait_until(lambda: log.is_file() and words in log.read_text())
     assert job in node.jobs("running")
-    solver_of(case).resume()
+    held.with_name("held.go").touch()
     ends_well(workflow)
     assert_same_result(case, undisturbed)
     first, second = owners(case)

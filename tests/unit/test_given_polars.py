@@ -2,6 +2,7 @@
 
 import math
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -185,3 +186,25 @@ def test_moment_axis_that_a_format_has_elsewhere_is_refused(tmp_path: Path) -> N
     raw["embedded"]["moment_axis"] = 0.5
     (line,) = lines_of(raw, tmp_path)
     assert "moment_axis is 0.5, but moments of XFOIL are about 0.25" in line
+
+
+def test_section_of_the_beams_polar_is_looked_into_as_well(tmp_path: Path) -> None:
+    shutil.copy(ROOT / OF_THE_PLATE, tmp_path / "beam.csv")
+    raw: dict[str, Any] = {
+        **CFD,
+        "steady": {"beam_polar": "beam.csv", "beam_polar_section": "own.csv"},
+    }
+    key = "config: steady.beam_polar_section: 'own.csv': "
+    (tmp_path / "own.csv").write_text(GOOD.replace("0.3,", "much,"))
+    (line,) = lines_of(raw, tmp_path)
+    assert line.startswith(f"{key}line 3: cl is 'much'")
+    (tmp_path / "own.csv").write_text(f"# Valid for: h/c 0.2\n{GOOD}")
+    (line,) = lines_of(raw, tmp_path)
+    assert line == (
+        f"{key}allowed is the polar of this beam's section; this one is of a section of h/c 0.2 "
+        "and not 0.04"
+    )
+    (tmp_path / "own.csv").write_text(f"# Valid for: h/c 0.04\n{GOOD}")
+    check_polars(load_config(raw), tmp_path)
+    with pytest.raises(ConfigError, match=r"own\.csv.*: allowed with steady\.beam_polar"):
+        load_config({**CFD, "steady": {"beam_polar_section": "own.csv"}})

@@ -211,19 +211,11 @@ def test_limit_cycle_is_learnt_from_the_farthest_release_that_can_be(tmp_path, m
         ({"rom": {"learn_from": [5.0, 6.0, 7.0]}}, "rom.learn_from"),
         ({"rom": {"confirm": 3}}, "rom.confirm"),
         (
-            {"sweep": {"onset": "model", "models": ["2d", "3d"], "incidence_deg": [2, 4]}},
-            "the map of learnt models has no beams",
-        ),
-        (
             {
                 "sweep": {"onset": "model", "models": ["3d"]},
                 "steady": {"beam_polar": "config/polars/paper_plate_3d.csv"},
             },
             "steady.beam_polar",
-        ),
-        (
-            {"sweep": {"onset": "model", "models": ["3d"]}, "beam": {"elastic_axis": 0.4}},
-            "beam.elastic_axis",
         ),
         (
             {"sweep": {"onset": "model", "models": ["2d-corrected"]}, "beam": {"mass_axis": 0.6}},

@@ -12,6 +12,7 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY, UNSTEADY_PLATE
 from tests.watching import nothing
 
@@ -40,6 +41,11 @@ from equisection.solvers.openfoam.section.rigid_section import mesh_of, require_
 from equisection.solvers.openfoam.section.section_history import read_section
 from equisection.solvers.openfoam.section.section_motion import write_motion
 from equisection.solvers.openfoam.settings import Settings
+from equisection.solvers.openfoam.stream_turbulence import (
+    DISSIPATION_OF_K,
+    DISSIPATION_OF_OMEGA,
+    StreamTurbulence,
+)
 from equisection.solvers.registry import SOLVERS, check_provided, solver_from_config
 from equisection.study import plan
 
@@ -109,7 +115,7 @@ def test_flow_has_the_viscosity_of_its_reynolds_number(tmp_path: Path) -> None:
 
 
 def test_laminar_flow_has_no_model_of_the_turbulence(tmp_path: Path) -> None:
-    write_flow(tmp_path, 100.0, turbulence="laminar")
+    write_flow(tmp_path, 100.0, turbulence=StreamTurbulence("laminar"))
     said = (tmp_path / "constant" / "turbulenceProperties").read_text()
     assert "simulationType laminar;" in said
     assert "kOmegaSST" not in said
@@ -120,7 +126,7 @@ def test_unsteady_run_starts_from_the_fields_of_its_flow(tmp_path: Path) -> None
     """A laminar flow has no fields of the turbulence; of a turbulent one none may be missing."""
     for turbulence in ("laminar", "k-omega-sst"):
         source = tmp_path / turbulence
-        write_flow(source, 100.0, turbulence=turbulence)
+        write_flow(source, 100.0, turbulence=StreamTurbulence(turbulence))
         shutil.copytree(source / "0", source / "300")
         (source / "300" / "phi").write_text("")
         copy_flow(source, tmp_path / "target")
@@ -134,6 +140,48 @@ def test_stream_has_one_per_cent_of_turbulence_and_ten_times_the_viscosity(tmp_p
     write_flow(tmp_path, 1e5)
     for name, value in {"k": "0.00015", "nut": "0.0001", "omega": "1.5"}.items():
         assert f"internalField uniform {value};" in (tmp_path / "0" / name).read_text()
+
+
+def test_turbulence_of_the_stream_decays_as_the_model_has_it() -> None:
+    """k' = -beta* omega k, omega' = -beta omega^2, integrated; nothing is lost at the inlet."""
+    inlet, viscosity = StreamTurbulence(intensity=0.05, viscosity_ratio=10.0), 1e-5
+
+    def rates(_x: float, y: np.ndarray) -> tuple[float, float]:
+        return (
+            -DISSIPATION_OF_K * y[1] * y[0],
+            -DISSIPATION_OF_OMEGA * y[1] ** 2,
+        )
+
+    start = (inlet.energy, inlet.frequency(viscosity))
+    energy, omega = solve_ivp(rates, (0.0, 4.5), start, rtol=1e-10, atol=1e-14).y[:, -1]
+    found = inlet.after(4.5, viscosity)
+    assert found.energy == pytest.approx(energy, rel=1e-6)
+    assert found.viscosity_ratio == pytest.approx(energy / omega / viscosity, rel=1e-6)
+    assert found.intensity < 0.25 * inlet.intensity
+    same = inlet.after(0.0, viscosity)
+    assert (same.intensity, same.viscosity_ratio) == pytest.approx((0.05, 10.0))
+
+
+def test_turbulence_at_the_inlet_is_a_part_of_a_turbulent_case_alone(tmp_path: Path) -> None:
+    plain = solver_from_config(load_config(openfoam()), "coarse").settings("2d")
+    keys = {"turbulence_intensity": 0.05, "viscosity_ratio": 100.0}
+    for dimension in ("2d", "3d"):
+        changed = solver_from_config(load_config(openfoam(openfoam=keys)), "coarse")
+        assert changed.settings(dimension) == {**plain, **keys}
+    laminar = load_config(
+        openfoam(
+            openfoam={"turbulence": "laminar", **keys}, steady={"beam_polar": "of-the-beam.csv"}
+        )
+    )
+    assert solver_from_config(laminar, "coarse").settings("2d") == {
+        **plain,
+        "turbulence": "laminar",
+    }
+    write_flow(tmp_path, 1e5, turbulence=StreamTurbulence("k-omega-sst", 0.05, 100.0))
+    said = {name: (tmp_path / "0" / name).read_text() for name in ("k", "nut", "omega")}
+    assert "internalField uniform 0.00375;" in said["k"]
+    assert "internalField uniform 0.001;" in said["nut"]
+    assert "internalField uniform 3.75;" in said["omega"]
 
 
 def test_wall_velocity_follows_the_mesh_from_the_steady_run_on(tmp_path: Path) -> None:

@@ -47,7 +47,13 @@ def test_mesh_fills_the_channel() -> None:
 
 @pytest.mark.parametrize(
     ("preset", "low", "high"),
-    [("coarse", 9e3, 1.3e4), ("medium", 1.8e4, 2.5e4), ("fine", 4.5e4, 6e4), ("finest", 7e4, 9e4)],
+    [
+        ("coarse", 9e3, 1.3e4),
+        ("medium", 1.8e4, 2.5e4),
+        ("fine", 4.5e4, 6e4),
+        ("finest", 7e4, 9e4),
+        ("five-layers", 4.8e4, 5.4e4),  # 5.1e4 in the paper
+    ],
 )
 def test_presets_have_the_cells_that_they_promise(preset: str, low: float, high: float) -> None:
     assert low <= PRESETS[preset].cells <= high

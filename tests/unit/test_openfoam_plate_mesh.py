@@ -11,24 +11,25 @@ from equisection.config import load_config
 from equisection.errors import ConfigError, SolverError
 from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of
 from equisection.solvers.openfoam.mesh.beam_mesh import PlateMesh
-from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh
+from equisection.solvers.openfoam.mesh.block_mesh import SIMILAR, ChannelBox, Mesh, Spacing
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.ranks import divisions
 
 CHANNEL = ChannelBox(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
 
 
-def plate_mesh(refinement: float = 0.55, gap: float = 0.3) -> PlateMesh:
-    return PlateMesh(Mesh(CHANNEL, math.radians(2.5), refinement), 3.7, gap)
+def plate_mesh(refinement: float = 0.55, gap: float = 0.3, spacing: Spacing = SIMILAR) -> PlateMesh:
+    return PlateMesh(Mesh(CHANNEL, math.radians(2.5), refinement, spacing), 3.7, gap)
 
 
 @pytest.mark.parametrize(
-    ("name", "cells"), [("coarse", 8e4), ("medium", 3e5), ("fine", 1e6), ("finest", 5e6)]
+    ("name", "cells"),
+    [("coarse", 8e4), ("medium", 3e5), ("fine", 1e6), ("finest", 5e6), ("five-layers", 5e6)],
 )
 def test_presets_have_about_as_many_cells_as_they_are_to_have(name: str, cells: float) -> None:
     preset = PRESETS[name]
     assert preset.plate_cells == pytest.approx(cells, rel=0.07)
-    assert plate_mesh(preset.plate).cells == preset.plate_cells
+    assert plate_mesh(preset.plate, spacing=preset.plate_spacing).cells == preset.plate_cells
 
 
 def test_layers_along_the_plate_grow_evenly_from_the_tip_to_the_root() -> None:

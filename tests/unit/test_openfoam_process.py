@@ -112,10 +112,10 @@ def test_program_dies_with_the_job_that_is_killed(tmp_path: Path, how: signal.Si
     installation = program(tmp_path, "echo $$ > pid; exec sleep 100")
     job = subprocess.Popen([sys.executable, "-c", code, *installation.prefix, tmp_path])
     pid = tmp_path / "pid"
-    wait_until(lambda: pid.exists() and pid.read_text().strip() != "", 60)
+    wait_until(lambda: pid.exists() and pid.read_text().strip() != "")
     os.kill(job.pid, how)
     job.wait(60)
-    wait_until(lambda: not _runs(int(pid.read_text())), 60)
+    wait_until(lambda: not _runs(int(pid.read_text())))
 
 
 def _runs(pid: int) -> bool:

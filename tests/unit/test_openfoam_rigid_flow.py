@@ -102,7 +102,9 @@ def test_vortices_that_build_up_do_not_count_as_known(
     even = of_outline(RECORD)
     record = follow_unsteady(tmp_path, even, nothing, polled(monkeypatch, whole, 3.3))
     assert record.time[-1] == pytest.approx(RECORD.end)
-    halves = (np.sqrt(np.mean(amplitude[500:3000] ** 2)), np.sqrt(np.mean(amplitude[3000:] ** 2)))
+    seven = round(7 / 0.15 / 0.02)  # periods, the most in half of the 15 of the record
+    first, last = amplitude[500 : 500 + seven], amplitude[-seven:]
+    halves = (np.sqrt(np.mean(first**2)), np.sqrt(np.mean(last**2)))
     said = re.search(
         r"fluctuation (\d+) times as large in the second", method_of_mean(record, even)
     )
@@ -112,6 +114,28 @@ def test_vortices_that_build_up_do_not_count_as_known(
     record = follow_unsteady(tmp_path, even, nothing, polled(monkeypatch, steady, 3.3))
     assert record.time[-1] == pytest.approx(50.0)
     assert "fluctuation" not in method_of_mean(record, even)
+
+
+@pytest.mark.parametrize("strouhal", [0.11, 0.131, 0.146, 0.24])
+def test_mean_of_even_shedding_is_known_at_once_and_of_whole_periods(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, strouhal: float
+) -> None:
+    """Parts of a period in the halves would leave their means some 0.01 of the lift apart."""
+    time = 0.02 * np.arange(1.0, 5501)
+    lift = 0.003 + 0.3 * np.sin(2 * np.pi * strouhal * time + 1.0)
+    drag = 1.5 + 0.05 * np.sin(4 * np.pi * strouhal * time)
+    whole = Loads(time, drag, lift, 0.1 * lift)
+    wanted = of_outline(RECORD)
+    record = follow_unsteady(tmp_path, wanted, nothing, polled(monkeypatch, whole, 3.3))
+    assert record.time[-1] == pytest.approx(50.0)
+    periods = (record.time[-1] - record.time[0]) * strouhal
+    assert periods == pytest.approx(np.floor(40.0 * strouhal), abs=0.02)
+    assert record.means()[1] == pytest.approx(0.003, abs=5e-4)
+    assert f"{periods:.0f} periods" in method_of_mean(record, wanted)
+    # by the halves of the time alone it goes on
+    by_time = replace(wanted, by_periods=False)
+    record = follow_unsteady(tmp_path, by_time, nothing, polled(monkeypatch, whole, 3.3))
+    assert record.time[-1] > 50.0
 
 
 def test_record_goes_on_to_the_longest(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

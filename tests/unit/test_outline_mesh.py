@@ -105,6 +105,27 @@ def test_layers_are_similar_and_thicker_than_a_bubble() -> None:
         assert 0.1 < heights[-1] < 0.125
 
 
+def test_first_cell_has_no_larger_y_plus_at_a_higher_reynolds_number() -> None:
+    """By c_f = 0.058 Re^(-1/5) of a turbulent flat plate; the layers stay as thick."""
+
+    def y_plus(reynolds: float) -> float:
+        middle = SIZES.resolving(reynolds).first / 2
+        return middle * reynolds * math.sqrt(0.029 * reynolds**-0.2)
+
+    assert SIZES.resolving(3.4e5) is SIZES
+    assert y_plus(4e5) == pytest.approx(2.8, abs=0.05)
+    assert y_plus(8e6) == pytest.approx(y_plus(4e5), rel=1e-9)
+    assert SIZES.resolving(1e8) == SIZES.resolving(1e7)  # beyond, checkMesh finds them too long
+    assert SIZES.wall / SIZES.resolving(1e8).first < 1000.0
+    heights = []
+    for sizes in (SIZES, SIZES.resolving(1e7)):
+        layers = layers_of(wall_of(SHAPES["rectangle"].points, sizes, 1.0), sizes, 1.0)
+        heights.append(layers.cells.points[layers.front][:, 1].max())
+    assert heights[0] == pytest.approx(heights[1], rel=0.02)
+    case = STEADY.model_copy(update={"medium": STEADY.medium.model_copy(update={"speed": 2000.0})})
+    assert outline_mesh_of(case, 1.0).sizes.first < SIZES.first / 10
+
+
 def test_outline_without_room_for_layers_is_refused() -> None:
     """A slit that is narrower than the first cells of both of its walls."""
     slit = [[-0.5, -0.1], [0.5, -0.1], [0.5, 0.1], [1e-4, 0.1], [1e-4, 0.0], [-1e-4, 0.0],

@@ -129,6 +129,23 @@ def test_units_of_the_chord() -> None:
         placed(millimetres, 0.25)
 
 
+@pytest.mark.parametrize("size", [1e-320, 1e-12, 1e12, 1e308])
+def test_extent_of_no_drawing_is_refused(size: float) -> None:
+    """Beyond these limits a coordinate loses digits, and the shape is not the one drawn."""
+    with pytest.raises(OutlineError, match=r"long along x; allowed is from 1e-09 to 1e\+09"):
+        placed(SQUARE * size)
+
+
+def test_axis_far_away_is_refused() -> None:
+    """As that of a drawing in metres given in millimetres, or of one drawn far above y = 0."""
+    panel = np.array([[0, 0], [2, 0], [2, 0.04], [0, 0.04]])
+    with pytest.raises(OutlineError, match="it is 20 c away from its axis at 1, -40; allowed"):
+        placed(panel, None, (1.0, -40.0, 0.5))
+    with pytest.raises(OutlineError, match="it is 500 c away from y = 0, where its axis is"):
+        placed(panel + np.array([0.0, 1000.0]))
+    assert_allclose(placed(panel + np.array([0.0, 9.0]))[0], [-0.5, 4.5])
+
+
 def test_axis_below_the_panel_is_the_origin() -> None:
     """A place 40 mm below a panel of 2 m becomes y = 0 at the axis of the chord."""
     panel = np.array([[0, 0], [2000, 0], [2000, 40], [0, 40]], dtype=float)
@@ -267,4 +284,7 @@ def test_bad_file_is_refused_before_any_job(tmp_path: Path) -> None:
     structure = {"method": "beam"}
     config = load_config({"beam": beam, "structure": structure})
     with pytest.raises(ConfigError, match=r"beam\.outline\.file: 'eight\.csv': it crosses itself"):
+        check_outline(config, tmp_path)
+    (tmp_path / "eight.csv").unlink()
+    with pytest.raises(ConfigError, match=r"'eight\.csv': there is no such file"):
         check_outline(config, tmp_path)

@@ -108,7 +108,7 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         folder / "polar_3d.nc",
         "thin",
         folder / "correction_modal.nc",
-        folder / "modes.nc",
+        modes=folder / "modes.nc",
     )
     made_from = {name: folder / f"{name}.nc" for name in ("modes", "equivalent", "correction")}
     for model in ("2d-corrected", "3d"):
@@ -141,6 +141,28 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         output=folder / "onset.csv",
     )
     return folder
+
+
+def test_correction_keeps_the_ratio_of_a_section_to_its_beam(
+    load_script: LoadScript, chain: Path, tmp_path: Path
+) -> None:
+    """The section of the beam's polar is divided by it, whatever the run's own section has."""
+    section = tmp_path / "section.csv"
+    rows = ("incidence_deg,cl,cm,cd", "0,0,0,0.04", "2,0.3,0.06,0.05", "4,0.5,0.08,0.08")
+    section.write_text("\n".join((*rows, "8,0.6,0.06,0.14\n")))
+    load_script("correction_factors").main(
+        chain / "polar_2d.nc",
+        chain / "polar_3d.nc",
+        "thin",
+        tmp_path / "correction.nc",
+        section_of_beam=section,
+    )
+    found = read_dataset(tmp_path / "correction.nc")
+    beam = read_dataset(chain / "polar_3d.nc")
+    for name, factor, value in (("cl", "lift_factor", 0.3), ("cm", "moment_factor", 0.06)):
+        divided = float(beam[name].sel(resolution="thin").interp(incidence_deg=2.0))
+        got = float(found[factor].sel(incidence_deg=2.0, method="nearest", tolerance=1e-6))
+        assert got == pytest.approx(value / divided, rel=0.02)
 
 
 def test_beam_without_a_section_runs_alone(load_script: LoadScript, tmp_path: Path) -> None:

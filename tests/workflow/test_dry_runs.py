@@ -18,7 +18,8 @@ from tests.workflow.project import ROOT, Project, jobs_planned, one_case_at_a_ti
 
 EXAMPLES = sorted((ROOT / "config" / "examples").glob("*.yaml"))
 SHIPPED = sorted((ROOT / "config").glob("*.yaml")) + EXAMPLES
-PAPER_RESOLUTION = ROOT / "config" / "paper" / "resolution.yaml"
+#: Configurations of the paper's meshes that need no other one below them.
+OF_THE_PAPER = [ROOT / "config" / "paper" / f"{name}.yaml" for name in ("resolution", "near_wall")]
 
 #: Rules that run once in every run.
 ONCE = (
@@ -133,7 +134,7 @@ def clone(tmp_path_factory: pytest.TempPathFactory) -> Project:
     return Project.fresh(tmp_path_factory.mktemp("clone") / "project")
 
 
-@pytest.mark.parametrize("path", [*SHIPPED, PAPER_RESOLUTION], ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", [*SHIPPED, *OF_THE_PAPER], ids=lambda path: path.stem)
 def test_dry_run_of_a_shipped_config_plans_the_jobs_that_it_asks_for(
     path: Path, clone: Project
 ) -> None:

@@ -111,7 +111,7 @@ def test_sweep_killed_at_random_moments_comes_to_the_results_of_an_undisturbed_o
         held = tmp_path / f"held {kill}"
         monkeypatch.setenv("STAND_IN_HOLD", f"pimpleFoam:{moments.randint(1, 1200)}:{held}")
         run = sweep.start("--rerun-incomplete", target)
-        wait_until(lambda: held.exists() or run.poll() is not None, 600)  # noqa: B023
+        wait_until(lambda: held.exists() or run.poll() is not None)  # noqa: B023
         kill_family(run)
         sweep.run("--unlock")
     monkeypatch.delenv("STAND_IN_HOLD")

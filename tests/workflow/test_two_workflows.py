@@ -30,11 +30,11 @@ def test_second_waits_for_the_first_and_takes_its_result(
     held, store = tmp_path / "held", project.folder / "results" / ".store"
     monkeypatch.setenv("STAND_IN_HOLD", f"pimpleFoam:400:{held}")
     ahead = first.start(first.target(RESULT))
-    wait_until(held.exists, 600)
+    wait_until(held.exists)
     (folder,) = store.glob("*/case0/free")
     behind = second.start(second.target(RESULT))
     log = second.results / "logs" / "unsteady_2d_k5.log"
-    wait_until(lambda: log.is_file() and "runs this case; waiting" in log.read_text(), 600)
+    wait_until(lambda: log.is_file() and "runs this case; waiting" in log.read_text())
     unlocking = second.attempt("--unlock")
     assert unlocking.returncode == 1
     pids = {run.pid for run in (ahead, behind)}

@@ -278,6 +278,15 @@ def polar_of_learnt(name):
     return {polar: f"{RESULTS}/steady/{polar}.nc"}
 
 
+def polars_of_learnt():
+    """Return the polars that the learnt models of the run have as their steady parts."""
+    return {
+        name: path
+        for model in CONFIG.sweep.models
+        for name, path in polar_of_learnt(model).items()
+    }
+
+
 def learnt_before_round(wildcards):
     """Return the files that a round of learning decides on."""
     return learnt_from(wildcards.model, plan.batches_before(wildcards.batch))

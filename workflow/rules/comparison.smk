@@ -145,7 +145,7 @@ if plan.has_learnt_map(CONFIG):
         """Stability over incidence and speed of models that were learnt from releases."""
         input:
             **structure_of_map(),
-            polar_2d=f"{RESULTS}/steady/polar_2d.nc",
+            **polars_of_learnt(),
             learnt=learnt_models(),
         output:
             stability_map=f"{RESULTS}/comparison/stability_map.nc",

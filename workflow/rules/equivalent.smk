@@ -30,6 +30,7 @@ rule correction_factors:
         polar_2d=f"{RESULTS}/steady/polar_2d.nc",
         polar_3d=f"{RESULTS}/steady/polar_3d.nc",
         modes=f"{RESULTS}/structure/modes.nc" if CONFIG.correction == "modal" else [],
+        section_of_beam=given(filter(None, [CONFIG.steady.beam_polar_section])),
     output:
         f"{RESULTS}/steady/correction.nc",
     log:

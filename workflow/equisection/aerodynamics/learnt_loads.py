@@ -189,7 +189,7 @@ class Lesson:
         lift = history.lift_coefficient - polar.lift_coefficient(alpha)
         moment = history.moment_coefficient - polar.moment_coefficient(alpha)
         used = (s >= LEARN_FROM) & (s <= until * (1.0 + 1e-9)) & np.isfinite(moment)
-        _require_swing(history, a[used])  # what has settled is noise, and balances with nothing
+        require_swing(history.name, a[used])  # what has settled is noise, balances with nothing
         require_consistent(history, polar)
         return cls(
             step=history.time_step,
@@ -309,16 +309,17 @@ def require_lesson(name: str, time: Floats) -> None:
     Raises
     ------
     ResultFileError
-        It is too short, has gaps or uneven samples, or is too coarse in time.
+        It is too short, has gaps or uneven samples, or is too coarse in time. A sample stands for
+        its interval: a solver that writes none at the end of 35 c/V has recorded 35 c/V.
     """
-    if time.size < 2 or time[-1] - time[0] < SHORTEST_RECORD * (1.0 - 1e-9):
-        length = float(time[-1] - time[0]) if time.size else 0.0
+    steps = np.diff(time)
+    step = float(np.median(steps)) if steps.size else 0.0
+    length = float(time[-1] - time[0]) + step if time.size else 0.0
+    if length < SHORTEST_RECORD * (1.0 - 1e-9):
         raise ResultFileError(
             f"{name}: a record of {length:.3g} c/V is too short to learn from; "
             f"{SHORTEST_RECORD:g} c/V or more are needed (unsteady.duration)"
         )
-    steps = np.diff(time)
-    step = float(np.median(steps))
     if np.any(np.abs(steps - step) > 1e-3 * step):
         place = int(np.argmax(np.abs(steps - step)))
         raise ResultFileError(
@@ -332,13 +333,27 @@ def require_lesson(name: str, time: Floats) -> None:
         )
 
 
-def _require_swing(history: ReferenceHistory, a: Floats) -> None:
-    """Refuse a motion that settles before it has said anything of its growth."""
-    first, _, last = (part - part.mean() for part in np.array_split(a, 3))
-    early, late = float(np.ptp(first)), float(np.ptp(last))
+def require_swing(name: str, a: Floats) -> None:
+    """Refuse a motion that settles before it has said anything of its growth.
+
+    Parameters
+    ----------
+    name
+        Name of the release.
+    a
+        Incidence (rad) of what is learnt from: of a section (n,), or of the strips of a beam
+        (n, S), of which the strip that swings most counts.
+
+    Raises
+    ------
+    ResultFileError
+        It has settled.
+    """
+    first, _, last = np.array_split(a, 3)
+    early, late = (float(np.ptp(part, axis=0).max()) for part in (first, last))
     if early == 0.0 or late < SMALLEST_SWING * early:
         raise ResultFileError(
-            f"{history.name}: the motion has settled: the incidence swings by "
+            f"{name}: the motion has settled: the incidence swings by "
             f"{math.degrees(late):.2g} deg at the end of what is learnt from, "
             f"{math.degrees(early):.2g} deg at its begin ({100 * SMALLEST_SWING:g} % or more are "
             "wanted); learn from a softer beam (rom.learn_from), or with less damping"

@@ -37,6 +37,8 @@ class StripPolars:
         c_l and c_m, shape (n, S).
     label
         Name for messages.
+    drag
+        C_D of the whole beam, shape (n,), that every strip is taken to have; None for none.
 
     Raises
     ------
@@ -49,6 +51,7 @@ class StripPolars:
     lift: Floats
     moment: Floats
     label: str
+    drag: Floats | None = None
 
     def __post_init__(self) -> None:
         wanted = (self.incidence.size, self.stations.size)
@@ -56,6 +59,11 @@ class StripPolars:
             raise ArgumentError(
                 f"polars along the span {self.label!r}: lift {self.lift.shape} and moment "
                 f"{self.moment.shape}; wanted are (incidences, stations), at least 4 incidences"
+            )
+        if self.drag is not None and self.drag.shape != wanted[:1]:
+            raise ArgumentError(
+                f"polars along the span {self.label!r}: drag {self.drag.shape}; wanted is one of "
+                f"the beam at each of {wanted[0]} incidences"
             )
 
     @property
@@ -80,7 +88,8 @@ class StripPolars:
             return self
         lift, moment = (np.concatenate([-c[:0:-1], 0.0 * c[:1], c[1:]]) for c in loads)
         both = np.concatenate([-self.incidence[:0:-1], self.incidence])
-        return StripPolars(both, self.stations, lift, moment, self.label)
+        even = None if self.drag is None else np.concatenate([self.drag[:0:-1], self.drag])
+        return StripPolars(both, self.stations, lift, moment, self.label, even)
 
     @cached_property
     def _cubics(self) -> scipy.interpolate.PchipInterpolator:
@@ -91,18 +100,35 @@ class StripPolars:
     @cached_property
     def _table(self) -> Floats:
         """Loads at even steps from the first incidence, shape (K, 2, S)."""
+        return np.asarray(self._cubics(self._steps))
+
+    @cached_property
+    def _slope_table(self) -> Floats:
+        """Slopes of the loads (1/rad) at the same incidences, shape (K, 2, S)."""
+        return np.asarray(self._cubics(self._steps, 1))
+
+    @property
+    def _steps(self) -> Floats:
         count = int(np.ceil((self.incidence[-1] - self.incidence[0]) / _STEP)) + 1
-        return np.asarray(self._cubics(self.incidence[0] + _STEP * np.arange(count + 1)))
+        return np.asarray(self.incidence[0] + _STEP * np.arange(count + 1))
 
     def loads(self, alpha: ArrayLike) -> tuple[Floats, Floats]:
         """Return c_l and c_m of the strips at ``alpha`` (rad), shape (..., S); NaN outside."""
+        return self._read(self._table, alpha)
+
+    def slopes(self, alpha: ArrayLike) -> tuple[Floats, Floats]:
+        """Return the slopes of c_l and c_m (1/rad) at ``alpha`` (rad), shape (..., S)."""
+        return self._read(self._slope_table, alpha)
+
+    def _read(self, table: Floats, alpha: ArrayLike) -> tuple[Floats, Floats]:
+        """Return both of a table at incidences of the strips (rad), shape (..., S); NaN outside."""
         angles = np.asarray(alpha, dtype=np.float64)
         with np.errstate(invalid="ignore", over="ignore"):  # a beam that left the polars
             inside = (angles >= self.incidence[0]) & (angles <= self.incidence[-1])
             position = np.where(inside, (angles - self.incidence[0]) / _STEP, 0.0)
         cell = position.astype(np.intp)
         part = position - cell
-        table, strips = self._table, self.stations.size
+        strips = self.stations.size
         columns = 2 * strips * cell + np.arange(strips)
         flat = table.reshape(-1)
         found = []
@@ -111,9 +137,18 @@ class StripPolars:
             found.append(np.where(inside, low + part * (high - low), np.nan))
         return found[0], found[1]
 
-    def slopes(self, alpha: ArrayLike) -> tuple[Floats, Floats]:
-        """Return the slopes of c_l and c_m (1/rad) at one incidence a strip, shape (S,)."""
-        at = np.asarray(alpha, dtype=np.float64)
-        found = self._cubics(at, 1)  # every strip's slopes at every strip's incidence
-        own = np.arange(self.stations.size)
-        return found[own, 0, own], found[own, 1, own]
+    def normal_rise(self, alpha: ArrayLike) -> Floats:
+        """Return by how much c_n exceeds c_l at ``alpha`` (rad), shape (..., S); NaN outside.
+
+        The force normal to the chord is c_n = c_l cos alpha + c_d sin alpha, as of a section
+        (:meth:`equisection.aerodynamics.polar.Polar.normal_rise`), with the drag of the beam.
+        """
+        angles = np.asarray(alpha, dtype=np.float64)
+        lift, _ = self.loads(angles)
+        with np.errstate(invalid="ignore"):  # a beam that left the polars
+            return np.asarray(lift * (np.cos(angles) - 1.0) + self._drag(angles) * np.sin(angles))
+
+    def _drag(self, alpha: Floats) -> Floats:
+        if self.drag is None:
+            return np.zeros_like(alpha)
+        return np.asarray(np.interp(alpha, self.incidence, self.drag))

@@ -22,7 +22,13 @@ import xarray as xr
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.strip_polars import StripPolars
-from equisection.analysis.learnt_cycles import LimitCycles, cycles_of, with_cycles
+from equisection.analysis.learnt_cycles import (
+    LimitCycles,
+    cycles_of,
+    cycles_of_beams,
+    no_cycles,
+    with_cycles,
+)
 from equisection.analysis.onset import is_unstable
 from equisection.analysis.recorded_beam import on_strips, release_of, strip_polars_at
 from equisection.analysis.reduced_beam import ReducedBeam, learnt_beam, predicted_beams
@@ -38,6 +44,7 @@ from equisection.analysis.reduced_model import (
 from equisection.cases import UnsteadyCase
 from equisection.config import Config
 from equisection.errors import EquisectionError, ResultFileError
+from equisection.motion.beam_lesson import BeamRelease
 from equisection.results.loads_zigzag import loads_zigzag, warning_of_zigzag
 from equisection.results.netcdf import read_attributes, read_dataset
 from equisection.results.polar_dataset import polar_at
@@ -213,24 +220,24 @@ class Lessons:
         table["extrapolated"] = [value is True for value in table["extrapolated"]]
         return table
 
-    def limit_cycles(self) -> LimitCycles | None:
-        """Return the limit cycles of a section's sweep, by the release that grows farthest.
+    def limit_cycles(self) -> LimitCycles:
+        """Return the limit cycles of the sweep, by the release that grows farthest.
 
-        One that cannot be learnt from, since it left too soon, gives way to the next. None for the
-        beam, whose model has too few terms for large amplitudes.
+        One that cannot be learnt from, since it left too soon, gives way to the next.
         """
-        if self._is_beam:
-            return None
         indices = (*self.releases, *self.confirming)
         runs = [run for index in indices for run in self._runs(index)]
         growing = [run for run in runs if run.unstable]
         cases = self._grid[1]
         for run in sorted(growing, key=lambda each: -np.nan_to_num(each.amplitude_deg)):
             try:
+                if self._is_beam:
+                    release, polars = self._release(run), self.strip_polars
+                    return cycles_of_beams(cases, release, polars, self._start)
                 return cycles_of(cases, self._history(run), self.polar, self._start)
             except EquisectionError as error:
                 _LOG.warning("no limit cycle is learnt from %s: %s", run.point.name, error)
-        return cycles_of(cases, None, self.polar)
+        return no_cycles(len(cases))
 
     @property
     def _start(self) -> tuple[float, float]:
@@ -243,7 +250,7 @@ class Lessons:
         k_star = [case.k_star for case in cases]
         if isinstance(model, ReducedBeam):
             beams = on_strips([case.beam for case in cases if case.beam], model.loads.polars.strips)
-            return predicted_beams(model, k_star, beams)
+            return predicted_beams(model, k_star, beams, start=self._start)
         sections = [case.section for case in cases if case.section]
         return predicted(model, k_star, sections, start=self._start)
 
@@ -251,9 +258,7 @@ class Lessons:
         """Return the model that is learnt from a run."""
         found: Learnt
         if self._is_beam:
-            case, strips = self._case_of(run), self.strip_polars.strips
-            release = release_of(run.file, read_dataset(run.file), case, strips)
-            found = learnt_beam(release, self.strip_polars)
+            found = learnt_beam(self._release(run), self.strip_polars)
         else:
             found = learnt_model(self._history(run), self.polar)
         if found.missing_angles:
@@ -271,6 +276,11 @@ class Lessons:
         case = self._case_of(run)
         assert case.section is not None, "a case of a section"
         return history_of(run.file, read_dataset(run.file), case, case.section)
+
+    def _release(self, run: JudgedRun) -> BeamRelease:
+        """Return the release of a run of the beam."""
+        case, strips = self._case_of(run), self.strip_polars.strips
+        return release_of(run.file, read_dataset(run.file), case, strips)
 
     def _case_of(self, run: JudgedRun) -> UnsteadyCase:
         """Return the case of a run, with the section or beam that moved."""
@@ -464,8 +474,8 @@ def datasets_of(lessons: Lessons) -> list[xr.Dataset]:
             course.words,
             "; ".join(filter(None, (course.confirmation, course.reservations))),
         )
-        data, cycles = dataset_of(course, one.name, one.axis), one.limit_cycles()
-        found.append(data if cycles is None else with_cycles(data, cycles, one.axis))
+        data = dataset_of(course, one.name, one.axis)
+        found.append(with_cycles(data, one.limit_cycles(), one.axis))
     return found
 
 

@@ -13,8 +13,11 @@ import pandas as pd
 import xarray as xr
 
 from equisection.aerodynamics.learnt_loads import TERMS, LearntLoads
+from equisection.aerodynamics.learnt_strips import STRIP_TERMS, LearntStrips
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.aerodynamics.unsteady_loads import APPARENT_INERTIA, APPARENT_MASS
+from equisection.analysis.reduced_beam import ReducedBeam
 from equisection.analysis.reduced_model import ReducedModel
 from equisection.errors import ArgumentError, ResultFileError
 from equisection.files import write_text, written_whole
@@ -56,53 +59,82 @@ def model_of(data: xr.Dataset, polar: Polar) -> ReducedModel:
     ResultFileError
         There is no model in it, but the reason why; or it is that of a beam on strips.
     """
-    if "rate" not in data:
-        reason = data.attrs.get("refusal") or "it has no coefficients"
-        raise ResultFileError(f"{data.attrs.get('model', 'the file')}: no model: {reason}")
-    if data.sizes["term"] != len(TERMS):
+    require_model(data)
+    if is_of_strips(data):
         raise ResultFileError(
             f"{data.attrs['model']}: a model of the strips of a beam, of {data.sizes['term']} "
             f"terms; allowed is that of a section, of {len(TERMS)}"
         )
+    first, *others = (LearntLoads(polar=polar.continued, **one) for one in _fits_of(data))
+    return ReducedModel(loads=first, refits=tuple(others), **_origin_of(data))
+
+
+def beam_model_of(data: xr.Dataset, polars: StripPolars) -> ReducedBeam:
+    """Return the model of a file ``rom/<model>/model*.nc`` of a beam.
+
+    ``polars`` are the loads along the span that it was learnt with. Errors are those of
+    :func:`model_of`.
+    """
+    require_model(data)
+    first, *others = (LearntStrips(polars=polars.continued, **one) for one in _fits_of(data))
+    return ReducedBeam(loads=first, refits=tuple(others), **_origin_of(data))
+
+
+def is_of_strips(data: xr.Dataset) -> bool:
+    """Tell whether the model of a file is that of the strips of a beam."""
+    return bool(data.sizes.get("term") == len(STRIP_TERMS))
+
+
+def require_model(data: xr.Dataset) -> None:
+    """Refuse a file without a model.
+
+    Raises
+    ------
+    ResultFileError
+        There is none in it, but the reason why.
+    """
+    if "rate" not in data:
+        reason = data.attrs.get("refusal") or "it has no coefficients"
+        raise ResultFileError(f"{data.attrs.get('model', 'the file')}: no model: {reason}")
+
+
+def _fits_of(data: xr.Dataset) -> list[dict[str, Any]]:
+    """Return the coefficients of the model and of its refits."""
     attrs = data.attrs
-    return _model(
-        polar.continued,
-        [
-            {name: data[variable].values[place] for name, variable in _OF_FIT.items()}
-            for place in range(data.sizes["fit"])
-        ],
-        float(attrs["incidence_deg"]),
-        (float(attrs["seen_least_deg"]), float(attrs["seen_most_deg"])),
-        learnt_from=str(attrs["learnt_from"]),
-        k_star=float(attrs["learnt_from_k_star"]),
-        source=str(attrs["source"]),
-    )
-
-
-def _model(
-    polar: Polar,
-    fits: Sequence[Mapping[str, Any]],
-    incidence_deg: float,
-    seen_deg: Sequence[float],
-    **learnt: Any,
-) -> ReducedModel:
-    """Return a model with the coefficients of each fit, by the names of :data:`_OF_FIT`."""
-    low, high = map(math.radians, seen_deg)
-    loads = [
-        LearntLoads(
-            polar=polar,
-            incidence_rad=math.radians(incidence_deg),
-            rate=float(fit["rate"]),
-            moment=np.array(fit["moment"], dtype=np.float64),
-            lift=np.array(fit["lift"], dtype=np.float64),
-            residual_moment=float(fit["residual_moment"]),
-            residual_lift=float(fit["residual_lift"]),
-            seen=(low, high),
-            learnt_until=float(fit["learnt_until"]),
+    return [
+        _coefficients(
+            {name: data[variable].values[place] for name, variable in _OF_FIT.items()},
+            float(attrs["incidence_deg"]),
+            (float(attrs["seen_least_deg"]), float(attrs["seen_most_deg"])),
         )
-        for fit in fits
+        for place in range(data.sizes["fit"])
     ]
-    return ReducedModel(loads=loads[0], refits=tuple(loads[1:]), **learnt)
+
+
+def _origin_of(data: xr.Dataset) -> dict[str, Any]:
+    attrs = data.attrs
+    return {
+        "learnt_from": str(attrs["learnt_from"]),
+        "k_star": float(attrs["learnt_from_k_star"]),
+        "source": str(attrs["source"]),
+    }
+
+
+def _coefficients(
+    fit: Mapping[str, Any], incidence_deg: float, seen_deg: Sequence[float]
+) -> dict[str, Any]:
+    """Return coefficients of a fit by the names of :data:`_OF_FIT`, with where it was learnt."""
+    low, high = map(math.radians, seen_deg)
+    return {
+        "incidence_rad": math.radians(incidence_deg),
+        "rate": float(fit["rate"]),
+        "moment": np.array(fit["moment"], dtype=np.float64),
+        "lift": np.array(fit["lift"], dtype=np.float64),
+        "residual_moment": float(fit["residual_moment"]),
+        "residual_lift": float(fit["residual_lift"]),
+        "seen": (low, high),
+        "learnt_until": float(fit["learnt_until"]),
+    }
 
 
 def as_json(data: xr.Dataset, polar: Polar) -> dict[str, Any]:
@@ -178,11 +210,15 @@ def model_of_json(content: dict[str, Any]) -> ReducedModel:
     table = content["polar"]
     drag, lift, moment = (np.array(table[name], dtype=float) for name in ("c_d", "c_l", "c_m"))
     polar = Polar(np.radians(table["incidence_deg"]), drag, lift, moment, table["label"])
-    return _model(
-        polar,
-        content["fits"],
-        content["incidence_deg"],
-        content["seen_deg"],
+    first, *others = (
+        LearntLoads(
+            polar=polar, **_coefficients(fit, content["incidence_deg"], content["seen_deg"])
+        )
+        for fit in content["fits"]
+    )
+    return ReducedModel(
+        loads=first,
+        refits=tuple(others),
         learnt_from=content["learnt_from"],
         k_star=content["learnt_from_k_star"],
         source=content["source"],

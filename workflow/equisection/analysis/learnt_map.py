@@ -23,15 +23,20 @@ import xarray as xr
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.learnt_loads import LearntLoads
-from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
+from equisection.aerodynamics.learnt_strips import LearntStrips
 from equisection.analysis.critical_speeds import MODEL, from_learnt
-from equisection.analysis.learning import Lessons
-from equisection.analysis.learnt_file import model_of
-from equisection.analysis.reduced_model import SMALLEST_BAND, ReducedModel
-from equisection.beam.section import Section
+from equisection.analysis.learning import Learnt, Lessons
+from equisection.analysis.learnt_bodies import (
+    LearntBeamBodies,
+    LearntBodies,
+    LearntSectionBodies,
+)
+from equisection.analysis.learnt_file import beam_model_of, is_of_strips, model_of
+from equisection.analysis.recorded_beam import on_strips
+from equisection.analysis.reduced_beam import SMALLEST_BAND_OF_BEAM, ReducedBeam
+from equisection.analysis.reduced_model import SMALLEST_BAND
 from equisection.cases import UnsteadyCase
 from equisection.errors import EquisectionError
-from equisection.motion.learnt_motion import LearntSections
 from equisection.motion.map_dataset import described
 from equisection.motion.mechanism import (
     Instabilities,
@@ -40,17 +45,12 @@ from equisection.motion.mechanism import (
     instabilities,
 )
 from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes, no_modes
-from equisection.motion.sections import section_system
 from equisection.motion.stability_map import BELOW, STILL_AIR, WITHIN, speeds_between
 from equisection.study.axes import SPEED, AsGiven
 
 Floats = NDArray[np.float64]
 Complexes = NDArray[np.complex128]
 
-#: States (theta, theta', w, w', x), as modes are followed, among (w, theta, w', theta', x).
-_ORDER = [1, 3, 0, 2, 4]
-_STATES = len(_ORDER)
-_TWIST, _DEFLECTION = slice(0, 1), slice(2, 3)
 _OVER_BOTH = (
     "growth_rate",
     "frequency",
@@ -110,7 +110,7 @@ class LearntLine:
     Attributes
     ----------
     lessons
-        What makes its sections.
+        What makes its sections or beams.
     data
         Its file, ``rom/<model>/model*.nc``.
     given
@@ -136,12 +136,26 @@ class LearntLine:
         return float(self.data.attrs["incidence_deg"])
 
     @cached_property
-    def model(self) -> ReducedModel:
+    def model(self) -> Learnt:
         """The model with its refits."""
+        if is_of_strips(self.data):
+            return beam_model_of(self.data, self.lessons.strip_polars)
         return model_of(self.data, self.lessons.polar)
 
-    def sections(self, speeds: Floats) -> tuple[list[Section | None], list[bool]]:
-        """Return the sections at speeds (m/s), None where there is none, and where it diverges."""
+    @property
+    def polar_label(self) -> str:
+        """Label of the steady loads of the model."""
+        if isinstance(self.model, ReducedBeam):
+            return self.model.loads.polars.label
+        return self.model.loads.polar.label
+
+    @property
+    def smallest_band(self) -> float:
+        """Smallest band of the growth rate (V/c)."""
+        return SMALLEST_BAND_OF_BEAM if isinstance(self.model, ReducedBeam) else SMALLEST_BAND
+
+    def _cases_at(self, speeds: Floats) -> list[UnsteadyCase]:
+        """Return the cases at speeds (m/s), some perhaps without a section or beam to move."""
         new = np.array(
             [speed for speed in dict.fromkeys(map(float, speeds)) if speed not in self._cases]
         )
@@ -149,46 +163,62 @@ class LearntLine:
             values = new if self.lessons.axis is SPEED else self.given.k_star_at(new)
             cases = self.lessons.cases_at(map(float, values))
             self._cases.update(zip(map(float, new), cases, strict=True))
-        found = [self._cases[float(speed)] for speed in speeds]
-        return [case.section for case in found], [case.diverges for case in found]
+        return [self._cases[float(speed)] for speed in speeds]
+
+    def diverges(self, speeds: Floats) -> NDArray[np.bool_]:
+        """Tell at which speeds (m/s) a corrected section diverges, and so has no case to move."""
+        return np.array([case.diverges for case in self._cases_at(speeds)], dtype=np.bool_)
+
+    def bodies(self, speeds: Floats) -> tuple[LearntBodies | None, NDArray[np.bool_]]:
+        """Return the sections or beams at speeds (m/s), and at which of them there is one."""
+        cases = self._cases_at(speeds)
+        if isinstance(self.model, ReducedBeam):
+            beams = [case.beam for case in cases if case.beam is not None]
+            there = np.array([case.beam is not None for case in cases], dtype=np.bool_)
+            if not beams:
+                return None, there
+            return LearntBeamBodies(on_strips(beams, self.model.loads.polars.strips)), there
+        sections = tuple(case.section for case in cases if case.section is not None)
+        there = np.array([case.section is not None for case in cases], dtype=np.bool_)
+        return (LearntSectionBodies(sections) if sections else None), there
 
     def spectrum(self, speeds: Floats, fit: int = 0) -> Spectrum:
         """Return the small motions by one of the fits; NaN where there is no equilibrium."""
-        states = np.full((speeds.size, _STATES), np.nan)
-        linear = np.full((speeds.size, _STATES, _STATES), np.nan)
-        sections, _ = self.sections(speeds)
-        there = np.array([section is not None for section in sections], dtype=bool)
-        if there.any():
-            found = [section for section in sections if section is not None]
-            moved = LearntSections(found, self._fits[fit])
-            linear[there] = moved.linearised()[:, _ORDER][:, :, _ORDER]
-            twist, deflection = moved.equilibria()
-            none = np.zeros_like(twist)
-            states[there] = np.stack([twist, none, deflection, none, twist], axis=1)
+        bodies, there = self.bodies(speeds)
+        size = self._size if bodies is None else bodies.size
+        states = np.full((speeds.size, size), np.nan)
+        linear = np.full((speeds.size, size, size), np.nan)
+        if bodies is not None:
+            states[there], linear[there] = bodies.at_rest(self._fits[fit])
         return Spectrum.about(speeds, states, linear)
 
     @property
-    def _fits(self) -> tuple[LearntLoads, ...]:
+    def _size(self) -> int:
+        """Number of states of the bodies."""
+        found = (
+            self.bodies(self.speeds[place : place + 1])[0] for place in range(self.speeds.size)
+        )
+        return next((one.size for one in found if one is not None), 0)
+
+    @property
+    def _fits(self) -> tuple[LearntLoads | LearntStrips, ...]:
         return (self.model.loads, *self.model.refits)
 
     @cached_property
     def modes(self) -> FollowedModes:
         """Its modes from near vacuum on, at the speeds that are asked for and more."""
         first = float(self.speeds[0])
-        (section,), _ = self.sections(self.speeds[:1])
-        if section is None:
-            return no_modes(_STATES)
-        slowest = math.tau * min(section.uncoupled_frequencies)
-        start = min(slowest * first / STILL_AIR, 0.5 * first)
+        bodies, _ = self.bodies(self.speeds[:1])
+        if bodies is None:
+            return no_modes(self._size)
+        start = min(bodies.slowest * first / STILL_AIR, 0.5 * first)
         grid = [speeds_between(start, first, BELOW), self.speeds]
         for low, high in zip(self.speeds[:-1], self.speeds[1:], strict=True):
             grid.append(speeds_between(float(low), float(high), WITHIN))
-        loads = UnsteadyLoads.from_polar(self.lessons.polar)
-        naming = section_system([section], loads, math.radians(self.incidence_deg))
         (found,) = follow_modes(
             [self.spectrum(np.unique(np.concatenate(grid)))],
             lambda wanted: [self.spectrum(speeds) for speeds in wanted],
-            naming,
+            bodies.attached(self.model.loads),
         )
         return found
 
@@ -208,7 +238,7 @@ class LearntLine:
             for fit in range(1, len(self._fits))
         ]
         spread = np.max([np.abs(one - growth) for one in refits], axis=0, initial=0.0)
-        band = np.maximum(np.where(np.isfinite(spread), spread, 0.0), SMALLEST_BAND)
+        band = np.maximum(np.where(np.isfinite(spread), spread, 0.0), self.smallest_band)
         return (
             _first_rise(spectrum.speed, growth),
             _first_rise(spectrum.speed, growth + band),
@@ -217,23 +247,21 @@ class LearntLine:
 
     def mechanisms(self, spectrum: Spectrum) -> Instabilities:
         """Return the mechanism of the least stable of the small motions at each speed."""
-        motion = spectrum.least_stable_motion
         known = spectrum.exists
         names = np.full(known.size, "unknown", dtype=object)
         numbers = np.full((4, known.size), np.nan)
-        sections, diverges = self.sections(spectrum.speed)
-        names[np.array(diverges, dtype=bool)] = "divergence"
-        if known.any():
-            found = [one for one, there in zip(sections, known, strict=True) if there and one]
-            moved = LearntSections(found, self.model.loads)
-            loads = UnsteadyLoads.from_polar(self.lessons.polar)
-            attached = section_system(found, loads, math.radians(self.incidence_deg))
+        names[self.diverges(spectrum.speed)] = "divergence"
+        bodies, _ = self.bodies(spectrum.speed[known])
+        if bodies is not None:
+            motion = spectrum.least_stable_motion[known]
+            attached = bodies.attached(self.model.loads)
+            layout = attached.layout
             told = instabilities(
                 spectrum.least_stable[known],
-                motion[known][:, _DEFLECTION],
-                motion[known][:, _TWIST],
-                moved.influence(spectrum.states[known, 0]),
-                influence_of(attached, attached.rates[:, :, : attached.layout.size]),
+                motion[:, layout.deflection],
+                motion[:, layout.twist],
+                bodies.influence(self.model.loads, spectrum.states[known]),
+                influence_of(attached, attached.rates[:, :, : layout.size]),
             )
             names[known] = told.mechanism
             shares = (told.heave_share, told.twist_share, told.coupling_share, told.heave_phase)
@@ -331,7 +359,7 @@ def _of_release(line: LearntLine, learnt: pd.Series) -> str:
         return str(learnt["mechanism"])
     k_star = line.data["k_star"].values
     beyond = line.given.speed_at(k_star[k_star < learnt["k_star"]].max())
-    _, diverges = line.sections(np.array([beyond]))
+    diverges = line.diverges(np.array([beyond]))
     return Mechanism.DIVERGENCE if diverges[0] else Mechanism.UNKNOWN
 
 
@@ -367,15 +395,13 @@ def _extrapolated(line: LearntLine, k_star: float) -> float:
 
 def _equilibrium(line: LearntLine, speed: float) -> dict[str, float]:
     """Return static twist (deg) and deflection (m) of the tip at a speed (m/s)."""
-    (section,), _ = line.sections(np.array([speed]))
-    if section is None:
+    bodies, _ = line.bodies(np.array([speed]))
+    if bodies is None:
         return {}
-    twist, deflection = LearntSections([section], line.model.loads).equilibria()[:, 0]
+    states, _ = bodies.at_rest(line.model.loads)
+    twist, deflection = (float(moved[0]) for moved in bodies.tip(states))
     chord = line.lessons.config.beam.chord
-    return {
-        "twist_deg": math.degrees(float(twist)) / section.twist_recovery,
-        "deflection_m": float(deflection) * chord / section.deflection_recovery,
-    }
+    return {"twist_deg": math.degrees(twist), "deflection_m": deflection * chord}
 
 
 def _first_rise(speed: Floats, growth: Floats) -> float:
@@ -393,9 +419,7 @@ def _first_rise(speed: Floats, growth: Floats) -> float:
     return float(speed[at] + part * (speed[at + 1] - speed[at]))
 
 
-def map_of_learnt(
-    lines: Sequence[LearntLine], table: pd.DataFrame, *, chord: float, polar: str
-) -> xr.Dataset:
+def map_of_learnt(lines: Sequence[LearntLine], table: pd.DataFrame, *, chord: float) -> xr.Dataset:
     """Return ``comparison/stability_map.nc`` of learnt models.
 
     Parameters
@@ -406,8 +430,6 @@ def map_of_learnt(
         Their critical speeds (:func:`stability_of_learnt`).
     chord
         c (m).
-    polar
-        Label of the steady polar.
 
     Raises
     ------
@@ -418,16 +440,21 @@ def map_of_learnt(
         reasons = "; ".join(dict.fromkeys(line.refusal for line in lines))
         raise EquisectionError(f"no model of the loads was learnt at any incidence ({reasons})")
     speeds = lines[0].speeds
-    names = next(line.modes.names for line in lines if not line.refusal and line.modes.names)
     models = list(dict.fromkeys(line.lessons.name for line in lines))
     found = []
     for model in models:
         own = [line for line in lines if line.lessons.name == model]
-        rows = table[table["model"] == model]
-        found.append(_map_of_model(own, rows, names, chord))
-    joined = xr.concat(found, pd.Index(models, name="model"), combine_attrs="override")
+        found.append(_map_of_model(own, table[table["model"] == model], chord))
+    joined = xr.concat(
+        found,
+        pd.Index(models, name="model"),
+        data_vars="all",
+        coords="minimal",
+        join="outer",
+        compat="override",
+        combine_attrs="override",
+    )
     joined["k_star"] = ("speed", np.asarray(lines[0].given.k_star_at(speeds)))
-    joined["strip_place"] = ("strip", np.array([0.5]))
     further = {name: joined[name] for name in OF_MODEL}
     dataset = described(joined.drop_vars(list(OF_MODEL)))
     for name, (units, long_name) in OF_MODEL.items():
@@ -437,21 +464,24 @@ def map_of_learnt(
         dataset[name] = (further[name].dims, values.astype(object) if is_text else values, attrs)
     return dataset.assign_attrs(
         equilibrium="on the branch that comes from rest",
-        polar=polar,
+        polar="; ".join(dict.fromkeys(line.polar_label for line in lines if not line.refusal)),
         basis=MODEL,
         lags="one, learnt with the loads",
         highest_speed=float(speeds[-1]),
     )
 
 
-def _map_of_model(
-    lines: Sequence[LearntLine], rows: pd.DataFrame, names: Sequence[str], chord: float
-) -> xr.Dataset:
+def _map_of_model(lines: Sequence[LearntLine], rows: pd.DataFrame, chord: float) -> xr.Dataset:
+    learnt = [line for line in lines if not line.refusal]
+    names = next((line.modes.names for line in learnt if line.modes.names), ())
+    bodies = next((line.bodies(line.speeds)[0] for line in learnt), None)
+    places = np.array([0.5]) if bodies is None else bodies.places
     shape = (len(lines), lines[0].speeds.size)
     values = {name: np.full(shape, np.nan) for name in _OVER_BOTH}
     of_modes = {name: np.full((*shape, len(names)), np.nan) for name in _OVER_MODES}
     mechanism = np.full(shape, "unknown", dtype=object)
-    motions = np.full((2, len(lines), 1), np.nan, dtype=np.complex128)
+    motions = np.full((2, len(lines), places.size), np.nan, dtype=np.complex128)
+    ratio = np.full(len(lines), np.nan, dtype=np.complex128)
     for row, line in enumerate(lines):
         if line.refusal:
             continue
@@ -459,14 +489,14 @@ def _map_of_model(
         _fill_modes(line, names, {name: one[row] for name, one in of_modes.items()}, chord)
         if math.isfinite(line.small[0]):
             onset = np.array(line.small[:1])
-            (motion,) = line.spectrum(onset).least_stable_motion
-            (section,), _ = line.sections(onset)
-            assert section is not None, "a small motion grows about an equilibrium"
-            recovery = section.twist_recovery / section.deflection_recovery
-            motions[0, row] = 1.0
-            motions[1, row] = recovery * motion[_DEFLECTION] / motion[_TWIST]
+            found, _ = line.bodies(onset)
+            assert found is not None, "a small motion grows about an equilibrium"
+            motion = line.spectrum(onset).least_stable_motion
+            twist, deflection = found.tip(motion)
+            ratio[row] = deflection[0] / twist[0]
+            for moved, along in zip(motions, found.along_span(motion), strict=True):
+                moved[row] = along[0] / twist[0]
     over, by_mode = ("incidence_deg", "speed"), ("incidence_deg", "speed", "mode")
-    ratio = motions[1, :, 0]
     critical = {
         "critical_speed": "speed",
         "speed_low": "speed_low",
@@ -507,12 +537,13 @@ def _map_of_model(
                 for kind, moved in zip(("twist", "deflection"), motions, strict=True)
                 for part in ("real", "imag")
             },
+            "strip_place": ("strip", places),
         },
         {
             "incidence_deg": [line.incidence_deg for line in lines],
             "speed": lines[0].speeds,
             "mode": list(names),
-            "strip": [1],
+            "strip": np.arange(1, places.size + 1),
         },
     )
 
@@ -524,19 +555,13 @@ def _fill(line: LearntLine, values: dict[str, Floats], chord: float) -> NDArray[
     told, p = line.mechanisms(spectrum), spectrum.least_stable
     rate = speeds / chord
     known = spectrum.exists
-    sections, _ = line.sections(speeds)
-    recovery = np.array(
-        [
-            (math.nan, math.nan)
-            if section is None
-            else (section.twist_recovery, section.deflection_recovery)
-            for section in sections
-        ]
-    )
     values["growth_rate"][known] = (p.real * rate)[known]
     values["frequency"][known] = (p.imag * rate / math.tau)[known]
-    values["equilibrium_twist"][:] = spectrum.states[:, 0] / recovery[:, 0]
-    values["equilibrium_deflection"][:] = spectrum.states[:, 2] * chord / recovery[:, 1]
+    bodies, there = line.bodies(speeds)
+    if bodies is not None:
+        twist, deflection = bodies.tip(spectrum.states[there])
+        values["equilibrium_twist"][there] = twist
+        values["equilibrium_deflection"][there] = deflection * chord
     of_release = line.data["k_star"].values
     order = np.argsort(of_release)
     k_star = np.asarray(line.given.k_star_at(speeds))
@@ -570,6 +595,5 @@ def _divergence(line: LearntLine) -> float:
     """Return the lowest of the speeds (m/s) at which there is no equilibrium but divergence."""
     if line.refusal:
         return math.nan
-    _, diverges = line.sections(line.speeds)
-    lost = np.isnan(line.spectrum(line.speeds).states[:, 0]) | np.array(diverges, dtype=bool)
+    lost = np.isnan(line.spectrum(line.speeds).states[:, 0]) | line.diverges(line.speeds)
     return float(line.speeds[lost][0]) if lost.any() else math.nan

@@ -89,4 +89,5 @@ def strip_polars_at(dataset: xr.Dataset, resolution: str) -> StripPolars:
         lift,
         moment,
         label=str(dataset.attrs[f"solver_{resolution}"]),
+        drag=chosen["cd"].values[there].astype(np.float64),
     )

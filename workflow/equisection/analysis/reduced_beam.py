@@ -21,6 +21,7 @@ from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.analysis.reduced_model import (
     PredictedReleases,
     ends_of_records,
+    ends_of_swings,
     prediction_of,
     windows_of,
     with_growth,
@@ -34,6 +35,8 @@ from equisection.motion.learnt_beams import LearntBeams
 #: growth at k* 10 to 14 by so much (rms, ``python -m tests.benchmarks learnt``). It was raised from
 #: 0.004 after these misses, on the plates that the form was chosen on: no independent test.
 SMALLEST_BAND_OF_BEAM = 0.005
+#: Duration (c/V) after which a release of a beam, which grows slowly, has come to its limit cycle.
+LONG_OF_BEAM = 1200.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +94,7 @@ def learnt_beam(release: BeamRelease, polars: StripPolars) -> ReducedBeam:
     ResultFileError
         The release cannot be learnt from.
     """
-    early, middle, late = ends_of_records(float(release.time[-1]))
+    early, middle, late = ends_of_records(release.time)
     return ReducedBeam(
         loads=learn_strips(release, polars, middle),
         refits=(
@@ -109,6 +112,7 @@ def predicted_beams(
     k_star: Sequence[float],
     parameters: BeamParameters,
     windows: Sequence[tuple[float, float]] | None = None,
+    start: tuple[float, float] = (0.0, 0.0),
 ) -> pd.DataFrame:
     """Return growth and frequency of a release at each k*, as :func:`..reduced_model.predicted`.
 
@@ -122,13 +126,16 @@ def predicted_beams(
         Modes of the N beams at the strips of the model.
     windows
         Part of each release (c/V) that growth is read from; by default the usual one of 100 c/V.
+    start
+        Twist (rad) and heave rate (over V) of the tip from which it is released.
 
     Returns
     -------
     pd.DataFrame
         The amplitude is that of the tip's twist.
     """
-    rows = [released_beams(one, parameters, windows) for one in (model.loads, *model.refits)]
+    fits = (model.loads, *model.refits)
+    rows = [released_beams(one, parameters, windows, start) for one in fits]
     return prediction_of(k_star, rows, model.loads.seen, SMALLEST_BAND_OF_BEAM)
 
 
@@ -136,6 +143,7 @@ def released_beams(
     loads: LearntStrips,
     parameters: BeamParameters,
     windows: Sequence[tuple[float, float]] | None = None,
+    start: tuple[float, float] = (0.0, 0.0),
 ) -> PredictedReleases:
     """Return releases of beams with learnt loads (:func:`predicted_beams` has the parameters).
 
@@ -146,11 +154,42 @@ def released_beams(
     beams = LearntBeams(parameters, loads)
     natural = beams.natural_frequencies
     spans = windows_of(natural, windows)
-    swings = beams.released(float(spans[:, 1].max()))
+    swings = beams.released(float(spans[:, 1].max()), start=start)
     bending = swings.bending[:, :, beams.swings_along]
     records = np.concatenate([swings.torsion[:, :, :1], bending], axis=2).transpose(2, 1, 0)
     twist = swings.torsion @ parameters.torsion_at_tip
     return with_growth(swings, records, twist, natural, spans)
+
+
+def limit_cycles_of_beams(
+    loads: LearntStrips,
+    parameters: BeamParameters,
+    duration: float = LONG_OF_BEAM,
+    start: tuple[float, float] = (0.0, 0.0),
+) -> pd.DataFrame:
+    """Return the amplitude that a release comes to in the end, of each beam.
+
+    Parameters
+    ----------
+    loads
+        Loads that were learnt from the whole of a release that grows
+        (:func:`equisection.motion.beam_lesson.learn_strips`), with terms of large amplitudes.
+    parameters
+        Modes of the N beams at the strips of the loads.
+    duration
+        Time after which the amplitude is read (c/V).
+    start
+        Twist (rad) and heave rate (over V) of the tip from which they are released.
+
+    Returns
+    -------
+    pd.DataFrame
+        :func:`..reduced_model.ends_of_swings`, of the twist of the tip.
+    """
+    beams = LearntBeams(parameters, loads)
+    swings = beams.released(duration, start=start)
+    twist = swings.torsion @ parameters.torsion_at_tip
+    return ends_of_swings(swings, twist, beams.natural_frequencies[:, 0], loads.seen)
 
 
 def growth_of_pitch(beams: LearntBeams) -> list[float]:

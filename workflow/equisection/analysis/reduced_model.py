@@ -131,7 +131,7 @@ def learnt_model(history: ReferenceHistory, polar: Polar) -> ReducedModel:
     ResultFileError
         The release cannot be learnt from.
     """
-    early, middle, late = ends_of_records(float(history.time[-1]))
+    early, middle, late = ends_of_records(history.time)
     return ReducedModel(
         loads=learn(history, polar, middle),
         refits=tuple(learn(history, polar, end) for end in (early, late)),
@@ -141,12 +141,14 @@ def learnt_model(history: ReferenceHistory, polar: Polar) -> ReducedModel:
     )
 
 
-def ends_of_records(last: float) -> tuple[float, float, float]:
-    """Return the ends (c/V) of a refit, of the model and of another refit, by that of the record.
+def ends_of_records(time: Floats) -> tuple[float, float, float]:
+    """Return the ends (c/V) of a refit, of the model and of another refit, by a record's times.
 
-    Of a record shorter than 50 c/V they are 5 c/V before its end, its end, and 2.5 before.
+    Of a record shorter than 50 c/V they are 5 c/V before its end, its end, and 2.5 before. The last
+    sample may be one interval before 50.
     """
-    return ENDS if last >= ENDS[-1] - 1e-6 else (last - 5.0, last, last - 2.5)
+    last, step = float(time[-1]), float(np.diff(time[-2:]).sum())
+    return ENDS if last + step >= ENDS[-1] - 1e-6 else (last - 5.0, last, last - 2.5)
 
 
 def predicted(
@@ -347,18 +349,42 @@ def limit_cycles(
     Returns
     -------
     pd.DataFrame
+        :func:`ends_of_swings`.
+    """
+    histories = LearntSections(sections, loads).released(duration, start=start)
+    natural = np.array([section.uncoupled_frequencies[0] for section in sections])
+    return ends_of_swings(histories, histories.twist, natural, loads.seen)
+
+
+def ends_of_swings(
+    run: LearntHistories | LearntSwings, twist: Floats, natural: Floats, seen: tuple[float, float]
+) -> pd.DataFrame:
+    """Return the amplitude at the end of each of N releases with learnt loads.
+
+    Parameters
+    ----------
+    run
+        The releases.
+    twist
+        Twist of section or tip (rad), shape (n, N).
+    natural
+        Frequency f c/V of the pitch, shape (N,).
+    seen
+        Least and greatest incidence (rad) of what the loads were learnt from.
+
+    Returns
+    -------
+    pd.DataFrame
         ``twist_amplitude_deg``, half the range of the twist over its last two periods; NaN
         where the motion leaves the polar. ``extrapolated``: the incidence goes more than
         :data:`BEYOND` outside what the model has seen.
     """
-    histories = LearntSections(sections, loads).released(duration, start=start)
-    least, most = histories.farthest.T
+    least, most = run.farthest.T
     amplitudes = []
-    for lane, section in enumerate(sections):
-        late = histories.time > duration - 2.0 / section.uncoupled_frequencies[0]
-        swing = float(np.ptp(histories.twist[late, lane]))
-        amplitudes.append(0.5 * math.degrees(swing))
-    low, high = loads.seen
+    for lane, frequency in enumerate(natural):
+        late = run.time > run.time[-1] - 2.0 / frequency
+        amplitudes.append(0.5 * math.degrees(float(np.ptp(twist[late, lane]))))
+    low, high = seen
     margin = BEYOND * (high - low)
     return pd.DataFrame(
         {

@@ -35,6 +35,9 @@ THINNEST, HIGHEST, SHARPEST_DEG, WIDEST_GAP = 2e-3, 2.0, 2.0, 0.1
 MOST_CORNERS, KINK_DEG = 500, 3.5
 #: Extent along the chord over the chord that is given: beyond, the units are not one.
 _LIKE_CHORD = 1.25
+#: Extents along x that a drawing may have, in whatever unit, and the distance from the outline to
+#: its axis (chords): more of either is a mistake, and costs digits of the coordinates.
+_SMALLEST, _LARGEST, FARTHEST_AXIS = 1e-9, 1e9, 5.0
 #: Angle of the fluid in a notch (deg) below which it has no layers of cells, and the radius
 #: (chords) of the disc that does not enter it.
 NARROWEST_NOTCH_DEG, _NOTCH_RADIUS = 70.0, 0.008
@@ -207,22 +210,44 @@ def placed(
     Raises
     ------
     OutlineError
-        The points have no extent, or one that is not the chord's.
+        The points have no extent, or one that is not the chord's; the axis is far from them.
     """
     extent = float(np.ptp(points[:, 0]))
     if extent <= 0.0:
         raise OutlineError("all points have the same x; allowed is an outline along x")
+    if not _SMALLEST <= extent <= _LARGEST:
+        raise OutlineError(
+            f"it is {extent:.4g} long along x; allowed is from {_SMALLEST:g} to {_LARGEST:g}: draw "
+            "it in another unit"
+        )
     chord = extent if chord is None else chord
     if not 1 / _LIKE_CHORD <= extent / chord <= _LIKE_CHORD:
         raise OutlineError(
             f"it is {extent:g} long along x, which is {extent / chord:.4g} of the chord given, "
             f"{chord:g}; the chord is in the file's unit: give about {extent:.4g}, or leave it out"
         )
+    _require_axis_near(points, chord, axis)
     if axis is None:
         moved = points - (points[:, 0].min(), 0.0)
         return moved / chord - (0.5 * extent / chord, 0.0)
     x, y, behind = axis
     return (points - (x, y)) / chord + (behind - 0.5, 0.0)
+
+
+def _require_axis_near(
+    points: Floats, chord: float, axis: tuple[float, float, float] | None
+) -> None:
+    """Refuse an axis that is far from the outline, as one in another unit is."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    at = np.array([low[0], 0.0] if axis is None else axis[:2])
+    away = float(np.hypot(*np.maximum(np.maximum(low - at, at - high), 0.0))) / chord
+    if away <= FARTHEST_AXIS:
+        return
+    what = "y = 0, where its axis is" if axis is None else f"its axis at {at[0]:g}, {at[1]:g}"
+    raise OutlineError(
+        f"it is {away:.4g} c away from {what}; allowed is up to {FARTHEST_AXIS:g} c: give "
+        "beam.outline.axis in the unit of the file"
+    )
 
 
 def outline_of(points: Floats, *, is_airfoil: bool = False) -> Outline:

@@ -67,7 +67,10 @@ def find_files(config: Config, project: Path, directory: Path | None = None) -> 
             "beam": _with_outline(config.beam, found),
             "reuse": found(config.reuse),
             "steady": config.steady.model_copy(
-                update={"beam_polar": found(config.steady.beam_polar)}
+                update={
+                    "beam_polar": found(config.steady.beam_polar),
+                    "beam_polar_section": found(config.steady.beam_polar_section),
+                }
             ),
             "embedded": config.embedded.model_copy(update=embedded),
             "given": config.given.model_copy(
@@ -106,6 +109,8 @@ def named_files(config: Config) -> dict[str, str]:
         named |= {f"given.polars.{name}": path for name, path in config.given.polars.items()}
     if config.steady.beam_polar:
         named["steady.beam_polar"] = config.steady.beam_polar
+    if config.steady.beam_polar_section:
+        named["steady.beam_polar_section"] = config.steady.beam_polar_section
     if config.derivatives.table:
         named["derivatives.table"] = config.derivatives.table
     return named

@@ -161,48 +161,27 @@ def _learnt_without_factors(
         )
 
 
-@check("sweep.onset", "sweep.models", "beam.elastic_axis", "steady.beam_polar")
-def _learnt_on_strips(
-    onset: str, models: tuple[str, ...], elastic_axis: float, beam_polar: str
-) -> Iterator[Problem]:
-    """Refuse a beam whose strips the learnt model does not have: no loads, or another axis."""
-    if onset != "model" or "3d" not in models:
-        return
-    if beam_polar:
+@check("sweep.onset", "sweep.models", "steady.beam_polar")
+def _learnt_on_strips(onset: str, models: tuple[str, ...], beam_polar: str) -> Iterator[Problem]:
+    """Refuse a beam without loads along the span, on which the learnt model rests."""
+    if onset == "model" and "3d" in models and beam_polar:
         yield Problem(
             "steady.beam_polar",
             beam_polar,
             "allowed with sweep.onset 'model' and the model 3d is \"\", with which the solver runs "
-            "the rigid beam: the model is learnt on its loads along the span",
-        )
-    if elastic_axis != MID_CHORD:
-        yield Problem(
-            "beam.elastic_axis",
-            elastic_axis,
-            f"allowed with sweep.onset 'model' and the model 3d is {MID_CHORD:g}: the learnt model "
-            "of the strips has no force normal to the chord; or leave 3d out of sweep.models",
+            "the rigid beam: the model is learnt on its loads along the span, which such a file "
+            "does not have",
         )
 
 
-@check("sweep.onset", "sweep.models", "unsteady.start")
-def _learnt_from_this_start(
-    onset: str, models: tuple[str, ...], start: StartKeys
-) -> Iterator[Problem]:
-    """Refuse starts from which the learnt models do not release."""
-    if onset != "model":
-        return
-    if start.state != "rigid":
+@check("sweep.onset", "unsteady.start")
+def _learnt_from_this_start(onset: str, start: StartKeys) -> Iterator[Problem]:
+    """Refuse a start from which the learnt models do not release."""
+    if onset == "model" and start.state != "rigid":
         yield Problem(
             "unsteady.start.state",
             start.state,
             "allowed with sweep.onset 'model' is 'rigid': a learnt model releases from there",
-        )
-    if start.is_given and "3d" in models:
-        yield Problem(
-            "sweep.models",
-            list(models),
-            "allowed with sweep.onset 'model' and unsteady.start are models without 3d: the learnt "
-            "model of the beam releases it at rest; or leave unsteady.start out",
         )
 
 

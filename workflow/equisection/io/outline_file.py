@@ -62,6 +62,8 @@ def read_outline(path: Path) -> OutlineFile:
         if path.stat().st_size > _LARGEST:
             raise OutlineError(f"{path}: larger than 2 MB: this is no outline")
         text = decoded(path.read_bytes())
+    except FileNotFoundError:
+        raise OutlineError("there is no such file") from None
     except (OSError, UnicodeError) as error:
         raise OutlineError(f"{path}: cannot be read as text: {error}") from None
     lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)]

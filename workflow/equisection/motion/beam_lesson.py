@@ -6,7 +6,11 @@ What the modes need for their motion, by their own equations,
 
 are the loads on them, f and g the first torsion and the first bending mode at the strips:
 
-    Q_theta,1 = sum_s h_s f_s c_m,s,    Q_w,1 = sum_s h_s g_s c_l,s.
+    Q_theta,1 = sum_s h_s f_s c_m,ea,s,    Q_w,1 = sum_s h_s g_s c_l,s.
+
+With the elastic axis x_ea chords behind mid-chord c_m,ea = c_m + x_ea (c_l + r). The lift is
+learnt first, from the bending mode; what it does about the axis is then known, and c_m is learnt
+from what is left of the torsion mode.
 
 Derivatives are those of a quintic spline, and all recorded modes move the strips. Linear least
 squares then give the coefficients of :mod:`equisection.aerodynamics.learnt_strips`, bound by a
@@ -28,11 +32,13 @@ from equisection.aerodynamics.learnt_loads import (
     lagged,
     rate_of_least,
     require_lesson,
+    require_swing,
 )
 from equisection.aerodynamics.learnt_strips import (
+    LARGE_TERMS,
     REAR_POINT,
+    SLOPE_TERM,
     STRIP_TERMS,
-    UNSTEADY_TERMS,
     LearntStrips,
     strip_terms,
 )
@@ -84,7 +90,8 @@ class _Lesson:
     """Motion of the strips and loads of two modes that polars and apparent mass leave.
 
     ``a`` and ``twist_rate`` have the shape (n, S); ``moment`` and ``lift`` (n,) are over the sums
-    of the weights ``by_moment`` and ``by_lift`` (S,), which have the sum 1.
+    of the weights ``by_moment`` and ``by_lift`` (S,), which have the sum 1. ``moment`` lacks what
+    the learnt lift adds about an ``axis`` off mid-chord (chords).
     """
 
     step: float
@@ -95,15 +102,17 @@ class _Lesson:
     by_moment: Floats
     by_lift: Floats
     used: NDArray[np.bool_]
-    terms: int
+    size: int
+    terms: NDArray[np.intp]
+    axis: float
 
     @classmethod
     def of(
-        cls, release: BeamRelease, polars: StripPolars, until: float, free_slope: bool
+        cls, release: BeamRelease, polars: StripPolars, until: float, free_slope: bool, large: bool
     ) -> _Lesson:
         require_lesson(release.name, release.time)
         s, structure = release.time, release.parameters.structure
-        require_learnable(release.parameters, release.name)
+        axis = release.parameters.axis
         splines = [
             scipy.interpolate.make_interp_spline(s, values.T, 5)
             for values in (release.torsion, release.bending)
@@ -113,10 +122,13 @@ class _Lesson:
         )
         f, g = structure.torsion_shapes.T, structure.bending_shapes.T
         twist_rate = theta_1 @ f
-        a = theta @ f - w_1 @ g + REAR_POINT * twist_rate
-        steady_lift, steady_moment = polars.loads(release.incidence_rad + a)
+        a = theta @ f - w_1 @ g + (REAR_POINT - axis) * twist_rate
+        alpha = release.incidence_rad + a
+        steady_lift, steady_moment = polars.loads(alpha)
+        lifts = steady_lift + APPARENT_MASS * (twist_rate - w_2 @ g - axis * theta_2 @ f)
         moments = steady_moment - APPARENT_INERTIA * (theta_2 @ f)
-        lifts = steady_lift + APPARENT_MASS * (twist_rate - w_2 @ g)
+        if axis:
+            moments = moments + axis * (lifts + polars.normal_rise(alpha))
         on_torsion = (
             theta_2 * structure.torsion_inertia[0]
             - w_2 @ structure.imbalance[0].T
@@ -138,6 +150,9 @@ class _Lesson:
                 f"{release.name}: the motion is beyond the polars of the strips, which cover "
                 f"{np.degrees(polars.incidence_range)} deg; add angles to steady.incidence_deg"
             )
+        require_swing(release.name, a[used])
+        size = len(STRIP_TERMS) + (len(LARGE_TERMS) if large else 0)
+        terms = np.arange(size)
         return cls(
             step=float(s[1] - s[0]),
             a=a,
@@ -147,19 +162,22 @@ class _Lesson:
             by_moment=by_moment / by_moment.sum(),
             by_lift=by_lift / by_lift.sum(),
             used=used,
-            terms=len(STRIP_TERMS) if free_slope else UNSTEADY_TERMS,
+            size=size,
+            terms=terms if free_slope else terms[terms != SLOPE_TERM],
+            axis=axis,
         )
 
     def fitted(self, rate: float) -> tuple[Floats, Floats, float, float]:
         """Return B_m, B_l and their residuals at a rate of the lags (V/c)."""
         h = self.a - lagged(self.a, self.step, rate)
-        terms = strip_terms(self.a, self.twist_rate, h)[: self.terms, self.used]
-        found = []
-        for wanted, weights in ((self.moment, self.by_moment), (self.lift, self.by_lift)):
-            b, left = bound_fit((terms @ weights).T, wanted[self.used])
-            found.append((np.pad(b, (0, len(STRIP_TERMS) - self.terms)), float(left)))
-        (moment, left_moment), (lift, left_lift) = found
-        return moment, lift, left_moment, left_lift
+        terms = strip_terms(self.a, self.twist_rate, h, self.size)[self.terms][:, self.used]
+        by_lift, left_lift = bound_fit((terms @ self.by_lift).T, self.lift[self.used])
+        on_axis = (terms @ self.by_moment).T
+        about_axis = self.moment[self.used] - self.axis * (on_axis @ by_lift)
+        by_moment, left_moment = bound_fit(on_axis, about_axis)
+        moment, lift = np.zeros((2, self.size))
+        moment[self.terms], lift[self.terms] = by_moment, by_lift
+        return moment, lift, float(left_moment), float(left_lift)
 
 
 def learn_strips(
@@ -168,6 +186,7 @@ def learn_strips(
     until: float = math.inf,
     *,
     free_slope: bool = False,
+    large: bool = False,
 ) -> LearntStrips:
     """Learn the loads of the strips of a beam from a release.
 
@@ -181,15 +200,16 @@ def learn_strips(
         Part of the record that is used, from the release on (c/V).
     free_slope
         True: the slope of the steady loads is corrected, too.
+    large
+        True: there are terms of large amplitudes.
 
     Raises
     ------
     ResultFileError
-        The record is too short, has gaps, is too coarse in time, or is of a beam with its axis off
-        mid-chord.
+        The record is too short, has gaps, is too coarse in time, or has settled.
     """
     whole = polars.continued
-    lesson = _Lesson.of(release, whole, until, free_slope)
+    lesson = _Lesson.of(release, whole, until, free_slope, large)
     rate = rate_of_least(lesson.fitted)
     moment, lift, left_moment, left_lift = lesson.fitted(rate)
     seen = release.incidence_rad + lesson.a[lesson.used]
@@ -204,18 +224,3 @@ def learn_strips(
         seen=(float(seen.min()), float(seen.max())),
         learnt_until=min(until, float(release.time[-1])),
     )
-
-
-def require_learnable(parameters: BeamParameters, name: str) -> None:
-    """Refuse a beam whose axis is off mid-chord: the model has no force normal to the chord.
-
-    Raises
-    ------
-    ResultFileError
-        It is off.
-    """
-    if parameters.structure.is_offset:
-        raise ResultFileError(
-            f"{name}: beam.elastic_axis is off mid-chord; a model of the strips' loads is learnt "
-            "from a beam with its axis there"
-        )

@@ -70,6 +70,11 @@ class BeamParameters:
     torsion_at_tip: Floats
     bending_at_tip: Floats
 
+    @property
+    def axis(self) -> float:
+        """Place of the elastic axis of all beams, chords behind mid-chord."""
+        return float(self.structure.axis[0])
+
     @classmethod
     def from_modes(
         cls,

@@ -58,6 +58,10 @@ class Published:
         return True
 
 
+#: Part of a value by which one that the paper calls approximate may be off. The paper gives no
+#: interval; this is the assumption of every comparison here.
+ABOUT = 0.1
+
 #: Table 1: C_D, C_L, C_M of the rigid plate by mesh and incidence (deg).
 TABLE_1: dict[str, dict[float, tuple[float, float, float]]] = {
     "4.7e6 cells": {
@@ -229,6 +233,9 @@ PUBLISHED: tuple[Published, ...] = (
     *_FLOW_FIELD,
     *_DISCRETISATION,
 )
+#: k* of the onset, and its interval.
+_ONSET = next(value.value for value in PUBLISHED if value.quantity == "k* of the onset")
+PAPER_ONSET = (_ONSET, (1.0 - ABOUT) * _ONSET, (1.0 + ABOUT) * _ONSET)
 #: Quantities that only a resolved flow field has.
 FLOW_FIELD: frozenset[str] = frozenset(value.quantity for value in _FLOW_FIELD)
 #: Quantities of the paper's meshes and time steps.

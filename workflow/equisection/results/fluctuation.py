@@ -13,8 +13,9 @@ Floats = NDArray[np.float64]
 
 #: Root mean square of the lift below which no vortices are told from a drift.
 _SMALLEST = 1e-3
-#: Fewest periods in a record, and least share of the variance of the lift near its frequency.
-_PERIODS, _SHARE = 4.0, 0.5
+#: Fewest periods in a record, four as well as a frequency of them is known, and least share of the
+#: variance of the lift near its frequency.
+_PERIODS, _SHARE = 3.9, 0.5
 
 
 @dataclass(frozen=True)
@@ -66,9 +67,11 @@ class Fluctuation:
 
 
 def _frequency(time: Floats, lift: Floats) -> float | None:
-    """Return the frequency of the lift (V/c), the maximum of its Hann-windowed periodogram.
+    """Return the frequency of the lift (V/c): that of the wave about a line that fits it best.
 
-    Zeros behind the record bring its samples to 1/64 of their distance 1/T.
+    It is near the maximum of the Hann-windowed periodogram, whose samples are brought to 1/4 of
+    their distance 1/T by zeros behind the record. The maximum itself is a percent off where the
+    record has few periods.
     """
     if lift.std() < _SMALLEST:
         return None
@@ -77,11 +80,21 @@ def _frequency(time: Floats, lift: Floats) -> float | None:
         lift,
         1.0 / step,
         window="hann",
-        nfft=64 * scipy.fft.next_fast_len(lift.size),
+        nfft=4 * scipy.fft.next_fast_len(lift.size),
         detrend="linear",
     )
     found = float(frequencies[np.argmax(power)])
     near = power[np.abs(frequencies - found) <= 2.0 / length].sum()
     if found * length < _PERIODS or near < _SHARE * power.sum():
         return None
-    return found
+
+    line = (np.ones_like(time), time - time.mean())
+
+    def left(frequency: float) -> float:
+        angle = 2.0 * np.pi * frequency * time
+        columns = np.stack([*line, np.cos(angle), np.sin(angle)], axis=-1)
+        fitted = columns @ np.linalg.lstsq(columns, lift, rcond=None)[0]
+        return float(np.sum((lift - fitted) ** 2))
+
+    around = (found - 0.5 / length, found + 0.5 / length)
+    return float(scipy.optimize.minimize_scalar(left, bounds=around, method="bounded").x)

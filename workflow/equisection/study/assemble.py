@@ -24,7 +24,7 @@ from equisection.cases import (
 from equisection.cases.beam_in_flow import beam_modes_in_flow
 from equisection.config import Config
 from equisection.errors import DivergenceError, EquisectionError, ReductionError
-from equisection.reduction.correction import corrected_equilibrium
+from equisection.reduction.corrected_section import corrected_section
 from equisection.reduction.flutter_bias import refusal as bias_refusal
 from equisection.reduction.flutter_bias import unlike
 from equisection.reduction.reduce import Reduction
@@ -38,8 +38,6 @@ from equisection.study.plan import Model
 
 #: Of the twist, below which its extrema are not where they seem to be.
 FEWEST_SAMPLES_A_PERIOD = 6
-#: Members of a section beyond mass and springs that the correction for the finite span has.
-_CORRECTED = ("static_imbalance", "elastic_axis", "flexural_damping", "torsional_damping")
 
 
 def steady_case(
@@ -204,47 +202,10 @@ def _section(
         raise ReductionError(reason)
     section = section_from_dataset(data["equivalent"], reduction).scaled(stiffness_scale)
     in_flow = section.in_flow(config.flow.density, config.flow.speed)
-    return _corrected(config, in_flow, data["correction"]) if model.corrected else (in_flow, (1, 1))
-
-
-def _corrected(
-    config: Config, section: Section, correction: xr.Dataset
-) -> tuple[Section, tuple[float, float]]:
-    """Return a section (in the flow) corrected by Eq. 20 at the aeroelastic equilibrium.
-
-    The factors multiply its masses and stiffnesses; where it has an imbalance or its axis off
-    mid-chord they divide its loads instead, and come back beside it as factors of c_l and c_m
-    (:mod:`equisection.reduction.correction`).
-
-    Raises
-    ------
-    ReductionError
-        There is no equilibrium inside the polars.
-    """
-    section.require_defaults("the correction for the finite span", but=_CORRECTED)
-    equilibrium = corrected_equilibrium(
-        factors_from_dataset(correction),
-        math.radians(config.flow.incidence_deg),
-        section.torsional_stiffness,
-        section.stiffness_ratio,
-        section.axis_behind_mid_chord,
-    )
-    lift_factor, moment_factor = (
-        float(factor[0]) for factor in (equilibrium.lift_factor, equilibrium.moment_factor)
-    )
-    if section.has_offset:
-        return section, (1.0 / lift_factor, 1.0 / moment_factor)
-    corrected = Section(
-        torsional_stiffness=moment_factor * section.torsional_stiffness,
-        flexural_stiffness=lift_factor * section.flexural_stiffness,
-        inertia=moment_factor * section.inertia,
-        mass=lift_factor * section.mass,
-        torsional_damping=moment_factor * section.torsional_damping,
-        flexural_damping=lift_factor * section.flexural_damping,
-        twist_recovery=section.twist_recovery,
-        deflection_recovery=section.deflection_recovery,
-    )
-    return corrected, (1.0, 1.0)
+    if not model.corrected:
+        return in_flow, (1.0, 1.0)
+    factors = factors_from_dataset(data["correction"])
+    return corrected_section(in_flow, factors, math.radians(config.flow.incidence_deg))
 
 
 def _beam_modes(config: Config, dataset: xr.Dataset, stiffness_scale: float) -> BeamModes:

@@ -51,6 +51,8 @@ def check_polars(config: Config, directory: Path | None = None) -> None:
         problems += _of_section(config, polars, directory)
     if config.steady.beam_polar:
         problems += _of_beam(config, directory)
+    if config.steady.beam_polar_section:
+        problems += _of_its_section(config, directory)
     if problems:
         raise ConfigError("\n".join(problem.line for problem in problems))
 
@@ -140,32 +142,55 @@ def _of_another_section(
 
 def _of_beam(config: Config, directory: Path) -> Iterator[Problem]:
     """Refuse a polar of another rigid beam. What bends the beam is free: material and ends."""
-    polar = config.steady.beam_polar
+    yield from _of_these(
+        config,
+        "steady.beam_polar",
+        config.steady.beam_polar,
+        directory,
+        ('the polar of this beam, or "", with which the solver runs it', "a beam"),
+    )
+
+
+def _of_its_section(config: Config, directory: Path) -> Iterator[Problem]:
+    """Refuse a polar of another section than that of the rigid beam's polar."""
+    yield from _of_these(
+        config,
+        "steady.beam_polar_section",
+        config.steady.beam_polar_section,
+        directory,
+        ("the polar of this beam's section", "a section"),
+    )
+
+
+def _of_these(
+    config: Config, key: str, polar: str, directory: Path, words: tuple[str, str]
+) -> Iterator[Problem]:
+    """Refuse a polar about another axis, or of another beam or flow; words: what, and of what."""
     try:
         points = read_rows(directory / polar, symmetric=False)
         points.axis_of(directory / polar, MID_CHORD)
         valid = read_validity(directory / polar)
     except PolarFileError as error:
-        yield _unreadable("steady.beam_polar", polar, error)
+        yield _unreadable(key, polar, error)
         return
     axis = valid.get("moment_axis", math.nan)
     if axis != MID_CHORD and (points.about_quarter_chord or not math.isnan(axis)):
         yield Problem(
-            "steady.beam_polar",
+            key,
             polar,
             "allowed are moments about mid-chord: "
             + (points.about_quarter_chord if math.isnan(axis) else f"it says {_short(axis)}")
             + "; write them about mid-chord, and say so in the file: # Valid for: moment_axis 0.5",
         )
         return
-    here = _decides_rigid_polar(config)
+    here, (wanted, of_what) = _decides_rigid_polar(config), words
     for name, value in valid.items():
         if not math.isclose(here.get(name, value), value, rel_tol=_SAME_BEAM):
             yield Problem(
-                "steady.beam_polar",
+                key,
                 polar,
-                'allowed is the polar of this beam, or "", with which the solver runs it; this '
-                f"one is of a beam of {name} {_short(value)} and not {_short(here[name])}",
+                f"allowed is {wanted}; this "
+                f"one is of {of_what} of {name} {_short(value)} and not {_short(here[name])}",
             )
             return
 

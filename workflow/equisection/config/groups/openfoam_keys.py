@@ -19,10 +19,12 @@ MeshName = Literal[
     "medium",
     "fine",
     "finest",
+    "five-layers",
     "plate-coarse",
     "plate-medium",
     "plate-fine",
     "plate-finest",
+    "plate-five-layers",
 ]
 #: Before the name of a mesh: the section has the cells that its plate has in the plane.
 ON_CELLS_OF_PLATE = "plate-"
@@ -41,6 +43,9 @@ OUTLINE: Mesher = "outline"
 Turbulence = Literal["k-omega-sst", "laminar"]
 SST: Turbulence = "k-omega-sst"
 LAMINAR: Turbulence = "laminar"
+#: Turbulence of the stream at the inlet by default: rms velocity over V, eddy viscosity over
+#: viscosity.
+TURBULENCE_INTENSITY, VISCOSITY_RATIO = 0.01, 10.0
 #: Meshes that there are around an outline.
 OUTLINE_MESHES = ("coarse", "medium", "fine")
 #: Environment variable of the command before each program.
@@ -58,7 +63,8 @@ class OpenFoam(SolverKeys):
         {"coarse": "coarse", "medium": "medium", "fine": "fine"},
         description="Mesh of each resolution: `coarse` (about 1e4 cells; 8e4 of the plate), "
         "`medium` (2e4; 3e5), `fine` (6e4; 1e6), which are similar, or `finest` (8e4; 5e6), which "
-        "has cells of 0.004 c along the section's wall, 0.02 c near it and 0.04 c in the wake. "
+        "has cells of 0.004 c along the section's wall, 0.02 c near it and 0.04 c in the wake; "
+        "`five-layers` (5e4; 5e6) has the same sizes and five layers of 0.075 c in all on it. "
         "With `plate-` before the name the section has the cells of that plate in its plane.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
@@ -92,6 +98,17 @@ class OpenFoam(SolverKeys):
         description="Model of the turbulence: `k-omega-sst`, whose boundary layer is turbulent "
         "from the leading edge on, or `laminar`, none, for a section at a Reynolds number of some "
         "hundreds to thousands.",
+    )
+    turbulence_intensity: Annotated[float, Field(gt=0, le=1, allow_inf_nan=False), NUMBER] = Field(
+        TURBULENCE_INTENSITY,
+        description="Turbulence of the stream at the inlet, rms velocity over speed (-). It decays "
+        "up to the section, the faster the smaller `viscosity_ratio` is. No part of a laminar "
+        "case.",
+    )
+    viscosity_ratio: Annotated[float, Field(gt=0, le=1e5, allow_inf_nan=False), NUMBER] = Field(
+        VISCOSITY_RATIO,
+        description="Eddy viscosity over viscosity at the inlet (-), which sets the length scale "
+        "of the turbulence there. No part of a laminar case.",
     )
     prefix: str = Field(
         "",

@@ -36,6 +36,13 @@ class Steady(KeyGroup):
         description="Polar of the rigid beam (CSV file: incidence_deg, C_L, C_M, C_D), measured "
         "or computed elsewhere; the solver then runs no rigid beam. Empty to have it run.",
     )
+    beam_polar_section: Annotated[str, EMPTY] = Field(
+        "",
+        description="Polar of the section that belongs to the one in `steady.beam_polar` (CSV "
+        "file): on the same cells, or measured the same way. The correction is then the ratio of "
+        "these two, and the beam's polar is carried over to the run's own section by it. Empty: "
+        "the run's own section is divided by `steady.beam_polar`.",
+    )
 
 
 @check("steady.incidence_deg")
@@ -51,6 +58,17 @@ def _ascending(angles: tuple[float, ...]) -> Iterator[Problem]:
                 "allowed is an angle that differs from the one before it in the first six "
                 f"digits, which name its files ({lower:.6g})",
             )
+
+
+@check("steady.beam_polar_section", "steady.beam_polar")
+def _section_with_its_beam(section: str, beam: str) -> Iterator[Problem]:
+    if section and not beam:
+        yield Problem(
+            "steady.beam_polar_section",
+            section,
+            "allowed with steady.beam_polar, the polar of the beam that this section belongs to; "
+            'or "", with which the run\'s own section is divided by its beam',
+        )
 
 
 @check("steady.study", "steady.resolution")

@@ -197,20 +197,6 @@ def _two_to_refine(
             )
 
 
-@check("sweep.models", "sweep.onset", "sweep.incidence_deg")
-def _map_of_sections(
-    models: tuple[str, ...], onset: str, incidence_deg: tuple[float, ...]
-) -> Iterator[Problem]:
-    if onset == "model" and incidence_deg and "3d" in models:
-        yield Problem(
-            "sweep.models",
-            list(models),
-            "allowed with sweep.onset 'model' and sweep.incidence_deg are models of the section: "
-            "the map of learnt models has no beams; leave 3d out, or run it at one incidence "
-            "(flow.incidence_deg)",
-        )
-
-
 @check("sweep.models", "sweep.taken")
 def _run_or_taken(models: tuple[str, ...], taken: dict[str, str]) -> Iterator[Problem]:
     for model, path in taken.items():

@@ -23,6 +23,7 @@ from equisection.paper.claims_page.claims import CLAIMS, Claim
 from equisection.paper.claims_page.evidence import Evidence, read_evidence
 from equisection.paper.claims_page.findings import Finding
 from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
+from equisection.paper.mesh_convergence.__main__ import TABLE
 from equisection.paper.printed_values import PUBLISHED
 
 PAGE = Path("docs/side-by-side.md")
@@ -32,6 +33,18 @@ _HEAD = f"""# The paper, claim by claim
 Written by `make paper` (its last step is `{COMMAND}`)
 from the results kept in `results/reference/`, with no flow solver: do not edit it. What is not run
 yet is said to be so; the page is written anew when results are added.
+
+| verdict | means |
+| --- | --- |
+| **agrees** | the interval of the value here meets the paper's |
+| **differs** | it does not, and the mesh is converged |
+| **not converged** | its own uncertainty is larger than the difference, or not known |
+| **partly** | a part of the claim agrees |
+
+A value here is the limit over the meshes with its interval ([how](mesh-convergence.md)). It is
+converged where that interval is ± 10 % or less, or lies on one side of a bound. Of the paper's
+values the interval is that of its three meshes by the same rule (Table 1), ± 10 % of a value that
+it calls approximate, and half a digit of any other.
 """
 
 
@@ -166,12 +179,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--plate", type=Path, default=Path("results/paper-plate-figures"))
     parser.add_argument("--reductions", type=Path, default=Path("results/paper-reductions"))
     parser.add_argument("--reference", type=Path, default=Path("results/reference"))
+    parser.add_argument("--convergence", type=Path, default=TABLE)
     parser.add_argument("--page", type=Path, default=PAGE)
     parser.add_argument("--check", action="store_true", help="only tell whether it is up to date")
     options = parser.parse_args(arguments)
     try:
         runs = (options.figures, options.plate, options.reductions)
-        text = page(read_evidence(*runs, options.reference))
+        text = page(read_evidence(*runs, options.reference, options.convergence))
     except EquisectionError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1

@@ -13,7 +13,9 @@ import xarray as xr
 from equisection.analysis.bubble import plate_bubble_table
 from equisection.analysis.missing import missing_table
 from equisection.errors import ResultFileError
+from equisection.paper.claims_page.findings import Known
 from equisection.paper.claims_page.kept_runs import kept_runs
+from equisection.paper.mesh_convergence.mesh_series import LIMIT
 from equisection.results.netcdf import read_dataset
 from equisection.store.index import indices_of_run
 
@@ -38,6 +40,10 @@ class Evidence:
         Ends of the bubble in the steady results of that run.
     reductions
         ``comparison/summary.csv`` of plate and sections of both reductions on the plate's cells.
+    table_2
+        ``tables/table2.csv`` of the run that the paper's figures are drawn from.
+    convergence
+        ``mesh_convergence.csv``: values over the cell size, with limits.
     kept
         Every unsteady run that is kept.
     embedded
@@ -56,6 +62,8 @@ class Evidence:
     table_1: pd.DataFrame
     plate_bubble: pd.DataFrame
     reductions: pd.DataFrame
+    table_2: pd.DataFrame
+    convergence: pd.DataFrame
     kept: pd.DataFrame
     embedded: pd.DataFrame
 
@@ -63,6 +71,27 @@ class Evidence:
         """Return this project's value of a quantity of ``paper.csv``; NaN if it has none."""
         rows = self.paper.loc[self.paper["quantity"] == quantity, "here"]
         return float(rows.iloc[0]) if len(rows) else math.nan
+
+    def over_meshes(self, quantity: str, model: str, at: str = "", basis: str = "") -> pd.DataFrame:
+        """Return the lines of a value over the cell size, that of its limit last."""
+        table = self.convergence
+        chosen = (
+            (table["quantity"] == quantity)
+            & (table["model"] == model)
+            & (table["at"].fillna("") == at)
+        )
+        if basis:
+            chosen &= table["basis"] == basis
+        return table[chosen]
+
+    def limit(self, quantity: str, model: str, at: str = "", basis: str = "") -> Known:
+        """Return the limit of a value at vanishing cell size; NaN where there is none."""
+        rows = self.over_meshes(quantity, model, at, basis)
+        rows = rows[rows["mesh"] == LIMIT]
+        if rows.empty:
+            return Known(math.nan)
+        row = rows.iloc[0]
+        return Known(float(row["value"]), float(row["low"]), float(row["high"]))
 
     def runs(self, model: str) -> pd.DataFrame:
         """Return the runs of a model that did not fail, by ascending k*."""
@@ -83,8 +112,10 @@ class Evidence:
         return float(row["k_star_unstable"].iloc[0]), float(row["k_star_stable"].iloc[0])
 
 
-def read_evidence(figures: Path, plate: Path, reductions: Path, reference: Path) -> Evidence:
-    """Read the evidence from the three runs of ``make paper`` and the folder of kept results.
+def read_evidence(
+    figures: Path, plate: Path, reductions: Path, reference: Path, convergence: Path
+) -> Evidence:
+    """Read the evidence from what ``make paper`` makes, and the folder of kept results.
 
     Raises
     ------
@@ -109,6 +140,8 @@ def read_evidence(figures: Path, plate: Path, reductions: Path, reference: Path)
             read_dataset(path) for path in sorted((plate / "steady" / "3d").glob("*.nc"))
         ),
         reductions=_table(reductions / "comparison" / "summary.csv"),
+        table_2=_table(figures / "tables" / "table2.csv"),
+        convergence=_table(convergence),
         kept=kept_runs(reference),
         embedded=_table(reference / "embedded-cost.csv"),
     )

@@ -2,21 +2,91 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
-import numpy as np
 import pandas as pd
+
+from equisection.paper.mesh_convergence.convergence_page import CONVERGED
 
 
 class ClaimVerdict(StrEnum):
-    """Verdict on a claim of the paper."""
+    """Verdict on a claim of the paper, or on a part of it."""
 
-    AGREES = "agrees"
-    PARTLY = "partly"
-    DIFFERS = "is not borne out"
+    AGREES = "agrees"  # the interval here meets the paper's
+    DIFFERS = "differs"  # it does not, and is narrow enough to tell
+    NOT_CONVERGED = "not converged"  # its own uncertainty is larger than what it is to tell
+    PARTLY = "partly"  # a part agrees
     OPEN = "not run yet"
+
+
+@dataclass(frozen=True)
+class Known:
+    """A value with its interval.
+
+    Attributes
+    ----------
+    value, low, high
+        Value and interval; the ends are NaN where the interval is not known.
+    """
+
+    value: float
+    low: float = math.nan
+    high: float = math.nan
+
+    @property
+    def half_width(self) -> float:
+        """Half of the interval; NaN where it is not known."""
+        return 0.5 * (self.high - self.low)
+
+    def words(self, form: str = ".3g") -> str:
+        """Return value and interval in words."""
+        if math.isnan(self.half_width):
+            return f"{self.value:{form}} (interval unknown)"
+        return f"{self.value:{form}} ({self.low:{form}} to {self.high:{form}})"
+
+    def over(self, other: Known) -> Known:
+        """Return the quotient of two positive values, the errors taken to be independent."""
+        quotient = self.value / other.value
+        part = math.hypot(self.half_width / self.value, other.half_width / other.value)
+        return Known(quotient, quotient * (1.0 - part), quotient * (1.0 + part))
+
+    def meets(self, paper: Known) -> ClaimVerdict:
+        """Return the verdict on a value of the paper with its interval.
+
+        An interval wider than +- 10 % of the value is too wide for any verdict: it would meet
+        nearly everything.
+        """
+        if not self.half_width <= CONVERGED * abs(self.value):
+            return ClaimVerdict.NOT_CONVERGED
+        apart = self.low > paper.high or self.high < paper.low
+        return ClaimVerdict.DIFFERS if apart else ClaimVerdict.AGREES
+
+    def is_above(self, bound: float) -> ClaimVerdict:
+        """Return the verdict on the claim that the value is above a bound."""
+        if self.low > bound:
+            return ClaimVerdict.AGREES
+        return ClaimVerdict.DIFFERS if self.high < bound else ClaimVerdict.NOT_CONVERGED
+
+    def is_below(self, bound: float) -> ClaimVerdict:
+        """Return the verdict on the claim that the value is below a bound."""
+        if self.high < bound:
+            return ClaimVerdict.AGREES
+        return ClaimVerdict.DIFFERS if self.low > bound else ClaimVerdict.NOT_CONVERGED
+
+
+def together(verdicts: Iterable[ClaimVerdict]) -> ClaimVerdict:
+    """Return the verdict on a claim of several parts.
+
+    They are of one mind, or a part agrees; where none agrees and one is not converged, the claim is
+    not.
+    """
+    found = set(verdicts)
+    if len(found) == 1:
+        return found.pop()
+    return ClaimVerdict.PARTLY if ClaimVerdict.AGREES in found else ClaimVerdict.NOT_CONVERGED
 
 
 @dataclass(frozen=True)
@@ -44,14 +114,6 @@ class Finding:
 def open_finding(what: str, here: str = "") -> Finding:
     """Return the finding on a claim that cannot be judged yet, with the runs that it needs."""
     return Finding(ClaimVerdict.OPEN, f"{here} Needs {what}.".strip())
-
-
-def graded(differences: Sequence[float], good: float, fair: float) -> ClaimVerdict:
-    """Return the verdict on relative differences from the paper, by the largest of them."""
-    largest = float(np.max(np.abs(differences)))
-    if largest <= good:
-        return ClaimVerdict.AGREES
-    return ClaimVerdict.PARTLY if largest <= fair else ClaimVerdict.DIFFERS
 
 
 def percent(difference: float) -> str:

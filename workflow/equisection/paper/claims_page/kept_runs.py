@@ -12,6 +12,7 @@ import pandas as pd
 
 from equisection.cases import FREE, UnsteadyCase
 from equisection.errors import ResultFileError
+from equisection.paper.mesh_convergence.kept_releases import growth_behind_release
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.verdicts import judge
 from equisection.store.judged_again import tip_motion
@@ -30,8 +31,9 @@ COLUMNS = (
     "settings",
     "regime",
     "growth_rate",
-    "growth_by_60",
-    "growth_by_100",
+    "growth_behind",
+    "growth_behind_low",
+    "growth_behind_high",
     "twist_amplitude_deg",
     "end_time",
     "cpu_seconds",
@@ -44,10 +46,10 @@ def kept_runs(folder: Path) -> pd.DataFrame:
     Releases of other beams, which are kept too, are those with an outline of their own.
     ``model`` is the name of the folder that a result is in, ``folder`` that of its run, and
     ``settings`` the words of the solver's settings. ``regime`` and the numbers with it are judged
-    by the present rules, whatever those were that a run ended by. ``growth_by_60`` and
-    ``growth_by_100`` are the growth rates (V/c) over the last periods of the first 60 and 100 c/V,
-    or of the whole of a run that ended before: growth changes with time, so runs of different
-    length are compared by these.
+    by the present rules, whatever those were that a run ended by. ``growth_behind`` is the growth
+    rate (V/c) over the last periods of the first 100 c/V, but from 20 c/V after the release on,
+    with the ends of its interval: growth changes with time, so runs of different length are
+    compared by it. NaN of a run that is too short.
     """
     rows = []
     for kept in kept_results(folder):
@@ -68,13 +70,16 @@ def kept_runs(folder: Path) -> pd.DataFrame:
 
 
 def _verdict(kept: Kept) -> dict[str, Any]:
-    """Return the verdict on a run, and the growth (V/c) that its first 60 and 100 c/V show."""
+    """Return the verdict on a run, and its growth (V/c) behind the release."""
     case, whole = UnsteadyCase.model_validate(kept.case), tip_motion(read_dataset(kept.path))
     verdict = judge(case, whole)
-    growth = {end: judge(case, whole.until(end))["growth_rate"] for end in (60, 100)}
+    growth = growth_behind_release(case, whole)
+    low, high = growth.interval
     return {
         **{name: verdict[name] for name in ("regime", "growth_rate", "twist_amplitude_deg")},
-        **{f"growth_by_{end}": float(rate) for end, rate in growth.items()},
+        "growth_behind": growth.rate,
+        "growth_behind_low": low,
+        "growth_behind_high": high,
     }
 
 

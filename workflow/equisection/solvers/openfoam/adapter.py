@@ -54,6 +54,7 @@ class Adapter:
     def from_config(cls, config: Config, resolution: str) -> Adapter:
         """Return the solver on the mesh of a resolution."""
         section = config.openfoam
+        inlet = section.turbulence_intensity, section.viscosity_ratio
         settings = Settings(
             section.meshes[resolution],
             section.outer_correctors,
@@ -62,6 +63,7 @@ class Adapter:
             "" if config.beam.outline is None and section.mesher == BLOCKS else _mesher(),
             section.far_field_chords if config.flow.channel is None else 0.0,
             section.turbulence,
+            *(() if section.turbulence == LAMINAR else inlet),
         )
         return cls(settings, Allocation(section.ranks))
 
@@ -122,7 +124,7 @@ class Adapter:
         from equisection.solvers.openfoam.reading.meshed_section import section_mesh  # noqa: PLC0415
 
         mesh = self._mesh(case)
-        turbulence = self._settings.turbulence
+        turbulence = self._settings.stream
         return section_mesh(find(), case, mesh, time_step, work, turbulence=turbulence)
 
     def plate_grid(self, case: SteadyCase, work: Path) -> PlateGrid:
@@ -163,7 +165,7 @@ class Adapter:
             place,
             tell,
             coupling=settings.coupling,
-            turbulence=settings.turbulence,
+            turbulence=settings.stream,
         )
         return _result(loads)
 
@@ -176,18 +178,20 @@ class Adapter:
         from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow  # noqa: PLC0415
 
         mesh, coupling = self._beam_mesh(case), self._settings.coupling
-        return PlateFlow(installation, case, mesh, coupling, self._ranks, place)
+        stream = self._settings.of_dimension("3d").stream
+        return PlateFlow(installation, case, mesh, coupling, self._ranks, place, stream)
 
     def _beam_mesh(self, case: SteadyCase | UnsteadyCase | ForcedCase) -> BeamCells:
         """Return the mesh of a beam."""
         from equisection.solvers.openfoam.beam import rigid_beam  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.presets import PRESETS  # noqa: PLC0415
 
-        refinement = PRESETS[self._settings.mesh].plate
+        preset = PRESETS[self._settings.mesh]
+        refinement = preset.plate
         if self._has_outline(case):
             far_field = self._settings.far_field
             return rigid_beam.outline_beam_mesh_of(case, refinement, far_field)
-        return rigid_beam.plate_mesh_of(case, refinement)
+        return rigid_beam.plate_mesh_of(case, refinement, preset.plate_spacing)
 
     def _has_outline(self, case: SteadyCase | UnsteadyCase | ForcedCase) -> bool:
         """Tell whether a case has the mesh of outlines.
@@ -252,7 +256,9 @@ class Adapter:
 
         mesh = self._beam_mesh(case)
         coupling, ranks = self._settings.coupling, self._ranks
-        return ForcedPlateRun(installation, case, mesh, coupling, place, ranks).run(tell)
+        stream = self._settings.of_dimension("3d").stream
+        run = ForcedPlateRun(installation, case, mesh, coupling, place, ranks, turbulence=stream)
+        return run.run(tell)
 
     def _forced_section(
         self, installation: Installation, case: ForcedCase, place: Path, tell: Progress
@@ -261,7 +267,7 @@ class Adapter:
 
         mesh, settings = self._mesh(case), self._settings
         run = ForcedRun(
-            installation, case, mesh, settings.coupling, place, turbulence=settings.turbulence
+            installation, case, mesh, settings.coupling, place, turbulence=settings.stream
         )
         return run.run(tell)
 
@@ -281,9 +287,7 @@ class Adapter:
         mesh = self._mesh(case)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
         settings = self._settings
-        run = kind(
-            installation, case, mesh, settings.coupling, place, turbulence=settings.turbulence
-        )
+        run = kind(installation, case, mesh, settings.coupling, place, turbulence=settings.stream)
         _ = run.axes  # refuses what it does not have, the same
         return run.run(tell)
 
@@ -294,7 +298,8 @@ class Adapter:
 
         mesh = self._beam_mesh(case)
         coupling, ranks = self._settings.coupling, self._ranks
-        run = PlateRun(installation, case, mesh, coupling, place, ranks)
+        stream = self._settings.of_dimension("3d").stream
+        run = PlateRun(installation, case, mesh, coupling, place, ranks, turbulence=stream)
         _ = run.points  # refuses what it does not have before the steady flow, which takes long
         return run.run(tell)
 

@@ -1,8 +1,8 @@
 """The flow without dimensions: fields at the start, turbulence model, numerical schemes.
 
 Incompressible Reynolds-averaged equations with the k-omega SST model, or laminar ones, walls
-resolved. Boundary and initial values are those of a uniform stream of speed 1 with a turbulence of
-:data:`TURBULENCE_INTENSITY` and :data:`VISCOSITY_RATIO`, which a laminar flow does not read.
+resolved. Boundary and initial values are those of a uniform stream of speed 1 and its turbulence,
+which a laminar flow does not read.
 """
 
 from __future__ import annotations
@@ -13,13 +13,11 @@ from pathlib import Path
 from typing import Any
 
 from equisection.cases import Geometry, Medium
-from equisection.config.groups.openfoam_keys import LAMINAR, SST
+from equisection.config.groups.openfoam_keys import LAMINAR
 from equisection.files import write_text
 from equisection.solvers.openfoam.case_folder import OF_TURBULENCE
 from equisection.solvers.openfoam.dictionaries import PLATE, dictionary
-
-#: Turbulence of the stream: rms velocity over speed, and eddy viscosity over viscosity.
-TURBULENCE_INTENSITY, VISCOSITY_RATIO = 0.01, 10.0
+from equisection.solvers.openfoam.stream_turbulence import STREAM, StreamTurbulence
 
 
 def reynolds_number(geometry: Geometry, medium: Medium) -> float:
@@ -35,15 +33,15 @@ def write_flow(
     folder: Path,
     reynolds: float,
     sides: Mapping[str, str] = IN_THE_PLANE,
-    turbulence: str = SST,
+    turbulence: StreamTurbulence = STREAM,
 ) -> None:
     """Write ``constant`` and the fields at time 0; ``sides`` are patches and types along z."""
     viscosity = 1.0 / reynolds
-    energy = 1.5 * TURBULENCE_INTENSITY**2
-    eddy_viscosity = VISCOSITY_RATIO * viscosity
+    is_laminar = turbulence.model == LAMINAR
+    energy, eddy_viscosity = turbulence.energy, turbulence.viscosity_ratio * viscosity
     for name, entries in (
         ("transportProperties", {"transportModel": "Newtonian", "nu": viscosity}),
-        ("turbulenceProperties", _LAMINAR if turbulence == LAMINAR else _REYNOLDS_AVERAGED),
+        ("turbulenceProperties", _LAMINAR if is_laminar else _REYNOLDS_AVERAGED),
     ):
         write_text(folder / "constant" / name, dictionary(name, entries))
     for name, kind, dimensions, value, on_plate in (
@@ -65,7 +63,7 @@ def write_flow(
             {"type": "nutLowReWallFunction", "value": "uniform 0"},
         ),
     ):
-        if turbulence == LAMINAR and name in OF_TURBULENCE:
+        if is_laminar and name in OF_TURBULENCE:
             continue
         entries = {
             "dimensions": dimensions,

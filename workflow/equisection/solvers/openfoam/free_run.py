@@ -11,11 +11,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.cases import ForcedCase, UnsteadyCase
-from equisection.config.groups.openfoam_keys import SST
 from equisection.results.loads_zigzag import warning_of_zigzag
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.rigid_flow import Tell
+from equisection.solvers.openfoam.stream_turbulence import STREAM, StreamTurbulence
 from equisection.verdict.zigzag import zigzag_of
 
 Floats = NDArray[np.float64]
@@ -76,7 +76,7 @@ class MovingRun(Generic[CaseT, MeshT]):
     work
         Folder that holds its folders.
     turbulence
-        Model of the turbulence, of a section.
+        Turbulence of the stream, with its model.
     """
 
     installation: Installation
@@ -84,7 +84,7 @@ class MovingRun(Generic[CaseT, MeshT]):
     mesh: MeshT
     coupling: flow.Coupling
     work: Path
-    turbulence: str = field(default=SST, kw_only=True)
+    turbulence: StreamTurbulence = field(default=STREAM, kw_only=True)
 
     @property
     def folder(self) -> Path:

@@ -2,8 +2,9 @@
 
 The steady solver has converged when all loads stay within :data:`CONVERGED` of their means over
 the last :data:`WINDOW` iterations. Where it does not, the flow goes on unsteadily from there until
-the means of both halves of the record agree within :data:`KNOWN`; around an outline its fluctuation
-has to have stopped growing too (:data:`EVEN`).
+the means of both halves of the record agree within :data:`KNOWN`. Around an outline its fluctuation
+has to have stopped growing too (:data:`EVEN`), and where vortices are shed with one frequency,
+halves and means are of whole periods.
 
 A solver is followed from outside, by its log, and ends a little after it was told to. The loads
 that are used end at a look, at a given number of iterations or a given time, so that a result does
@@ -18,6 +19,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from equisection.files import write_text
+from equisection.results.fluctuation import Fluctuation
 from equisection.solvers.openfoam.dictionaries import dictionary
 from equisection.solvers.openfoam.process import Every, Watch
 from equisection.solvers.openfoam.reading.loads import (
@@ -53,7 +55,9 @@ class RigidFlowRecord:
     """Time left out, and shortest and longest record, of a rigid unsteady run (c/V).
 
     A mean counts as ``floor`` at least where the difference of two halves is judged. Their
-    fluctuation may grow by ``evenness`` from one half to the other.
+    fluctuation may grow by ``evenness`` from one half to the other. Halves and means are of whole
+    periods of the lift, where it has one, ``by_periods``: a bluff body's has no mean to speak of,
+    and a part of a period more or less would decide when it is known.
     """
 
     discarded: float
@@ -61,20 +65,36 @@ class RigidFlowRecord:
     longest: float
     floor: float = FLOOR
     evenness: float = math.inf
+    by_periods: bool = False
 
     @property
     def end(self) -> float:
         """The latest end of the run."""
         return self.discarded + self.longest
 
+    def period(self, loads: Loads) -> float | None:
+        """Return the period of the lift (c/V); None where it has none, or none is asked for."""
+        if not self.by_periods or loads.time.size < 2:
+            return None
+        found = Fluctuation.of(loads.time, loads.drag, loads.lift, loads.moment).frequency
+        return None if found is None else 1.0 / found
+
     def is_known(self, loads: Loads) -> bool:
         """Tell whether the means of loads, without the time left out, are known."""
-        return loads.drift(self.floor) <= KNOWN and loads.growth(self.floor) <= self.evenness
+        period = self.period(loads)
+        return (
+            loads.drift(self.floor, period) <= KNOWN
+            and loads.growth(self.floor, period) <= self.evenness
+        )
+
+    def averaged(self, loads: Loads) -> Loads:
+        """Return the part of loads, without the time left out, that their means are of."""
+        return loads.in_whole_periods(self.period(loads))
 
 
 def of_outline(record: RigidFlowRecord) -> RigidFlowRecord:
     """Return a record as it is judged on the mesh of an outline."""
-    return replace(record, floor=FLOOR_OF_OUTLINE, evenness=EVEN)
+    return replace(record, floor=FLOOR_OF_OUTLINE, evenness=EVEN, by_periods=True)
 
 
 def has_converged(loads: Loads) -> bool:
@@ -152,15 +172,17 @@ def follow_unsteady(
     """
     seen = Every(LOOKS_EVERY)
     shortest = record.discarded + record.shortest
+    refused: set[int] = set()  # parts by their samples, so that each is judged once
+
+    def is_known(part: Loads) -> bool:
+        if part.time.size not in refused and record.is_known(part.since(record.discarded)):
+            return True
+        refused.add(part.time.size)
+        return False
 
     def known(loads: Loads) -> Loads | None:
         require_reasonable(loads, folder)
-        return first_known(
-            loads,
-            lambda part: record.is_known(part.since(record.discarded)),
-            shortest,
-            LOOKS_EVERY,
-        )
+        return first_known(loads, is_known, shortest, LOOKS_EVERY)
 
     def watch(time: float) -> bool:
         tell(MOST * (1 + time / record.end), 2 * MOST)
@@ -171,16 +193,18 @@ def follow_unsteady(
     run(watch)
     loads = read_loads(folder)
     part = known(loads)
-    return (loads if part is None else part).since(record.discarded)
+    return record.averaged((loads if part is None else part).since(record.discarded))
 
 
 def method_of_mean(record: Loads, wanted: RigidFlowRecord) -> str:
     """Return the origin of a record's means in words, and whether its fluctuation still grows."""
-    said = (
-        f"mean of unsteady over {record.time[-1] - record.time[0]:.0f} c/V, its halves "
-        f"{100 * record.drift(wanted.floor):.2g} % apart"
-    )
-    growth = record.growth(wanted.floor)
+    length = record.time[-1] - record.time[0]
+    said = f"mean of unsteady over {length:.0f} c/V, "
+    period = wanted.period(record)
+    if period is not None:
+        said += f"{round(length / period)} periods, "
+    said += f"its halves {100 * record.drift(wanted.floor, period):.2g} % apart"
+    growth = record.growth(wanted.floor, period)
     if growth <= wanted.evenness:
         return said
     return f"{said}, its fluctuation {1 + growth:.2g} times as large in the second"

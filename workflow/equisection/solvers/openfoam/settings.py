@@ -5,8 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from equisection.config.groups.openfoam_keys import MORPH, ON_CELLS_OF_PLATE, SST
+from equisection.config.groups.openfoam_keys import (
+    MORPH,
+    ON_CELLS_OF_PLATE,
+    SST,
+    TURBULENCE_INTENSITY,
+    VISCOSITY_RATIO,
+)
 from equisection.solvers.openfoam.flow_setup import Coupling
+from equisection.solvers.openfoam.stream_turbulence import StreamTurbulence
 
 
 @dataclass(frozen=True)
@@ -29,6 +36,8 @@ class Settings:
         Distance of the far field (chords) in free air; 0 in a channel.
     turbulence
         Model of the turbulence.
+    turbulence_intensity, viscosity_ratio
+        Turbulence of the stream at the inlet: rms velocity over V, eddy viscosity over viscosity.
     """
 
     mesh: str
@@ -38,11 +47,18 @@ class Settings:
     mesher: str = ""
     far_field: float = 0.0
     turbulence: str = SST
+    turbulence_intensity: float = TURBULENCE_INTENSITY
+    viscosity_ratio: float = VISCOSITY_RATIO
 
     @property
     def coupling(self) -> Coupling:
         """Coupling of flow, loads and motion in a time step."""
         return Coupling(self.outer_correctors, self.velocity_relaxation)
+
+    @property
+    def stream(self) -> StreamTurbulence:
+        """Turbulence of the stream."""
+        return StreamTurbulence(self.turbulence, self.turbulence_intensity, self.viscosity_ratio)
 
     def of_dimension(self, dimension: str) -> Settings:
         """Return the settings without the choices that do not exist in a dimension.

@@ -105,7 +105,13 @@ class CoupledRun(MovingRun[CaseT, BeamCells], ABC):
     def _set_up(self, tell: Tell) -> None:
         """Make the folder of the run from the rigid steady flow, converged or not."""
         rigid = PlateFlow(
-            self.installation, self.case, self.mesh, self.coupling, self.ranks, self.work
+            self.installation,
+            self.case,
+            self.mesh,
+            self.coupling,
+            self.ranks,
+            self.work,
+            self.turbulence,
         )
         deform = self._deform if self.held_twist_deg else None
         source, _, converged = rigid.steady(self.before_release(tell), deform)

@@ -59,6 +59,7 @@ from equisection.solvers.openfoam.section.rigid_section import (
     mesh_of,
     outline_mesh_of,
 )
+from equisection.solvers.openfoam.stream_turbulence import STREAM, StreamTurbulence
 from equisection.solvers.openfoam.time_spent import spent
 
 logger = logging.getLogger(__name__)
@@ -128,6 +129,8 @@ class PlateFlow:
         Ranks of MPI that a program runs on.
     work
         Folder that holds its folders.
+    turbulence
+        Turbulence of the stream, with its model.
     """
 
     installation: Installation
@@ -136,6 +139,7 @@ class PlateFlow:
     coupling: flow.Coupling
     ranks: int
     work: Path
+    turbulence: StreamTurbulence = STREAM
 
     def set_up(self) -> Path:
         """Make the folder of the steady run with its mesh, not yet divided, and return it.
@@ -146,7 +150,8 @@ class PlateFlow:
             A program failed, or the mesh is not sound.
         """
         folder, case = emptied(self.work / "steady"), self.case
-        flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium), SIDE_WALLS)
+        reynolds = flow.reynolds_number(case.geometry, case.medium)
+        flow.write_flow(folder, reynolds, SIDE_WALLS, self.turbulence)
         entries = plate_control("simpleFoam", MOST, 1, MOST, self.mesh.span)
         entries["functions"] |= surface_output({"executeControl": "onEnd", "writeControl": "onEnd"})
         write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())

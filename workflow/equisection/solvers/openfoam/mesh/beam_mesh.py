@@ -63,12 +63,17 @@ class PlateMesh:
     @property
     def layers(self) -> int:
         """Number of layers of cells from wall to wall."""
-        along, beyond = layers_of_beam(self.section.refinement)
+        along, beyond = layers_of_beam(self._along_span)
         return along + (beyond if self.gap else 0)
 
     def edges(self) -> NDArray[np.float64]:
         """Return z/c of the planes between the cells along the plate, shape (n + 1,)."""
-        return planes_along(self.span, self.section.refinement)
+        return planes_along(self.span, self._along_span)
+
+    @property
+    def _along_span(self) -> float:
+        """Refinement along the span."""
+        return self.section.refinement * self.section.spacing.along_span
 
     def block_mesh_dict(self) -> str:
         """Return the text of ``blockMeshDict``.
@@ -79,10 +84,10 @@ class PlateMesh:
             The turned near field does not fit into the channel.
         """
         section, points = self.section, self.section.points()
-        along, beyond = layers_of_beam(section.refinement)
+        along, beyond = layers_of_beam(self._along_span)
         planes = [0.0, self.span]
         around, everywhere = list(blocks_around_plate()), [(i, j) for i in _FIVE for j in _FIVE]
-        layers = [(around, Layer(0, along, f"{_ratio(self.span, along, section.refinement):.8g}"))]
+        layers = [(around, Layer(0, along, f"{_ratio(self.span, along, self._along_span):.8g}"))]
         plate = [face_x(2, 2), face_x(3, 2), face_y(2, 2), face_y(2, 3)]
         far = around
         if self.gap:
@@ -115,7 +120,7 @@ def plate_cells(spacing: Spacing, refinement: float, *, gap: bool = True) -> int
 
     The layers of the gap, if there is one, also have cells in the place of the plate.
     """
-    along, beyond = layers_of_beam(refinement)
+    along, beyond = layers_of_beam(refinement * spacing.along_span)
     columns, rows = spacing.refined(refinement)
     return spacing.cells(refinement) * along + sum(columns) * sum(rows) * beyond * gap
 

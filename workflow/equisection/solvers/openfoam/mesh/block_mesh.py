@@ -41,6 +41,8 @@ _COLUMNS, _ROWS = (8, 20, 56, 30, 22), (6, 32, 10, 32, 6)
 #: and behind these, and across the plate's thickness as a part of it.
 _AT_WALL, _AT_EDGE, _OFF_EDGE, _ACROSS = 3e-4, 2.5e-3, 1.2e-3, 0.04
 _AT_PLATE = 1e-3
+#: Part of a length that round-off may take from even cells.
+_EVEN = 1e-9
 
 #: Points where the lines cross (6, 6, 2), block, and line of the other direction: the grading.
 Grading = Callable[[NDArray[np.float64], int, int], str]
@@ -58,12 +60,15 @@ class Spacing:
         Grading of column i on line j of y, from the points.
     across
         Grading on line i of x of row j, from the points.
+    along_span
+        Cells along the span of a beam over those that its refinement gives it (-).
     """
 
     columns: tuple[int, ...]
     rows: tuple[int, ...]
     along: Grading
     across: Grading
+    along_span: float = 1.0
 
     def refined(self, refinement: float) -> tuple[list[int], list[int]]:
         """Return columns and rows, even so that both ends of a side get as many."""
@@ -200,7 +205,7 @@ def _refined(numbers: tuple[int, ...], refinement: float) -> list[int]:
 
 def expansion(length: float, cells: int, first: float) -> float:
     """Return the size of the last cell over that of the first, for a geometric growth."""
-    if first * cells >= length:
+    if first * cells >= length * (1 - _EVEN):
         return 1.0
 
     def excess(log_growth: float) -> float:

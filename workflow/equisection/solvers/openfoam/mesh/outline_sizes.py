@@ -7,7 +7,17 @@ all counts by r and divides all sizes by it, so that meshes of a grid study are 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
+
+#: Reynolds number (chord) up to which the first cells are fine enough, and the power of it that y+
+#: goes with. On a flat plate with a turbulent boundary layer c_f = 0.058 Re^(-1/5) (Prandtl;
+#: Schlichting, Boundary-Layer Theory), so that y+ = (y/c) Re sqrt(c_f/2): 2.8 at the middle of a
+#: first cell of 3e-4 c, and about twice that where the stream turns round a nose.
+FINE_UP_TO, POWER = 4e5, 0.9
+#: Reynolds number above which the first cells are no thinner, and y+ grows: they would be more than
+#: 1000 times as long as thick, which checkMesh finds fault with.
+THIN_UP_TO = 1e7
 
 
 @dataclass(frozen=True)
@@ -52,6 +62,18 @@ class OutlineSizes:
     outward: float = 0.16
     disc: float = 1.0
     far: float = 0.075
+
+    def resolving(self, reynolds: float) -> OutlineSizes:
+        """Return sizes with first cells that have no larger y+ at a Reynolds number of the chord.
+
+        They are thinner from :data:`FINE_UP_TO` to :data:`THIN_UP_TO`, in as many more layers as
+        keep the growth and with it the thickness of all.
+        """
+        if reynolds <= FINE_UP_TO:
+            return self
+        thinner = (min(reynolds, THIN_UP_TO) / FINE_UP_TO) ** POWER
+        more = math.ceil(math.log(thinner) / math.log(self.growth))
+        return replace(self, first=self.first / thinner, layers=self.layers + more)
 
 
 #: Number of cells at refinement 1 in a channel of 4 c, of a section of the usual shapes.

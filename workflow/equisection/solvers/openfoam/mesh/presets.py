@@ -9,7 +9,11 @@ from dataclasses import dataclass
 from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
 from equisection.solvers.openfoam.mesh.beam_mesh import layers_of_beam, plate_cells
 from equisection.solvers.openfoam.mesh.block_mesh import OF_PLATE, SIMILAR, Spacing
-from equisection.solvers.openfoam.mesh.near_wall_spacing import BY_CELL_SIZE
+from equisection.solvers.openfoam.mesh.near_wall_spacing import (
+    BY_CELL_SIZE,
+    FIVE_LAYERS,
+    FIVE_LAYERS_OF_PLATE,
+)
 from equisection.solvers.openfoam.mesh.outline_sizes import TYPICAL_CELLS
 
 
@@ -19,7 +23,8 @@ class Preset:
 
     refinement: float
     spacing: Spacing = SIMILAR
-    plate: float = 1.0  # refinement of the plate's mesh, whose spacing is that of a grid study
+    plate: float = 1.0  # refinement of the plate's mesh
+    plate_spacing: Spacing = OF_PLATE
 
     @property
     def cells(self) -> int:
@@ -29,7 +34,7 @@ class Preset:
     @property
     def plate_cells(self) -> int:
         """Number of cells of the plate's mesh, with a gap between tip and wall."""
-        return plate_cells(OF_PLATE, self.plate)
+        return plate_cells(self.plate_spacing, self.plate)
 
     @property
     def outline_cells(self) -> int:
@@ -47,14 +52,17 @@ class Preset:
         return self.spacing is SIMILAR
 
 
-#: About 1e4, 2e4 and 6e4 cells, and cells of given sizes; of the plate 8e4, 3e5, 1e6 and 5e6.
+#: About 1e4, 2e4 and 6e4 cells, and cells of given sizes; of the plate 8e4, 3e5, 1e6 and 5e6; and
+#: five layers at the wall, of section and plate.
 _OWN: Mapping[str, Preset] = {
     "coarse": Preset(1.0, plate=0.52),
     "medium": Preset(math.sqrt(2.0), plate=0.81),
     "fine": Preset(math.sqrt(5.0), plate=1.19),
     "finest": Preset(1.0, BY_CELL_SIZE, plate=2.05),
+    "five-layers": Preset(1.0, FIVE_LAYERS, plate_spacing=FIVE_LAYERS_OF_PLATE),
 }
 _OF_PLATE = {
-    ON_CELLS_OF_PLATE + name: Preset(own.plate, OF_PLATE, own.plate) for name, own in _OWN.items()
+    ON_CELLS_OF_PLATE + name: Preset(own.plate, own.plate_spacing, own.plate, own.plate_spacing)
+    for name, own in _OWN.items()
 }
 PRESETS: Mapping[str, Preset] = {**_OWN, **_OF_PLATE}

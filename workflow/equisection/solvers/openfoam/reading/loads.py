@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -65,25 +66,54 @@ class Loads:
             for values in (self.drag, self.lift, self.moment)
         )
 
-    def drift(self, floor: float = FLOOR) -> float:
-        """Return the largest difference of the means of both halves relative to the mean.
+    def in_whole_periods(self, period: float | None) -> Loads:
+        """Return the last part that is a whole number of periods (c/V) long; all without one.
 
-        A mean counts as ``floor`` at least.
+        A mean over a part of a period has a part of the fluctuation in it.
+        """
+        if period is None:
+            return self
+        step = self._step
+        periods = math.floor((self.time[-1] - self.time[0] + step) / period * (1 + 1e-9))
+        return self.last(round(periods * period / step))
+
+    def halves(self, period: float | None = None) -> tuple[Loads, Loads]:
+        """Return the first and the last part of a length.
+
+        It is half the length, or the most whole periods (c/V) that fit into half of it.
         """
         half = self.time.size // 2
+        if period is None:
+            return self.first(half), self.last(self.time.size - half)
+        periods = math.floor(half * self._step / period * (1 + 1e-9))
+        samples = round(periods * period / self._step)
+        return self.first(samples), self.last(samples)
+
+    @property
+    def _step(self) -> float:
+        return float(self.time[1] - self.time[0])
+
+    def drift(self, floor: float = FLOOR, period: float | None = None) -> float:
+        """Return the largest difference of the means of both halves relative to the mean.
+
+        A mean counts as ``floor`` at least. The halves are whole periods (c/V) of a flow that has
+        one.
+        """
+        before, after = self.halves(period)
         return max(
-            abs(float(values[half:].mean() - values[:half].mean()))
-            / max(abs(float(values.mean())), floor)
-            for values in (self.drag, self.lift, self.moment)
+            abs(later - earlier) / max(abs(mean), floor)
+            for earlier, later, mean in zip(
+                before.means(), after.means(), self.means(), strict=True
+            )
         )
 
-    def growth(self, floor: float = FLOOR) -> float:
+    def growth(self, floor: float = FLOOR, period: float | None = None) -> float:
         """Return the growth of the lift's fluctuation from the first half to the second.
 
         A root mean square below a thousandth of ``floor`` in the second half has none.
         """
-        half = self.time.size // 2
-        before, after = float(self.lift[:half].std()), float(self.lift[half:].std())
+        first, last = self.halves(period)
+        before, after = float(first.lift.std()), float(last.lift.std())
         if after < 1e-3 * floor:
             return 0.0
         return after / before - 1.0 if before > 0 else np.inf

@@ -10,7 +10,6 @@ from foamlib import FoamFieldFile
 from numpy.typing import NDArray
 
 from equisection.cases import SteadyCase
-from equisection.config.groups.openfoam_keys import SST
 from equisection.errors import SolverError
 from equisection.results.section_mesh import SectionMesh
 from equisection.solvers.openfoam.case_folder import states
@@ -18,6 +17,7 @@ from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.poly_mesh import PolyMesh, read_poly_mesh
 from equisection.solvers.openfoam.process import run_program
 from equisection.solvers.openfoam.section.rigid_section import SectionCells, run_steady
+from equisection.solvers.openfoam.stream_turbulence import STREAM, StreamTurbulence
 
 #: What ``checkMesh`` says of the mesh, by our names.
 _QUALITY = {
@@ -40,7 +40,7 @@ def section_mesh(
     time_step: float,
     work: Path,
     *,
-    turbulence: str = SST,
+    turbulence: StreamTurbulence = STREAM,
 ) -> SectionMesh:
     """Return the mesh of a case, and the Courant number of its steady flow at a time step (c/V).
 

@@ -71,7 +71,8 @@ class OversetRun(SectionRun):
         meshes, case = self.meshes, self.case
         write_text(folder / "system" / "blockMeshDict", meshes.block_mesh_dict())
         ends = {**flow.IN_THE_PLANE, OVERSET: OVERSET}
-        flow.write_flow(folder, flow.reynolds_number(case.geometry, case.medium), ends)
+        reynolds = flow.reynolds_number(case.geometry, case.medium)
+        flow.write_flow(folder, reynolds, ends, self.turbulence)
         write_text(folder / "0" / "zoneID", _zones(meshes))
         at_rest = {"dynamicFvMesh": "dynamicOversetFvMesh", "solvers": {}}
         write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", at_rest))

@@ -13,7 +13,6 @@ from pathlib import Path
 
 from equisection.beam.outline import outline_of, rectangle
 from equisection.cases import ForcedCase, Geometry, SteadyCase, UnsteadyCase
-from equisection.config.groups.openfoam_keys import SST
 from equisection.errors import SolverError
 from equisection.results.fluctuation import Fluctuation
 from equisection.results.surface import SectionSurface
@@ -49,6 +48,7 @@ from equisection.solvers.openfoam.rigid_flow import (
     of_outline,
     write_at_rest,
 )
+from equisection.solvers.openfoam.stream_turbulence import STREAM, StreamTurbulence
 
 #: Mesh of a section, of either mesher.
 SectionCells = Mesh | OutlineMesh
@@ -96,7 +96,7 @@ def outline_mesh_of(
     case: SteadyCase | UnsteadyCase | ForcedCase,
     refinement: float,
     far_field: float = 0.0,
-    sizes: OutlineSizes = SIZES,
+    sizes: OutlineSizes | None = None,
 ) -> OutlineMesh:
     """Return the mesh of a case around its outline, or around the rectangle of its thickness.
 
@@ -111,7 +111,8 @@ def outline_mesh_of(
     far_field
         Distance of the far field (chords) in free air.
     sizes
-        Sizes of the cells, which are refined.
+        Sizes of the cells, which are refined. By default those of a section at the Reynolds number
+        of the case.
 
     Raises
     ------
@@ -124,6 +125,8 @@ def outline_mesh_of(
         channel = ChannelBox(geometry.thickness, 2 * far_field, far_field, far_field)
     else:
         channel = _channel(geometry)
+    if sizes is None:
+        sizes = SIZES.resolving(flow.reynolds_number(geometry, case.medium))
     return OutlineMesh(outline, channel, _incidence(case), refinement, sizes)
 
 
@@ -151,7 +154,7 @@ def run_steady(
     work: Path,
     tell: Tell,
     *,
-    turbulence: str = SST,
+    turbulence: StreamTurbulence = STREAM,
 ) -> tuple[Path, Loads, bool]:
     """Make the mesh and run the steady solver until it has converged, or for long enough.
 
@@ -248,7 +251,7 @@ def rigid_loads(
     tell: Tell,
     *,
     coupling: flow.Coupling,
-    turbulence: str = SST,
+    turbulence: StreamTurbulence = STREAM,
 ) -> RigidLoads:
     """Return the loads of a rigid section.
 
@@ -267,7 +270,7 @@ def rigid_loads(
     coupling
         Coupling in a time step, where the flow goes on unsteadily.
     turbulence
-        Model of the turbulence.
+        Turbulence of the stream, with its model.
 
     Raises
     ------

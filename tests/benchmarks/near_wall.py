@@ -1,0 +1,240 @@
+"""What moves lift, moment and bubble of the rigid section of what a description of a run leaves
+open: cells at the wall, numerical schemes, turbulence of the stream. One change at a time.
+
+    python -m tests.benchmarks.near_wall [--run [NAME ...]]
+
+Prints `results/reference/near-wall.csv`. With `--run` the changes named, or all that have no line
+there, are run at 2.5 deg (steady, ten to thirty seconds each, `five-layers` two minutes), and their
+lines are added to it. The files of the runs stay in `results/near-wall`.
+"""
+
+import argparse
+import csv
+import math
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from equisection.results.surface import suction_side
+from equisection.solvers.openfoam import flow_setup as flow
+from equisection.solvers.openfoam.case_folder import emptied
+from equisection.solvers.openfoam.dictionaries import (
+    control,
+    write_mesh_dictionary,
+    write_system,
+)
+from equisection.solvers.openfoam.installation import find
+from equisection.solvers.openfoam.mesh.block_mesh import SIMILAR, Spacing, _across, expansion
+from equisection.solvers.openfoam.mesh.near_wall_spacing import (
+    FIRST_LAYER,
+    Part,
+    WallCells,
+    by_size,
+    layers,
+)
+from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.solvers.openfoam.rigid_flow import MOST, WINDOW
+from equisection.solvers.openfoam.section.rigid_section import (
+    iterate,
+    make_mesh,
+    mesh_of,
+    steady_mean,
+)
+from equisection.solvers.openfoam.stream_turbulence import STREAM, StreamTurbulence
+from tests.benchmarks.rigid import section
+from tests.watching import nothing
+
+KEPT = Path("results/reference/near-wall.csv")
+INCIDENCE_DEG = 2.5
+
+
+@dataclass(frozen=True)
+class Change:
+    """One change, and what it is changed from.
+
+    Attributes
+    ----------
+    of
+        Name of the mesh, or of the change, that it is compared with.
+    refinement, spacing
+        Mesh.
+    schemes
+        Entries of ``fvSchemes`` in the place of the usual ones.
+    turbulence
+        Turbulence of the stream.
+    """
+
+    of: str
+    refinement: float = 1.0
+    spacing: Spacing = SIMILAR
+    schemes: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    turbulence: StreamTurbulence = STREAM
+
+
+def first_cell(size: float) -> Spacing:
+    """Return the spacing of `coarse` with another first cell (chords) at the walls."""
+    return replace(SIMILAR, across=partial(_across, at_wall=size))
+
+
+def rows_off_sides(cells: int) -> Spacing:
+    """Return the spacing of `coarse` with more rows off the sides and the same first cell."""
+    rows = (SIMILAR.rows[0], cells, SIMILAR.rows[2], cells, SIMILAR.rows[4])
+
+    def across(points: NDArray[np.float64], line: int, j: int) -> str:
+        if j not in (1, 3) or line not in (2, 3):
+            return SIMILAR.across(points, line, j)
+        length = math.dist(points[line, j], points[line, j + 1])
+        ratio = expansion(length, cells, FIRST_LAYER)
+        return f"{1 / ratio if j == 1 else ratio:.8g}"
+
+    return replace(SIMILAR, rows=rows, across=across)
+
+
+def off_sides(part: Part, cells: int) -> Spacing:
+    """Return the spacing of `coarse` with other cells off the sides, then even ones, in all."""
+    rows = (SIMILAR.rows[0], cells, SIMILAR.rows[2], cells, SIMILAR.rows[4])
+    of_finest = by_size(WallCells(off_sides=part))
+
+    def across(points: NDArray[np.float64], line: int, j: int) -> str:
+        is_beside = j in (1, 3) and line in (2, 3)
+        return (of_finest if is_beside else SIMILAR).across(points, line, j)
+
+    return replace(SIMILAR, rows=rows, across=across)
+
+
+def _divergence(**fields: str) -> dict[str, dict[str, str]]:
+    return {
+        "divSchemes": {f"div(phi,{name})": f"bounded Gauss {of}" for name, of in fields.items()}
+    }
+
+
+def _stream(intensity: float = STREAM.intensity, ratio: float = STREAM.viscosity_ratio) -> Change:
+    return Change("coarse", turbulence=StreamTurbulence(STREAM.model, intensity, ratio))
+
+
+_LIMITED = "cellLimited Gauss linear 1"
+CHANGES: Mapping[str, Change] = {
+    "coarse": Change("coarse"),
+    "intensity 0.1 %": _stream(0.001),
+    "intensity 5 %": _stream(0.05),
+    "viscosity ratio 1": _stream(ratio=1.0),
+    "viscosity ratio 100": _stream(ratio=100.0),
+    "intensity 5 %, viscosity ratio 100": _stream(0.05, 100.0),
+    "k and omega by second-order upwind": Change(
+        "coarse", schemes=_divergence(k="linearUpwind grad(k)", omega="linearUpwind grad(omega)")
+    ),
+    "k and omega by first-order upwind": Change(
+        "coarse", schemes=_divergence(k="upwind", omega="upwind")
+    ),
+    "gradient of the velocity limited": Change(
+        "coarse", schemes={"gradSchemes": {"grad(U)": _LIMITED}}
+    ),
+    "velocity by first-order upwind": Change("coarse", schemes=_divergence(U="upwind")),
+    "first cell 1e-4 c": Change("coarse", spacing=first_cell(1e-4)),
+    "first cell 1e-3 c": Change("coarse", spacing=first_cell(1e-3)),
+    "twice the rows off the sides": Change("coarse", spacing=rows_off_sides(64)),
+    "five layers off the sides, then 0.02 c": Change(
+        "coarse", spacing=off_sides(layers(FIRST_LAYER), 36)
+    ),
+    "medium": Change("medium", PRESETS["medium"].refinement),
+    "five-layers": Change("medium", 1.0, PRESETS["five-layers"].spacing),
+}
+
+
+def run(name: str) -> dict[str, object]:
+    """Run one change and return its line."""
+    change, case = CHANGES[name], section(INCIDENCE_DEG)
+    mesh = mesh_of(case, change.refinement, change.spacing)
+    folder = emptied(Path("results") / "near-wall" / name.replace(" ", "-") / "steady")
+    reynolds = flow.reynolds_number(case.geometry, case.medium)
+    flow.write_flow(folder, reynolds, turbulence=change.turbulence)
+    schemes = flow.schemes(steady=True)
+    for part, entries in change.schemes.items():
+        schemes[part] = {**schemes[part], **entries}
+    write_system(folder, control("simpleFoam", MOST, 1, MOST), schemes, flow.steady_solution())
+    write_mesh_dictionary(folder, mesh)
+    began = time.perf_counter()
+    make_mesh(find(), folder)
+    _, loads, has_converged = iterate(find(), "simpleFoam", folder, nothing)
+    if not has_converged:
+        loads = loads.last(10 * WINDOW)
+    found = steady_mean(find(), folder, loads, mesh)
+    sides = [found.surface.on(side) for side in ("upper", "lower")]
+    y_plus = np.concatenate([side.y_plus for side in sides])
+    length = np.concatenate([side.length for side in sides])
+    left = change.turbulence.after(case.geometry.upstream - 0.5, 1.0 / reynolds)
+    return {
+        "change": name,
+        "of": change.of,
+        "cells": mesh.cells,
+        "cl": found.lift,
+        "cm": found.moment,
+        "cd": found.drag,
+        "bubble": found.surface.reattachment(suction_side(INCIDENCE_DEG)),
+        "y_plus_mean": float(np.average(y_plus, weights=length)),
+        "y_plus_largest": float(y_plus.max()),
+        "intensity_at_plate": left.intensity,
+        "viscosity_ratio_at_plate": left.viscosity_ratio,
+        "iterations": loads.time[-1],
+        "half_range": loads.last(WINDOW).spread(),
+        "seconds": time.perf_counter() - began,
+    }
+
+
+def lines() -> list[dict[str, Any]]:
+    """Return the lines that are kept."""
+    if not KEPT.exists():
+        return []
+    with KEPT.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(row for row in file if not row.startswith("#")))
+
+
+def keep(line: Mapping[str, object]) -> None:
+    """Add a line to those that are kept, in the order of the changes."""
+    found = {each["change"]: each for each in lines()} | {str(line["change"]): dict(line)}
+    with KEPT.open("w", encoding="utf-8", newline="") as file:
+        file.write("# python -m tests.benchmarks.near_wall --run (OpenFOAM, section at 2.5 deg)\n")
+        writer = csv.DictWriter(file, list(line), lineterminator="\n")
+        writer.writeheader()
+        for name in filter(found.__contains__, CHANGES):
+            writer.writerow(
+                {key: f"{v:.6g}" if isinstance(v, float) else v for key, v in found[name].items()}
+            )
+
+
+def table() -> pd.DataFrame:
+    """Return the lines with their differences from what was changed (%, bubble in chords)."""
+    kept = pd.read_csv(KEPT, comment="#").set_index("change", drop=False)
+    base = kept.loc[kept["of"]]
+    for name in ("cl", "cm", "cd"):
+        kept[f"{name} %"] = 100 * (kept[name].to_numpy() / base[name].to_numpy() - 1)
+    kept["bubble +"] = kept["bubble"].to_numpy() - base["bubble"].to_numpy()
+    return kept
+
+
+def missing() -> Iterator[str]:
+    """Yield the changes that have no line yet."""
+    done = {line["change"] for line in lines()}
+    return (name for name in CHANGES if name not in done)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.near_wall")
+    parser.add_argument("--run", nargs="*", metavar="NAME")
+    chosen = parser.parse_args()
+    if chosen.run is not None:
+        for each in chosen.run or missing():
+            keep(run(each))
+    shown = [
+        "cells", "cl", "cm", "cd", "bubble", "cl %", "cm %", "cd %", "bubble +", "y_plus_mean",
+        "y_plus_largest", "intensity_at_plate", "viscosity_ratio_at_plate", "iterations",
+        "half_range", "seconds",
+    ]  # fmt: skip
+    print(table()[shown].to_string(float_format="%.4g"))

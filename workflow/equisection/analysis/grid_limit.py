@@ -1,0 +1,115 @@
+"""Limit of a value at vanishing cell size, with an interval, from the meshes that there are.
+
+From three meshes with monotonic convergence, of an order from 0.5 to 4, the limit is extrapolated
+with the observed order p, at most the order 2 of the scheme, and the interval is the grid
+convergence index with the factor of safety 1.25 (Celik, Ghia, Roache & Freitas 2008, J. Fluids Eng.
+130, 078001; the smaller of both orders by Roache, Verification and Validation in Computational
+Science and Engineering, 1998). Two meshes show no order: it is taken to be 2, with Roache's factor
+3 for two grids. Without convergence the limit is the finest value, give or take three times the
+largest difference (Eca & Hoekstra 2014, J. Comput. Phys. 262). One mesh has no limit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from equisection.analysis.grid_convergence import SAFETY, Convergence, grid_convergence
+
+#: Order of the scheme: what is observed beyond it is chance.
+FORMAL_ORDER = 2.0
+#: Observed orders that are extrapolated with. Beyond them chance or round-off decides.
+LEAST_ORDER, MOST_ORDER = 0.5, 4.0
+#: Factor of safety of two meshes, and of three without convergence.
+SAFETY_OF_TWO = SAFETY_WITHOUT_ORDER = 3.0
+
+
+@dataclass(frozen=True)
+class GridLimit:
+    """Limit of a value at h = 0.
+
+    Attributes
+    ----------
+    value, low, high
+        Limit and its interval (unit of the value); NaN of one mesh.
+    meshes
+        Number of meshes that it rests on.
+    order
+        Observed order p (-); NaN where there is none.
+    basis
+        Origin of the interval in words.
+    """
+
+    value: float = math.nan
+    low: float = math.nan
+    high: float = math.nan
+    meshes: int = 0
+    order: float = math.nan
+    basis: str = "no mesh"
+
+    @property
+    def half_width(self) -> float:
+        """Half of the interval (unit of the value)."""
+        return 0.5 * (self.high - self.low)
+
+
+def grid_limit(
+    values: Sequence[float], sizes: Sequence[float], errors: Sequence[float] | None = None
+) -> GridLimit:
+    """Return the limit of a value on one mesh or more.
+
+    Parameters
+    ----------
+    values
+        The value on each mesh, coarsest first, shape (n,). Of more than three the finest count.
+    sizes
+        Cell sizes h, in any unit, falling, shape (n,).
+    errors
+        Half-widths of the values' own intervals, apart from the mesh, shape (n,); none by default.
+        They are taken to be independent of each other.
+    """
+    count = len(values)
+    own = [0.0] * count if errors is None else list(errors)
+    if count < 2:
+        value = values[0] if count else math.nan
+        return GridLimit(value=value, meshes=count, basis="one mesh, no interval")
+    if count == 2:
+        words = f"two meshes: order {FORMAL_ORDER:g} assumed, factor of safety {SAFETY_OF_TWO:g}"
+        limit, half = _extrapolated(values, sizes, own, FORMAL_ORDER, SAFETY_OF_TWO)
+        return GridLimit(limit, limit - half, limit + half, 2, math.nan, words)
+    three = (values[-3], values[-2], values[-1])
+    found = grid_convergence(three, (sizes[-3], sizes[-2], sizes[-1]))
+    if found.convergence is Convergence.MONOTONIC and is_credible(found.order):
+        used = min(found.order, FORMAL_ORDER)
+        limit, half = _extrapolated(values[-2:], sizes[-2:], own[-2:], used, SAFETY)
+        words = (
+            f"three meshes: order {found.order:.1f} observed, {used:.1f} used, factor of safety "
+            f"{SAFETY:g}"
+        )
+        return GridLimit(limit, limit - half, limit + half, 3, found.order, words)
+    half = math.hypot(SAFETY_WITHOUT_ORDER * (max(three) - min(three)), own[-1])
+    kind = str(found.convergence)
+    if found.convergence is Convergence.MONOTONIC:
+        kind = f"order {found.order:.1f}, which is chance"
+    words = f"three meshes, {kind}: three times their largest difference"
+    return GridLimit(three[-1], three[-1] - half, three[-1] + half, 3, math.nan, words)
+
+
+def is_credible(order: float) -> bool:
+    """Tell whether an observed order can be that of the scheme, and not chance."""
+    return LEAST_ORDER <= order <= MOST_ORDER
+
+
+def _extrapolated(
+    values: Sequence[float],
+    sizes: Sequence[float],
+    errors: Sequence[float],
+    order: float,
+    safety: float,
+) -> tuple[float, float]:
+    """Return the limit of two values of an order, and the half-width of its interval."""
+    part = 1.0 / ((sizes[0] / sizes[1]) ** order - 1.0)
+    change = part * (values[1] - values[0])
+    own = math.hypot((1.0 + part) * errors[1], part * errors[0])
+    return values[1] + change, math.hypot(safety * change, own)

@@ -1,0 +1,1 @@
+"""Onset, growth, means and loads of the paper's plate over the cell size, from kept results."""

@@ -1,0 +1,95 @@
+"""Write the page of onset, growth, means and loads over the cell size, with its figure and table.
+
+    python -m equisection.paper.mesh_convergence            # docs/mesh-convergence.md, .png
+    python -m equisection.paper.mesh_convergence --check    # tells whether the page is up to date
+
+The data are the results kept in ``results/reference``; what is kept on another mesh later is taken
+in. The claims (:mod:`equisection.paper.claims_page`) are judged by the table that this writes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from equisection.errors import EquisectionError
+from equisection.figures.save import save_figure
+from equisection.figures.style import drawing_style
+from equisection.files import write_text
+from equisection.generated import write_outdated
+from equisection.paper.mesh_convergence import convergence_figure
+from equisection.paper.mesh_convergence.convergence_page import page
+from equisection.paper.mesh_convergence.kept_releases import mesh_releases, rigid_loads
+from equisection.paper.mesh_convergence.loads_by_mesh import (
+    load_series,
+    mean_series,
+    modal_series,
+    ratio_series,
+)
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries, as_table
+from equisection.paper.mesh_convergence.onset_by_mesh import (
+    LearntSectionModels,
+    early_growth_of_plate,
+    growth_series,
+    onsets_by_releases,
+    own_factors,
+    plate_of_table_1,
+    plates_by_model,
+)
+from equisection.paper.printed_values import PAPER_ONSET
+
+COMMAND = "python -m equisection.paper.mesh_convergence"
+ROOT = Path(__file__).parents[4]
+PAGE = Path("docs/mesh-convergence.md")
+FIGURE = Path("docs/onset-over-cell-size.png")
+TABLE = Path("results/paper-convergence/mesh_convergence.csv")
+STYLE = ROOT / "envs" / "equisection.mplstyle"
+
+
+def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
+    """Return every series of what is kept, and the mesh that the own ratios are of."""
+    releases = mesh_releases(reference)
+    section, plate = (rigid_loads(reference, dimension) for dimension in ("2d", "3d"))
+    own, own_mesh = own_factors(section, plate)
+    models = LearntSectionModels.learnt(releases, section, plate_of_table_1(ROOT), own)
+    series = [
+        *onsets_by_releases(releases),
+        *models.over_meshes(),
+        *plates_by_model(releases, plate),
+        *growth_series(releases),
+        early_growth_of_plate(releases),
+        *mean_series(releases),
+        *load_series(section, "2d", reference),
+        *load_series(plate, "3d", reference),
+        *ratio_series(section, plate),
+        *modal_series(releases),
+    ]
+    return series, own_mesh
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Write or check the page; return the exit status."""
+    parser = argparse.ArgumentParser(prog=COMMAND, description="Onset over the cell size.")
+    parser.add_argument("--reference", type=Path, default=Path("results/reference"))
+    parser.add_argument("--page", type=Path, default=PAGE)
+    parser.add_argument("--figure", type=Path, default=FIGURE)
+    parser.add_argument("--table", type=Path, default=TABLE)
+    parser.add_argument("--check", action="store_true", help="only tell whether it is up to date")
+    options = parser.parse_args(arguments)
+    try:
+        series, own_mesh = all_series(options.reference)
+    except EquisectionError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return 1
+    write_text(options.table, as_table(series).to_csv(index=False, float_format="%.6g"))
+    if not options.check:
+        with drawing_style(STYLE):
+            save_figure(convergence_figure.draw(series, PAPER_ONSET), [options.figure])
+    text = page(series, own_mesh)
+    return write_outdated({options.page: text}, Path(), "make paper", check=options.check)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,130 @@
+"""Figure of the onset over the cell size, with the limit of each model and the paper's k*."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from equisection.figures.models import LOOKS, Look
+from equisection.figures.origin import add_provenance
+from equisection.figures.panels import letter
+from equisection.figures.style import GREEN, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries
+from equisection.paper.mesh_convergence.onset_by_mesh import (
+    BY_MODEL,
+    BY_RELEASES,
+    DAMPING,
+    ONSET,
+    OWN_RATIOS,
+    damped,
+)
+
+#: Looks of the models, with that of the section corrected by this project's own ratios.
+_LOOKS = {
+    **LOOKS,
+    "2d-corrected": Look("2D corrected by Table 1", "#000000", "o"),
+    OWN_RATIOS: Look("2D corrected, own ratios", GREEN, "D"),
+}
+#: Places of the limits of the models beside h = 0, one beside the other.
+_APART = 0.022
+_MODELS = ("2d", "2d-corrected", OWN_RATIOS, "3d")
+
+
+def draw(series: Sequence[MeshSeries], onset: tuple[float, float, float]) -> Figure:
+    """Draw onsets over the cell size (left) and over the structural damping (right).
+
+    Parameters
+    ----------
+    series
+        Onsets over the meshes.
+    onset
+        k* of the onset that the paper states, and its interval.
+    """
+    figure = Figure(figsize=(PAGE_WIDTH, 3.6))
+    left, right = figure.subplots(1, 2, sharey=True, width_ratios=(1.6, 1.0))
+    onsets = [one for one in series if one.quantity == ONSET]
+    _over_cell_size(left, onsets)
+    _over_damping(right, onsets)
+    for axes in (left, right):
+        axes.axhspan(*onset[1:], color=LIGHT_GREY, linewidth=0, zorder=0)
+        axes.axhline(onset[0], color=GREY, linewidth=0.8, linestyle=":", label="paper")
+    left.set_ylabel("$k^*$ of the onset")
+    entries = {
+        label: handle
+        for axes in (left, right)
+        for handle, label in zip(*axes.get_legend_handles_labels(), strict=True)
+    }
+    figure.legend(entries.values(), entries.keys(), loc="outside upper center", ncols=len(entries))
+    add_provenance(
+        figure,
+        "open: releases by OpenFOAM v1912; filled: model learnt from one release; at 0: limit "
+        "with its interval",
+        "grey: the paper's 5.5, give or take 10 %",
+    )
+    return figure
+
+
+def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
+    letter(axes, "a", "over the cell size, without damping")
+    axes.set_xlabel("cell size over that of the coarse mesh")
+    for number, model in enumerate(_MODELS):
+        for basis in (BY_RELEASES, BY_MODEL):
+            for one in onsets:
+                if (one.model, one.at, one.basis) == (model, "", basis):
+                    _series(axes, one, -_APART * (number + 1) - 0.5 * _APART * (basis == BY_MODEL))
+    axes.axvline(0.0, color=GREY, linewidth=0.6)
+    axes.set_xlim(-_APART * (len(_MODELS) + 2), 1.06)
+
+
+def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:
+    look, learnt = _LOOKS[one.model], one.basis == BY_MODEL
+    sizes = [size / one.sizes[0] for size in one.sizes]
+    values = [value.value for value in one.values]
+    errors = [
+        [value.value - value.low for value in one.values],
+        [value.high - value.value for value in one.values],
+    ]
+    style = {
+        "color": look.colour,
+        "marker": look.marker,
+        "markerfacecolor": look.colour if learnt else "white",
+        "markersize": 4.0,
+        "capsize": 2.0,
+        "elinewidth": 0.8,
+    }
+    label = look.label if learnt else None
+    axes.errorbar(sizes, values, errors, linewidth=0.8, linestyle="-", label=label, **style)
+    limit = one.limit
+    if math.isfinite(limit.half_width):
+        axes.errorbar([at_limit], [limit.value], [limit.half_width], linestyle="none", **style)
+
+
+def _over_damping(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
+    letter(axes, "b", "over the damping, finest mesh")
+    axes.set_xlabel(r"structural damping $\zeta$ (% of critical)")
+    for model in _MODELS:
+        shown = [
+            (zeta, one)
+            for zeta in DAMPING
+            for one in onsets
+            if (one.model, one.at, one.basis) == (model, damped(zeta), BY_MODEL) and one.values
+        ]
+        look = _LOOKS[model]
+        finest = [one.values[-1] for _, one in shown]
+        axes.errorbar(
+            [100.0 * zeta for zeta, _ in shown],
+            [value.value for value in finest],
+            [
+                [value.value - value.low for value in finest],
+                [value.high - value.value for value in finest],
+            ],
+            color=look.colour,
+            marker=look.marker,
+            markersize=4.0,
+            linewidth=0.8,
+            elinewidth=0.8,
+            capsize=2.0,
+        )

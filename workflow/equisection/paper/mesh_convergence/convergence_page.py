@@ -1,0 +1,278 @@
+"""Page of onset, growth, means and loads over the cell size."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from equisection.paper.mesh_convergence.loads_by_mesh import (
+    EQUAL_CELLS,
+    FIRST_MODE,
+    MEANS,
+    RIGID,
+    printed_limit,
+)
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.paper.mesh_convergence.onset_by_mesh import (
+    BY_MODEL,
+    GROWTH,
+    GROWTH_EARLY,
+    ONSET,
+    OWN_RATIOS,
+)
+from equisection.paper.printed_values import COEFFICIENTS, PAPER_ONSET
+
+MESHES = ("coarse", "medium", "fine")
+#: Kinds of the beam's modes.
+KINDS = ("torsion", "bending")
+#: Half-width of an interval, as a part of the value, up to which a value counts as converged.
+CONVERGED = 0.1
+
+_PICTURE = (
+    "Left: k* of the onset over the cell size, of three models, with the limit of each and the "
+    "paper's 5.5. Right: over the structural damping"
+)
+_HEAD = f"""# The onset over the cell size
+
+How the onset of the paper's plate and of its sections depends on the mesh, and how sure its limit
+is.
+
+![{_PICTURE}](onset-over-cell-size.png)
+
+```
+make paper                                          # or this step of it alone:
+python -m equisection.paper.mesh_convergence
+```
+
+Both write this page, its figure and `results/paper-convergence/mesh_convergence.csv` from what is
+kept in `results/reference/`, with no flow solver: do not edit it. What is kept on a further mesh
+later is taken in.
+
+A **limit** is the value at vanishing cell size. Its interval is
+
+- of three meshes the grid convergence index with the observed order, at most 2, and the factor of
+  safety 1.25 (Celik et al. 2008);
+- of two meshes, which show no order, that with the order 2 and the factor 3 (Roache 1998);
+- without convergence, or with an order beyond 0.5 to 4, three times the largest difference around
+  the finest value (Eca and Hoekstra 2014);
+- of one mesh not known.
+
+The intervals of growth rates, and the band of a learnt model, are added to it as independent
+errors. *Converged* is what has an interval of ± {100 * CONVERGED:g} % or less.
+"""
+
+
+def page(series: Sequence[MeshSeries], own_mesh: str) -> str:
+    """Return the page.
+
+    Parameters
+    ----------
+    series
+        All series.
+    own_mesh
+        Mesh of the plate that the own ratios are of; empty if there are none.
+    """
+    parts = [
+        _HEAD,
+        _onsets(series, own_mesh),
+        _damping(series),
+        _growth(series),
+        _means(series),
+        _loads(series),
+    ]
+    return "\n".join(parts)
+
+
+def _onsets(series: Sequence[MeshSeries], own_mesh: str) -> str:
+    chosen = [one for one in series if one.quantity == ONSET and not one.at]
+    low, high = PAPER_ONSET[1:]
+    stated = f"{PAPER_ONSET[0]:g}, here taken as {low:g} to {high:g}"
+    text = f"""## Onset
+
+k\\* of the onset; above it a release decays. The paper has about {stated}.
+
+{_table(("model", "basis"), [(one.model, one.basis) for one in chosen], chosen)}
+- *releases*: growth rates of the runs, zero between two k\\*. A mesh with one release has the
+  growth curve of the next coarser mesh, shifted by the difference of both at that k\\*, which
+  hardly depends on k\\* near the onset (table of growth, 6.44 to 8.5).
+- *learnt model*: learnt from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)). A
+  polar of few angles is filled in the shape of the next coarser one.
+- `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1, as
+  the sweep does. It mixes two programs' errors: its moment factor grows with the mesh, since Table
+  1 stays.
+- `{OWN_RATIOS}` has the ratio of this project's section to this project's plate, on equal cells in
+  the plane {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}.
+"""
+    return text + _notes(chosen) + _of_the_plate(chosen)
+
+
+def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
+    plate = [one for one in chosen if one.model == "3d" and one.basis != BY_MODEL]
+    if not plate or not math.isfinite(plate[0].limit.half_width):
+        return ""
+    limit = plate[0].limit
+    return f"""
+**The plate's onset is not converged**: its limit has the interval {limit.low:.1f} to
+{limit.high:.1f}. On `medium` there are 30 c/V with four iterations, from which no growth rate can
+be read, but only the difference from `coarse` over the same time; the longer run with two
+iterations is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+"""
+
+
+def _damping(series: Sequence[MeshSeries]) -> str:
+    chosen = [one for one in series if one.quantity == ONSET and one.basis == BY_MODEL]
+    rows = [(one.model, one.at.removeprefix("zeta = ") or "0") for one in chosen]
+    return f"""## Structural damping
+
+The paper gives no damping of the structure. A plastic plate has some, and so may the time
+integration of a structure. The onset by the learnt models with the same damping (of critical) in
+bending and torsion:
+
+{_table(("model", "damping"), rows, chosen)}
+"""
+
+
+def _growth(series: Sequence[MeshSeries]) -> str:
+    chosen = [one for one in series if one.quantity == GROWTH]
+    early = [one for one in series if one.quantity == GROWTH_EARLY and one.values]
+    rows = [(one.at.removeprefix("k* = "), one.basis.removeprefix("releases, ")) for one in chosen]
+    text = f"""## Growth at one k\\*
+
+Growth of the section `2d` (V/c, with its interval of 95 %) over the same window on each mesh, from
+20 c/V on:
+
+{_table(("k*", "window"), rows, chosen, form="+.4f", judged=False)}
+"""
+    if early:
+        notes = "; ".join(f"{value.mesh} {value.note}" for value in early[0].values)
+        text += f"""
+The plate (`3d`) at {_plain(early[0].at)}, four iterations a step, 10 to 30 c/V. **No growth rate
+can be read from 30 c/V**: fits with and without the second bending mode differ by more than their
+errors ({notes}). Of two meshes over the same window the difference counts:
+
+{_table(("model",), [("3d",)], early, form="+.4f", judged=False)}
+"""
+    return text
+
+
+def _means(series: Sequence[MeshSeries]) -> str:
+    chosen = [one for one in series if one.quantity in MEANS.values()]
+    rows = [(one.at.removeprefix("k* = "), one.quantity) for one in chosen]
+    return f"""## Means and frequency
+
+Of the section `2d`, over the same time on each mesh:
+
+{_table(("k*", "quantity"), rows, chosen, form=".4g")}
+"""
+
+
+def _loads(series: Sequence[MeshSeries]) -> str:
+    section = [one for one in series if one.model == RIGID["2d"]]
+    plate = [one for one in series if one.model == RIGID["3d"]]
+    rows = [(one.at, one.quantity) for one in section]
+    text = f"""## Loads of the rigid section
+
+{_table(("incidence", "coefficient"), rows, section, form=".4f")}
+"""
+    rows = []
+    for one in plate:
+        printed = printed_limit(_symbol(one), float(one.at.split()[0]))
+        rows.append((one.at, one.quantity, f"{printed.value:.4f} ± {printed.half_width:.4f}"))
+    return (
+        text
+        + f"""
+## Loads of the rigid plate, Table 1
+
+The column *paper* is the limit of the paper's own three meshes by the same rule.
+
+{_table(("incidence", "coefficient", "paper"), rows, plate, form=".4f")}
+"""
+        + _notes(plate)
+        + _of_one_plate(series)
+    )
+
+
+def _of_one_plate(series: Sequence[MeshSeries]) -> str:
+    """Return the quotients on equal cells, and those of the plate's modes."""
+    ratios = [one for one in series if one.model == EQUAL_CELLS]
+    modes = [one for one in series if one.quantity in map(FIRST_MODE.format, KINDS)]
+    rows = [(one.at, one.quantity) for one in ratios]
+    of_modes = [(one.quantity,) for one in modes]
+    at = _plain(modes[0].at) if modes else ""
+    return f"""
+## Section over plate
+
+Loads of the rigid section over those of the rigid plate, on equal cells in the plane:
+
+{_table(("incidence", "quotient"), rows, ratios, form=".3f")}
+
+## Modes of the plate
+
+Mean of the first mode over that of the next, at {at}, four iterations a step, 10 to 30 c/V:
+
+{_table(("quantity",), of_modes, modes, form=".1f")}
+"""
+
+
+def _symbol(one: MeshSeries) -> str:
+    assert one.quantity in COEFFICIENTS, "a coefficient of Table 1"
+    return one.quantity
+
+
+def _table(
+    head: Sequence[str],
+    rows: Sequence[Sequence[str]],
+    series: Sequence[MeshSeries],
+    form: str = ".2f",
+    *,
+    judged: bool = True,
+) -> str:
+    """Return a line for each series: its head, its values by mesh, order and limit."""
+    meshes = [m for m in MESHES if any(v.mesh == m for one in series for v in one.values)]
+    columns = [*map(_plain, head), *meshes, "order", "limit", "interval"]
+    columns += ["converged"] if judged else []
+    lines = [columns, ["---"] * len(columns)]
+    for words, one in zip(rows, series, strict=True):
+        limit = one.limit
+        known = math.isfinite(limit.half_width)
+        lines.append(
+            [
+                *map(_plain, words),
+                *(_of_mesh(one.values, mesh, form) for mesh in meshes),
+                f"{limit.order:.1f}" if math.isfinite(limit.order) else "",
+                format(limit.value, form) if known else "",
+                f"{format(limit.low, form)} to {format(limit.high, form)}" if known else "none",
+                *(["yes" if is_converged(one) else "no"] if judged else []),
+            ]
+        )
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+
+
+def is_converged(one: MeshSeries) -> bool:
+    """Tell whether the interval of a limit is narrow enough to judge by."""
+    part = one.limit.half_width / abs(one.limit.value) if one.limit.value else math.nan
+    return bool(part <= CONVERGED)
+
+
+def _of_mesh(values: Iterable[MeshValue], mesh: str, form: str) -> str:
+    for value in values:
+        if value.mesh == mesh:
+            half = value.half_width
+            text = format(value.value, form)
+            return f"{text} ± {format(half, form.lstrip('+'))}" if half else text
+    return ""
+
+
+def _notes(series: Iterable[MeshSeries]) -> str:
+    words = [
+        f"- {one.model}, {one.basis}, {value.mesh}: {_plain(value.note)}.\n"
+        for one in series
+        for value in one.values
+        if value.note
+    ]
+    return "".join(dict.fromkeys(words))
+
+
+def _plain(text: str) -> str:
+    """Keep the asterisk of k* from being read as a mark."""
+    return text.replace("k*", "k\\*")

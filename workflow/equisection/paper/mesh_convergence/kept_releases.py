@@ -1,0 +1,241 @@
+"""Releases of the paper's plate and of its sections that differ in their mesh alone."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from equisection.aerodynamics.filled_polar import filled, missing_angles
+from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.strip_polars import StripPolars
+from equisection.cases import FREE, STEADY, UnsteadyCase
+from equisection.results.loads_zigzag import loads_zigzag
+from equisection.results.netcdf import read_dataset
+from equisection.results.unsteady_result import Regime
+from equisection.solvers.verdicts import Judge, TipMotion
+from equisection.store.judged_again import tip_motion
+from equisection.store.kept import Kept, kept_results
+from equisection.verdict.growth import MOST_PERIODS, Growth, growth_of
+
+#: Time (c/V) up to which releases are compared, and from which on growth is read: over the first
+#: 20 c/V the release itself shows.
+UNTIL, BEHIND_RELEASE = 100.0, 20.0
+#: Time step (c/V) of the releases that are compared, by dimension.
+STEPS = {"2d": 0.02, "3d": 0.04}
+#: Iterations of a time step of the section's releases: at most, until the residuals are small.
+ITERATIONS_OF_SECTION = 8
+#: Range of the incidence (rad) in which a release of the section moves.
+SEEN = (0.0, math.radians(5.0))
+_MODELS = ("2d", "2d-corrected", "3d")
+_OF_MESH = "mesh"
+
+
+@dataclass(frozen=True, eq=False)
+class MeshRelease:
+    """A release on one of several similar meshes.
+
+    Attributes
+    ----------
+    path
+        File of the result.
+    case
+        Its case.
+    cells
+        Number of cells.
+    tip
+        Motion of the tip.
+    iterations
+        Iterations of a time step at most.
+    zigzag
+        Zigzag of its loads (-); NaN where it is unknown.
+    """
+
+    path: Path
+    case: UnsteadyCase
+    cells: int
+    tip: TipMotion
+    iterations: int
+    zigzag: float
+
+    @property
+    def model(self) -> str:
+        """Model of the sweep."""
+        return self.path.parent.name
+
+    @property
+    def mesh(self) -> str:
+        """Name of the mesh."""
+        return str(self.case.solver.settings[_OF_MESH])
+
+    @property
+    def end(self) -> float:
+        """End of the history (c/V)."""
+        return float(self.tip.time[-1])
+
+    def growth(self, start: float, end: float, waves: int = 3) -> Growth:
+        """Return the growth (V/c) over a window (c/V), fitted with so many motions at most."""
+        return growth_over(self.case, self.tip, (start, end), waves)
+
+    def behind_release(self, end: float = UNTIL) -> Growth:
+        """Return the growth over the last periods before a time, behind the release (c/V)."""
+        return growth_behind_release(self.case, self.tip, end)
+
+
+def growth_over(
+    case: UnsteadyCase, tip: TipMotion, window: tuple[float, float], waves: int = 3
+) -> Growth:
+    """Return the growth (V/c) over a window (c/V), fitted with so many motions at most."""
+    natural = np.array(Judge.of(case).waves[:waves])
+    return growth_of(tip.time, tip.records[:waves], natural, window)
+
+
+def growth_behind_release(case: UnsteadyCase, tip: TipMotion, end: float = UNTIL) -> Growth:
+    """Return the growth over the last periods before a time (c/V), from 20 c/V on."""
+    last = min(end, float(tip.time[-1]))
+    start = max(BEHIND_RELEASE, last - MOST_PERIODS / Judge.of(case).natural_frequency)
+    return growth_over(case, tip, (start, last))
+
+
+def mesh_releases(reference: Path) -> list[MeshRelease]:
+    """Return the kept releases of the plate and its sections on meshes of one family.
+
+    They have the time step of :data:`STEPS`; of several of a model, k*, mesh and number of
+    iterations the longest is taken.
+    """
+    chosen: dict[tuple[Any, ...], MeshRelease] = {}
+    for kept in kept_results(reference):  # the longest first
+        if not _is_compared(kept):
+            continue
+        settings = kept.case["solver"]["settings"]
+        iterations = int(settings["outer_correctors"])
+        key = (kept.path.parent.name, kept.case["k_star"], settings[_OF_MESH], iterations)
+        if key not in chosen:
+            chosen[key] = MeshRelease(
+                kept.path,
+                UnsteadyCase.model_validate(kept.case),
+                _cells_of(kept),
+                tip_motion(read_dataset(kept.path)),
+                iterations,
+                loads_zigzag(kept.path, kept.attributes).get("loads_zigzag", math.nan),
+            )
+    return sorted(
+        chosen.values(), key=lambda one: (one.model, one.case.k_star, one.cells, one.iterations)
+    )
+
+
+def _is_compared(kept: Kept) -> bool:
+    case = kept.case
+    if case.get("kind") != FREE.folder or "outline" in case["geometry"]:
+        return False
+    settings = case["solver"]["settings"]
+    unusual = {"mesh_motion", "mesher"} & settings.keys()
+    if unusual or str(settings.get(_OF_MESH, "")).startswith("plate"):
+        return False
+    if case["time_step"] != STEPS[case["dimension"]]:
+        return False
+    is_section = case["dimension"] == "2d"
+    return kept.path.parent.name in _MODELS and (
+        not is_section or settings["outer_correctors"] == ITERATIONS_OF_SECTION
+    )
+
+
+def _cells_of(kept: Kept) -> int:
+    words = str(kept.attributes["solver_description"]).split()
+    return int(words[words.index("cells") - 1])
+
+
+def growth_table(releases: list[MeshRelease]) -> pd.DataFrame:
+    """Return growth rates of releases with their errors, as ``summary.csv`` has them."""
+    rows = []
+    for one in releases:
+        growth = one.behind_release()
+        low, high = growth.interval
+        rows.append(
+            (one.case.k_star, str(Regime.GROWING), growth.rate, growth.standard_error, low, high)
+        )
+    columns = ["k_star", "regime", "growth_rate", "growth_standard_error"]
+    return pd.DataFrame(rows, columns=[*columns, "growth_low", "growth_high"])
+
+
+@dataclass(frozen=True)
+class MeshLoads:
+    """Loads of a rigid body on one mesh.
+
+    Attributes
+    ----------
+    mesh
+        Name of the mesh.
+    cells
+        Number of its cells.
+    incidence_deg
+        Incidence (deg).
+    loads
+        ``cd``, ``cl``, ``cm``.
+    path
+        File of the result.
+    """
+
+    mesh: str
+    cells: int
+    incidence_deg: float
+    loads: dict[str, float]
+    path: Path
+
+
+def rigid_loads(reference: Path, dimension: str) -> list[MeshLoads]:
+    """Return the kept steady results of the paper's section (``2d``) or plate (``3d``).
+
+    Those with settings of their own, beside mesh and iterations, are left out.
+    """
+    usual = {_OF_MESH, "outer_correctors", "velocity_relaxation"}
+    found = {}
+    for kept in kept_results(reference):
+        case = kept.case
+        if case.get("kind") != STEADY.folder or case.get("dimension") != dimension:
+            continue
+        settings = case["solver"]["settings"]
+        if "outline" in case["geometry"] or set(settings) - usual:
+            continue
+        data = read_dataset(kept.path)
+        loads = {name: float(data[name]) for name in ("cd", "cl", "cm")}
+        mesh, angle = str(settings[_OF_MESH]), float(case["incidence_deg"])
+        found[mesh, angle] = MeshLoads(mesh, _cells_of(kept), angle, loads, kept.path)
+    return sorted(found.values(), key=lambda one: (one.cells, one.incidence_deg))
+
+
+def polars_of(loads: list[MeshLoads]) -> dict[str, Polar]:
+    """Return the polar of each mesh with four incidences or more, coarsest first.
+
+    One with gaps where a release moves is filled in the shape of the next coarser one.
+    """
+    found: dict[str, Polar] = {}
+    for mesh in dict.fromkeys(one.mesh for one in loads):
+        points = [one for one in loads if one.mesh == mesh]
+        if len(points) < 4:
+            continue
+        columns = [[one.loads[name] for one in points] for name in ("cd", "cl", "cm")]
+        angles = np.radians([one.incidence_deg for one in points])
+        polar = Polar(angles, *map(np.array, columns), mesh)
+        denser = next(reversed(found.values()), None)
+        if denser is not None and missing_angles(polar, SEEN):
+            polar = replace(filled(polar, denser), label=f"{mesh}, in the shape of {denser.label}")
+        found[mesh] = polar
+    return found
+
+
+def strip_polars_of(loads: list[MeshLoads], mesh: str) -> StripPolars:
+    """Return the polars along the span of a mesh of the plate."""
+    points = [one for one in loads if one.mesh == mesh]
+    read = [read_dataset(one.path) for one in points]
+    return StripPolars(
+        np.radians([one.incidence_deg for one in points]),
+        read[0]["span"].values.astype(np.float64),
+        np.array([data["cl_section"].values for data in read]),
+        np.array([data["cm_section"].values for data in read]),
+        mesh,
+    )

@@ -1,0 +1,368 @@
+"""Onset of the paper's plate and of its sections over the cell size, and over the damping.
+
+The onset of a mesh comes from its releases, whose growth rates have zero between two k*; where a
+mesh has a release at one k* alone, from the growth curve of the next coarser one, shifted by the
+difference of both there; and from the model that is learnt from one release
+(:mod:`equisection.analysis.reduced_model`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from equisection.aerodynamics.polar import Polar
+from equisection.analysis.growth_onset import onset_by_growth
+from equisection.analysis.recorded_beam import on_strips, read_recorded_beam
+from equisection.analysis.reduced_beam import ReducedBeam, learnt_beam, predicted_beams
+from equisection.analysis.reduced_model import (
+    PredictedOnset,
+    learnt_model,
+    onset_of,
+    predicted,
+    predicted_onset,
+)
+from equisection.beam.section import Section
+from equisection.cases import BeamModes
+from equisection.errors import ResultFileError
+from equisection.paper.mesh_convergence.kept_releases import (
+    MeshRelease,
+    MeshLoads,
+    growth_table,
+    polars_of,
+    strip_polars_of,
+)
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.reduction.corrected_section import corrected_section
+from equisection.reduction.correction import CorrectionFactors
+from equisection.results.recorded_history import read_reference_history
+from equisection.study.axes import K_STAR
+from equisection.verdict.growth import AFTER_RELEASE
+
+#: Names of the quantities.
+ONSET, GROWTH, GROWTH_EARLY = (
+    "onset k*",
+    "growth, V/c",
+    "growth over the first 30 c/V",
+)
+#: Bases of an onset.
+BY_RELEASES, BY_MODEL = "releases", "learnt model"
+#: The section corrected by this project's plate on the section's cells.
+OWN_RATIOS = "2d-corrected, own ratios"
+#: k* of the release that models are learnt from.
+LEARNT_AT = 6.44
+#: Structural damping (of critical) in both motions.
+DAMPING = (0.0, 0.005, 0.01, 0.02)
+#: k* at which models predict, of sections and of the plate.
+_SECTIONS_AT = np.geomspace(3.9, 11.0, 16)
+_BEAMS_AT = np.geomspace(4.0, 20.0, 13)
+#: End (c/V) of the shortest releases of the plate.
+_EARLY = 30.0
+#: Iterations of a time step of the plate that are enough.
+PLATE_ITERATIONS = 4
+
+
+def growth_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
+    """Yield the growth rates of the section at each k* that two meshes have, over one window."""
+    sections = [one for one in releases if one.model == "2d"]
+    for k_star in sorted({one.case.k_star for one in sections}):
+        alike = [one for one in sections if one.case.k_star == k_star]
+        if len(alike) < 2:
+            continue
+        end = min(one.end for one in alike)
+        values = []
+        for one in alike:
+            growth = one.behind_release(end)
+            low, high = growth.interval
+            values.append(MeshValue(one.mesh, one.cells, growth.rate, low, high))
+        start, last = growth.start, growth.end
+        basis = f"releases, {start:.0f} to {last:.0f} c/V"
+        yield MeshSeries(GROWTH, "2d", f"k* = {k_star:g}", basis, 2, tuple(values))
+
+
+def early_growth_of_plate(releases: Sequence[MeshRelease]) -> MeshSeries:
+    """Return the growth of the plate over the first 30 c/V on each mesh, with four iterations.
+
+    It is no growth rate of the plate: over so short a time the release shows, and fits with one and
+    with two bending modes differ by more than their errors. Half of that difference is in the
+    interval, and the difference of two meshes over the same window is what it is for.
+    """
+    values = []
+    for one in releases:
+        if one.model != "3d" or one.iterations != PLATE_ITERATIONS:
+            continue
+        two, three = (one.growth(AFTER_RELEASE, min(_EARLY, one.end), waves) for waves in (2, 3))
+        low, high = three.interval
+        half = 0.5 * (high - low)
+        values.append(
+            MeshValue(
+                one.mesh,
+                one.cells,
+                three.rate,
+                three.rate - half,
+                three.rate + half,
+                f"{two.rate:+.4f} without the second bending mode",
+            )
+        )
+    at = f"k* = {LEARNT_AT:g}"
+    return MeshSeries(GROWTH_EARLY, "3d", at, "releases, 10 to 30 c/V", 3, tuple(values))
+
+
+def onsets_by_releases(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
+    """Yield the onset of each model over the meshes, from releases."""
+    for model, dimensions in (("2d", 2), ("2d-corrected", 2), ("3d", 3)):
+        own = [one for one in releases if one.model == model]
+        values = _of_plate(own, releases) if model == "3d" else _of_section(own)
+        if values:
+            yield MeshSeries(ONSET, model, "", BY_RELEASES, dimensions, tuple(values))
+
+
+def _by_mesh(releases: Sequence[MeshRelease]) -> dict[str, list[MeshRelease]]:
+    meshes = dict.fromkeys(one.mesh for one in sorted(releases, key=lambda release: release.cells))
+    return {mesh: [one for one in releases if one.mesh == mesh] for mesh in meshes}
+
+
+def _of_section(releases: Sequence[MeshRelease]) -> list[MeshValue]:
+    values: list[MeshValue] = []
+    curve: list[MeshRelease] = []
+    for mesh, runs in _by_mesh(releases).items():
+        found = onset_by_growth(growth_table(runs), K_STAR)
+        if math.isfinite(found.value):
+            values.append(MeshValue(mesh, runs[0].cells, found.value, found.low, found.high))
+            curve = runs
+        elif curve:
+            values += _shifted(curve, runs, values[-1])
+    return values
+
+
+def _shifted(
+    curve: Sequence[MeshRelease], runs: Sequence[MeshRelease], base: MeshValue
+) -> list[MeshValue]:
+    """Return the onset of a mesh with few releases, by the shift of the growth of a coarser one."""
+    found = []
+    for run in runs:
+        for known in curve:
+            if known.case.k_star == run.case.k_star:
+                end = min(known.end, run.end)
+                here, there = run.behind_release(end), known.behind_release(end)
+                half = math.hypot(*(0.5 * np.ptp(one.interval) for one in (here, there)))
+                found.append((run, known, here.rate - there.rate, half))
+    if not found:
+        return []
+    run, known, shift, half = min(found, key=lambda one: abs(one[0].case.k_star - base.value))
+    note = f"growth of {known.mesh} {shift:+.4f} V/c, the difference at k* = {run.case.k_star:g}"
+    return [_moved(growth_table(curve), (shift, half), base, run, note)]
+
+
+def _moved(
+    curve: pd.DataFrame, shift: tuple[float, float], base: MeshValue, run: MeshRelease, note: str
+) -> MeshValue:
+    """Return the zero of a growth curve that is moved by a shift, with its half-width (V/c)."""
+    ordered = curve.sort_values("k_star")
+    k_star, rates = ordered["k_star"].tolist(), ordered["growth_rate"].to_numpy()
+    moved, half = shift
+    value, low, high = (onset_of(k_star, rates + by) for by in (moved, moved - half, moved + half))
+    own = base.half_width
+    return MeshValue(
+        run.mesh,
+        run.cells,
+        value,
+        value - math.hypot(value - low, own),
+        value + math.hypot(high - value, own),
+        note,
+    )
+
+
+def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> list[MeshValue]:
+    """Return the onset of the plate on coarse, and on medium as far as 30 c/V tell."""
+    coarse = [one for one in own if one.mesh == "coarse" and one.iterations < PLATE_ITERATIONS]
+    table = growth_table(coarse)
+    found = onset_by_growth(table, K_STAR)
+    if not math.isfinite(found.value):
+        return []
+    least, most = min(one.zigzag for one in coarse), max(one.zigzag for one in coarse)
+    note = f"two iterations a step: loads zigzag by {100 * least:.2g} to {100 * most:.2g} %"
+    base = MeshValue("coarse", coarse[0].cells, found.value, found.low, found.high, note)
+    early = early_growth_of_plate(releases).values
+    if len(early) < 2:
+        return [base]
+    shift = early[-1].value - early[0].value
+    without = [float(value.note.split()[0]) for value in (early[0], early[-1])]
+    spread = abs(without[1] - without[0] - shift)
+    half = math.hypot(*(value.half_width for value in early[:: len(early) - 1]), spread)
+    run = next(one for one in own if one.mesh == early[-1].mesh)
+    words = f"growth of coarse {shift:+.4f} +- {half:.4f} V/c, the difference over 30 c/V"
+    return [base, _moved(table, (shift, half), base, run, words)]
+
+
+@dataclass(frozen=True, eq=False)
+class LearntSectionModels:
+    """Onsets of the sections by models learnt on each mesh.
+
+    Attributes
+    ----------
+    onsets
+        Onset by model and mesh, with the cells of the mesh and a note.
+    """
+
+    onsets: Mapping[tuple[str, str, float], tuple[PredictedOnset, int, str]]
+
+    @classmethod
+    def learnt(
+        cls,
+        releases: Sequence[MeshRelease],
+        section_loads: Sequence[MeshLoads],
+        plate: Polar,
+        own: CorrectionFactors | None,
+    ) -> LearntSectionModels:
+        """Learn a model on each mesh that has a release and a polar.
+
+        Parameters
+        ----------
+        releases
+            Kept releases.
+        section_loads
+            Rigid section on its meshes.
+        plate
+            Polar of the rigid plate of the paper's Table 1.
+        own
+            Factors of this project's section and plate on equal cells; None where they are not
+            kept.
+        """
+        polars = polars_of([one for one in section_loads if not one.mesh.startswith("plate")])
+        onsets = {}
+        chosen = [
+            one
+            for one in releases
+            if one.model == "2d" and one.case.k_star == LEARNT_AT and one.mesh in polars
+        ]
+        for run in chosen:
+            polar = polars[run.mesh]
+            model = learnt_model(read_reference_history(run.path), polar)
+            base = run.case.section
+            assert base is not None, "a case of a section"
+            kinds: dict[str, CorrectionFactors | None] = {
+                "2d": None,
+                "2d-corrected": CorrectionFactors(polar, plate),
+            }
+            if own is not None:
+                kinds[OWN_RATIOS] = own
+            places = [(kind, zeta) for kind in kinds for zeta in DAMPING]
+            lanes = [
+                (float(k), section)
+                for kind, zeta in places
+                for k, section in _sections(base, kinds[kind], zeta, run)
+            ]
+            table = predicted(model, [k for k, _ in lanes], [section for _, section in lanes])
+            note = "" if not model.missing_angles else "the polar lacks angles"
+            label = polar.label if polar.label != run.mesh else ""
+            for number, place in enumerate(places):
+                count = _SECTIONS_AT.size
+                part = table.iloc[number * count : (number + 1) * count]
+                onsets[place[0], run.mesh, place[1]] = (
+                    predicted_onset(part),
+                    run.cells,
+                    "; ".join(filter(None, (note, f"polar of {label}" if label else ""))),
+                )
+        return cls(onsets)
+
+    def over_meshes(self) -> Iterator[MeshSeries]:
+        """Yield the onset of each model over the meshes, without damping and with it."""
+        for kind, zeta in dict.fromkeys((model, zeta) for model, _, zeta in self.onsets):
+            values = [
+                MeshValue(mesh, cells, found.k_star, found.low, found.high, note)
+                for (model, mesh, damping), (found, cells, note) in self.onsets.items()
+                if (model, damping) == (kind, zeta)
+            ]
+            yield MeshSeries(ONSET, kind, damped(zeta), BY_MODEL, 2, tuple(values), True)
+
+
+def damped(zeta: float) -> str:
+    """Return the place of a structural damping (of critical); empty without it."""
+    return f"zeta = {100 * zeta:g} %" if zeta else ""
+
+
+def _sections(
+    base: Section, factors: CorrectionFactors | None, zeta: float, run: MeshRelease
+) -> Iterator[tuple[float, Section]]:
+    """Yield the sections over k*, corrected by factors where there are any, with damping."""
+    for k_star in _SECTIONS_AT:
+        section = base.scaled(float(k_star) / run.case.k_star)
+        pitch = 2.0 * zeta * math.sqrt(section.torsional_stiffness * section.inertia)
+        heave = 2.0 * zeta * math.sqrt(section.flexural_stiffness * section.mass)
+        damped = section.model_copy(update={"torsional_damping": pitch, "flexural_damping": heave})
+        if factors is not None:
+            damped, _ = corrected_section(damped, factors, math.radians(run.case.incidence_deg))
+        yield float(k_star), damped
+
+
+def own_factors(
+    section_loads: Sequence[MeshLoads], plate_loads: Sequence[MeshLoads]
+) -> tuple[CorrectionFactors | None, str]:
+    """Return the factors of section and plate on equal cells, and the mesh that they are of.
+
+    The finest mesh of the plate of which both are kept is taken.
+    """
+    on_cells = polars_of([one for one in section_loads if one.mesh.startswith("plate-")])
+    plates = polars_of(list(plate_loads))
+    for mesh in reversed(plates):
+        if f"plate-{mesh}" in on_cells:
+            return CorrectionFactors(on_cells[f"plate-{mesh}"], plates[mesh]), mesh
+    return None, ""
+
+
+def plates_by_model(
+    releases: Sequence[MeshRelease], plate_loads: Sequence[MeshLoads]
+) -> Iterator[MeshSeries]:
+    """Yield the onset of the plate by a model learnt from its release on each mesh, and damped.
+
+    A release that is too short, or whose loads zigzag beyond the coarse mesh, where that does
+    little harm, is not learnt from.
+    """
+    models: dict[str, tuple[ReducedBeam, MeshRelease]] = {}
+    for one in releases:
+        usable = one.iterations >= PLATE_ITERATIONS or one.mesh == "coarse"
+        if one.model == "3d" and one.case.k_star == LEARNT_AT and usable:
+            polars = strip_polars_of(list(plate_loads), one.mesh)
+            try:
+                release = read_recorded_beam(one.path, polars.strips)
+                models[one.mesh] = (learnt_beam(release, polars), one)
+            except ResultFileError:
+                continue
+    for zeta in DAMPING if models else ():
+        values = []
+        for mesh, (model, run) in models.items():
+            found = _onset_of_beam(model, run, zeta)
+            values.append(MeshValue(mesh, run.cells, found.k_star, found.low, found.high))
+        yield MeshSeries(ONSET, "3d", damped(zeta), BY_MODEL, 3, tuple(values), True)
+
+
+def _onset_of_beam(model: ReducedBeam, run: MeshRelease, zeta: float) -> PredictedOnset:
+    base = run.case.beam
+    assert base is not None, "a case of the beam"
+    beams = [_beam_at(base, float(k_star) / run.case.k_star, zeta) for k_star in _BEAMS_AT]
+    parameters = on_strips(beams, model.loads.polars.strips)
+    return predicted_onset(predicted_beams(model, _BEAMS_AT.tolist(), parameters))
+
+
+def _beam_at(base: BeamModes, scale: float, zeta: float) -> BeamModes:
+    """Return a beam with its stiffness times a factor, and damped modes."""
+    root = math.sqrt(scale)
+    return base.model_copy(
+        update={
+            "torsion_frequency": tuple(root * one for one in base.torsion_frequency),
+            "bending_frequency": tuple(root * one for one in base.bending_frequency),
+            "torsion_damping": zeta,
+            "bending_damping": zeta,
+        }
+    )
+
+
+def plate_of_table_1(root: Path) -> Polar:
+    """Return the polar of the rigid plate of the paper's Table 1."""
+    return Polar.read(root / "config" / "polars" / "paper_plate_3d.csv")

@@ -1,0 +1,71 @@
+"""Polar of the beam as it would be on the cells of another section: the ratio of the two kept.
+
+A mesh changes the loads of section and beam alike, so that the ratio of the two on equal cells
+hangs less on the mesh than either. Where the section is resolved more finely than its beam can
+be, or is measured and not computed, the beam's polar is carried over to it,
+
+    C(alpha) = c(alpha) C_ref(alpha)/c_ref(alpha),
+
+from a section ``c_ref`` and a beam ``C_ref`` that belong together: the same cells, or the same
+tunnel. The factors of Eq. 20 are then c/C = c_ref/C_ref, and the equilibrium that they are taken
+at is that of ``C``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from equisection.aerodynamics.polar import Polar
+from equisection.errors import ReductionError
+from equisection.reduction.correction import CorrectionFactors
+
+#: Fewest incidences of a polar.
+_FEWEST = 4
+
+
+def beam_carried_over(section: Polar, pair: CorrectionFactors) -> Polar:
+    """Return the polar of the beam that belongs to a section, by the ratio of another pair.
+
+    Parameters
+    ----------
+    section
+        c_l, c_m, c_d of the section that is to be corrected.
+    pair
+        Section and beam that belong together.
+
+    Returns
+    -------
+    Polar
+        C_L, C_M, C_D at each incidence that one of the three has and all cover. Incidences at
+        which a ratio of the pair is not a positive number are left out.
+
+    Raises
+    ------
+    ReductionError
+        Fewer than four incidences are left.
+    """
+    three = (section.continued, pair.section.continued, pair.beam.continued)
+    low = max(polar.incidence_range[0] for polar in three)
+    high = min(polar.incidence_range[1] for polar in three)
+    incidence = np.unique(np.concatenate([polar.incidence for polar in three]))
+    incidence = incidence[(incidence >= low) & (incidence <= high)]
+    lift, moment = pair.lift_factor(incidence), pair.moment_factor(incidence)
+    there = np.isfinite(lift) & np.isfinite(moment)
+    if there.sum() < _FEWEST:
+        raise ReductionError(
+            f"section {pair.section.label!r} and beam {pair.beam.label!r} have a ratio of their "
+            f"loads at {there.sum()} incidences that section {section.label!r} covers too, and "
+            f"{_FEWEST} are needed; give steady.beam_polar and steady.beam_polar_section more "
+            "incidences in common"
+        )
+    incidence, lift, moment = incidence[there], lift[there], moment[there]
+    own, of_section, of_beam = three
+    drag = own.drag_coefficient(incidence) * of_beam.drag_coefficient(incidence)
+    drag = drag / of_section.drag_coefficient(incidence)
+    return Polar(
+        incidence,
+        drag,
+        own.lift_cubic(incidence) / lift,
+        own.moment_cubic(incidence) / moment,
+        f"{pair.beam.label} over {pair.section.label}, of {section.label}",
+    )
