@@ -354,9 +354,7 @@ def test_limit_cycle_inside_is_a_part_of_the_claim() -> None:
     whole = complete()
     cycle = kept(("2d", 1e4, 0.02, 6.44, 400.0)).assign(regime="limit-cycle", end_time=370.0)
     runs: list[Run] = [(5.5, "growing", 0.6, 0.0, 0.8, 0.4), (8.0, "settled", 0.4, 0.0, 0.6, 0.3)]
-    finding = response.limit_cycle(
-        replace(whole, summary=summary(m2d_corrected=runs), kept=cycle)
-    )
+    finding = response.limit_cycle(replace(whole, summary=summary(m2d_corrected=runs), kept=cycle))
     assert "inside, 2d at k* = 6.44 after 370 c/V" in finding.here
     assert finding.verdict is ClaimVerdict.AGREES
 

@@ -10,7 +10,7 @@ import pandas as pd
 
 from equisection.analysis.grid_convergence import cell_size
 from equisection.analysis.grid_limit import GridLimit, grid_limit
-from equisection.paper.mesh_convergence.kept_releases import MeshRelease, MeshLoads
+from equisection.paper.mesh_convergence.kept_releases import MeshLoads, MeshRelease
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_mesh import PLATE_ITERATIONS
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1

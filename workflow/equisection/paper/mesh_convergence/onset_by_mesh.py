@@ -31,8 +31,8 @@ from equisection.beam.section import Section
 from equisection.cases import BeamModes
 from equisection.errors import ResultFileError
 from equisection.paper.mesh_convergence.kept_releases import (
-    MeshRelease,
     MeshLoads,
+    MeshRelease,
     growth_table,
     polars_of,
     strip_polars_of,
