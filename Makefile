@@ -19,7 +19,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run report paper validation cost identification cost-model status verify test lint docs drawing bench openfoam slurm chromium clean
+.PHONY: run install report paper validation cost identification cost-model status verify test lint docs drawing gallery bench openfoam slurm chromium clean
 
 run: $(ENV)/run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && echo "$(SNAKEMAKE)" && $(SNAKEMAKE) && printf '%s\n' '' \
@@ -27,6 +27,9 @@ run: $(ENV)/run
 		"tables:     $$folder/tables/ and $$folder/comparison/" \
 		"report:     make report$(if $(CONFIG), CONFIG=$(CONFIG)) writes $$folder/report.html" \
 		"each run:   $(BIN)/equisection status $$folder"
+
+install: $(ENV)/run
+	@echo "installed in $(ENV): source $(BIN)/activate"
 
 report: $(ENV)/report
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && $(SNAKEMAKE) -- report_page && \
@@ -97,10 +100,23 @@ lint: $(ENV)/lint
 docs: $(ENV)/docs
 	$(BIN)/python -m sphinx --quiet --fail-on-warning --keep-going --nitpicky \
 		--conf-dir docs --doctree-dir .sphinx . site
-	@echo "site: site/docs/index.html"
+	cp docs/_static/to-the-landing-page.html site/index.html
+	@echo "site: site/index.html"
 
 drawing: $(ENV)/run
 	$(BIN)/python docs/drawings/beam_and_section.py docs/beam-and-section.svg
+	$(BIN)/python docs/drawings/examples.py docs/gallery
+
+# Pictures of the gallery: configuration, figure and place in docs/ of each.
+GALLERY := tracker_over_tilt,tracker-over-tilt/figures/critical-speed,gallery/tracker \
+	bridge_deck,bridge-deck/figures/growth-rate,gallery/bridge \
+	goland_wing,goland-wing/figures/growth-rate,gallery/wing \
+	plate_over_incidence,plate-over-incidence/figures/critical-speed,critical-speed-over-incidence
+gallery: drawing
+	@for words in $(GALLERY); do set -- $$(echo $$words | tr , ' '); \
+		$(SNAKEMAKE) --configfile config/examples/$$1.yaml -- results/$$2.png && \
+		cp results/$$2.png docs/$$3.png || exit 1; \
+	done
 
 bench: $(ENV)/test
 	$(BIN)/python -m tests.benchmarks

@@ -61,7 +61,7 @@ if __name__ == "__main__":
     ):
         main(
             Path(snakemake.output[0]),
-            Path(snakemake.params.run),
+            Path(snakemake.input.config).parent,
             figures=dict(
                 zip(snakemake.params.figures, map(Path, snakemake.input.figures), strict=True)
             ),

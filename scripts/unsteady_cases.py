@@ -23,8 +23,8 @@ def main(
 ) -> None:
     """Write the cases, named by their point of the study.
 
-    ``structure_files`` holds ``equivalent``, with ``modes`` in 3D and ``correction`` for
-    corrected models; further ones are not used.
+    ``structure_files`` holds ``equivalent``, with ``modes`` in 3D, ``correction`` for corrected
+    models, and ``polar_2d`` for sections that start from equilibrium; further ones are not used.
     """
     config = load_config(raw_config)
     model = plan.model(model_name, config.reduction)
@@ -36,7 +36,7 @@ def main(
 
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
-        made_from = {"modes", "equivalent", "correction"} & set(snakemake.input.keys())
+        made_from = {"modes", "equivalent", "correction", "polar_2d"} & set(snakemake.input.keys())
         for output in map(Path, snakemake.output):
             of_sweep = snakemake.params.cases
             if isinstance(of_sweep, dict):

@@ -1,4 +1,7 @@
-"""Headless Chromium, asked over a pipe in its DevTools protocol: one start for many pages."""
+"""Headless Chromium, asked over a pipe in its DevTools protocol: one start for many pages.
+
+``python -m tests.chromium PAGE PICTURE`` takes the picture of a page that the documentation shows.
+"""
 
 from __future__ import annotations
 
@@ -8,6 +11,8 @@ import os
 import select
 import shutil
 import subprocess
+import sys
+import tempfile
 import time
 from collections.abc import Mapping
 from pathlib import Path
@@ -21,8 +26,16 @@ _OPTIONS = (
     *("--disable-background-networking", "--disable-component-update", "--disable-sync"),
     *("--disable-dev-shm-usage", "--hide-scrollbars", "--remote-debugging-pipe"),
 )
+#: The browser reads from descriptor 3 and writes to 4, whatever the ends of the pipes are here.
+_LAUNCHER = """
+import fcntl, os, sys
+ends = [fcntl.fcntl(int(end), fcntl.F_DUPFD, 10) for end in sys.argv[1:3]]
+for end, wanted in zip(ends, (3, 4)):
+    os.dup2(end, wanted)
+os.execv(sys.argv[3], sys.argv[3:])
+"""
 #: Seconds that an answer may take; the machine may be busy.
-_PATIENCE = 120.0
+_PATIENCE = 300.0
 
 
 def program() -> str | None:
@@ -36,10 +49,9 @@ class Chromium:
     def __init__(self, path: str, folder: Path) -> None:
         asked, self._asking = os.pipe()
         self._answers, answering = os.pipe()
-        # the browser reads from descriptor 3 and writes to 4
         self._process = subprocess.Popen(
             [
-                *("/bin/sh", "-c", f'exec "$@" 3<&{asked} 4>&{answering}', "sh", path),
+                *(sys.executable, "-c", _LAUNCHER, str(asked), str(answering), path),
                 *(*_OPTIONS, f"--user-data-dir={folder}", "about:blank"),
             ],
             pass_fds=(asked, answering),
@@ -149,3 +161,17 @@ class Chromium:
         if "method" in answer:
             self.events.append(answer)
         return answer
+
+
+def main(page: Path, picture: Path) -> None:
+    """Take a picture of the head of a page."""
+    path = program()
+    if path is None:
+        raise SystemExit("error: no Chromium here; 'make chromium' installs it")
+    with tempfile.TemporaryDirectory() as folder, Chromium(path, Path(folder)) as browser:
+        browser.open(page, 1000, 1180, prefers_color_scheme="light")
+        browser.picture(picture)
+
+
+if __name__ == "__main__":
+    main(*map(Path, sys.argv[1:]))

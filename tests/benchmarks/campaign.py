@@ -56,7 +56,7 @@ def _report(project: Project) -> Iterator[Row]:
     _run(project)
     _undraw(project)
     drawn = _run(project)
-    report = _run(project, "--report", project.target("report.html"))
+    report = _run(project, "report_page")
     both = Cost(
         drawn.seconds + report.seconds,
         drawn.processor_seconds + report.processor_seconds,

@@ -9,13 +9,22 @@ from pathlib import Path
 import numpy as np
 
 from equisection.aerodynamics.filled_polar import filled
+from equisection.aerodynamics.finite_span import FiniteSpan
 from equisection.aerodynamics.learnt_loads import learn
+from equisection.aerodynamics.lifting_line import LiftingLine
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
+from equisection.aerodynamics.span_strips import cosine_strips
 from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
-from equisection.analysis.recorded_beam import read_recorded_beam
-from equisection.analysis.reduced_beam import growth_of_pitch, learnt_beam, predicted_beams
+from equisection.aerodynamics.vortex_rings import SpanGeometry
+from equisection.analysis.recorded_beam import on_strips, read_recorded_beam
+from equisection.analysis.reduced_beam import (
+    growth_of_pitch,
+    learnt_beam,
+    limit_cycles_of_beams,
+    predicted_beams,
+)
 from equisection.analysis.reduced_model import (
     ENDS,
     ReducedModel,
@@ -27,13 +36,15 @@ from equisection.analysis.reduced_model import (
     predicted_onset,
 )
 from equisection.beam.section import Section
-from equisection.motion.beam_lesson import BeamRelease
-from equisection.motion.beams import BeamParameters
+from equisection.cases import BeamModes, UnsteadyCase
+from equisection.motion.beam_lesson import BeamRelease, learn_strips
+from equisection.motion.beams import BeamParameters, release_beams
 from equisection.motion.learnt_beams import LearntBeams
 from equisection.motion.learnt_motion import LearntSections
 from equisection.motion.sections import release_sections
 from equisection.results.netcdf import read_dataset
 from equisection.results.recorded_history import read_reference_history
+from equisection.solvers.embedded.releases import beam_parameters
 from equisection.verdict.growth import AFTER_RELEASE, Growth, growth_of, growth_window
 from tests.benchmarks.measure import Row, limit
 from tests.workflow.project import ROOT
@@ -49,6 +60,10 @@ UNTIL = 100.0
 PARTS_OF_LONG = ((10.0, 60.0), (20.0, 60.0), (35.0, 80.0), (50.0, 100.0), (65.0, 100.0))
 #: k* of the kept beams that a model is learnt from.
 LEARNT_BEAMS = (5.5, 6.44, 8.0, 10.0)
+#: k* of embedded beams with a limit cycle, the first of which is learnt from; part of its release
+#: (c/V) that is, and time (c/V) after which the others have come to theirs.
+CYCLES_OF_BEAMS = (5.7, 5.8, 5.9)
+LEARNT_CYCLE, UNTIL_CYCLE = 1600.0, 1600.0
 
 
 def rows() -> Iterator[Row]:
@@ -92,6 +107,7 @@ def rows() -> Iterator[Row]:
     )
     yield from _limit_cycle(sections, coarse)
     yield from _beam()
+    yield from _cycles_of_beams(coarse)
     yield from _embedded(sections[6.44].section, coarse)
     start = time.process_time()
     k_star = np.geomspace(4.0, 25.0, 1000)
@@ -166,6 +182,68 @@ def _embedded(section: Section, polar: Polar) -> Iterator[Row]:
             f"embedded solver, onset {onset:.2f}, learnt at k* {one:g}",
             f"{found.k_star:.2f} [{found.low:.2f}, {found.high:.2f}], {off:+.1f} %",
         )
+
+
+def _cycles_of_beams(polar: Polar) -> Iterator[Row]:
+    """Compare limit cycles of embedded beams with those of models of their growing releases."""
+    layout, angle = cosine_strips(12), math.radians(2.5)
+    kept = read_dataset(REFERENCE / "paper-plate-openfoam-3d" / "unsteady" / "3d" / "k6.44.nc")
+    case = UnsteadyCase.model_validate_json(kept.attrs["case"])
+    assert case.beam is not None, "the plate"
+    geometry, k_star = case.geometry, np.array(CYCLES_OF_BEAMS)
+    width = None if geometry.tip_gap is None else geometry.span + geometry.tip_gap
+    span = SpanGeometry.of(layout, 1.0, geometry.span, width, geometry.channel_height)
+    beams = [_stiffer(case.beam, one / case.k_star) for one in k_star]
+    whole = polar.continued
+    run = release_beams(
+        beam_parameters(beams, layout, FiniteSpan.of(span)),
+        UnsteadyLoads.from_polar(whole),
+        angle,
+        UNTIL_CYCLE,
+        time_step=0.1,
+    )
+    late = run.time > UNTIL_CYCLE - 20.0
+    sizes = [0.5 * math.degrees(float(np.ptp(one[late]))) for one in run.tip_twist.T]
+    line = LiftingLine.of(whole, layout, span)
+    angles = np.radians([0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11])
+    steady = [line.solve(one) for one in angles]
+    polars = StripPolars(
+        angles,
+        layout.stations,
+        np.array([one.cl_section for one in steady]),
+        np.array([one.cm_section for one in steady]),
+        "embedded",
+    )
+    learnt, others = 0, (1, 2)
+    record = run.time <= LEARNT_CYCLE
+    release = BeamRelease(
+        run.time[record],
+        run.torsion_amplitudes[record, learnt].T,
+        run.bending_amplitudes[record, learnt].T,
+        on_strips(beams[:1], polars.strips),
+        angle,
+        k_star=float(k_star[learnt]),
+        name=f"3d/k{k_star[learnt]:g}",
+        source="embedded solver",
+    )
+    for large in (True, False):
+        loads = learn_strips(release, polars, large=large)
+        found = limit_cycles_of_beams(loads, on_strips(beams, polars.strips))
+        words = "terms of large amplitudes" if large else "those of small ones alone"
+        for place in others:
+            size = float(found["twist_amplitude_deg"].iloc[place])
+            yield Row(
+                f"embedded beam at k* {k_star[place]:g}: limit cycle, learnt from "
+                f"{LEARNT_CYCLE:g} c/V at {k_star[learnt]:g}, {words}",
+                f"{size:.2f} deg, {sizes[place]:.2f} in the release",
+            )
+
+
+def _stiffer(beam: BeamModes, factor: float) -> BeamModes:
+    """Return the modes of a beam with a factor on its stiffness."""
+    names = ("bending_frequency", "torsion_frequency")
+    scaled = {name: tuple(math.sqrt(factor) * one for one in getattr(beam, name)) for name in names}
+    return beam.model_copy(update=scaled)
 
 
 def _beam() -> Iterator[Row]:

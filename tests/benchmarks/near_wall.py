@@ -5,13 +5,14 @@ open: cells at the wall, numerical schemes, turbulence of the stream. One change
 
 Prints `results/reference/near-wall.csv`. With `--run` the changes named, or all that have no line
 there, are run at 2.5 deg (steady, ten to thirty seconds each, `five-layers` two minutes), and their
-lines are added to it. The files of the runs stay in `results/near-wall`.
+lines are added to it. Loads that do not converge are means of the last 1500 iterations, with the
+bubble of the last one; `half_range` is the largest of a load over the last 150, relative. The files
+of the runs stay in `results/near-wall`.
 """
 
 import argparse
 import csv
 import math
-import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -122,21 +123,14 @@ def _stream(intensity: float = STREAM.intensity, ratio: float = STREAM.viscosity
 _LIMITED = "cellLimited Gauss linear 1"
 CHANGES: Mapping[str, Change] = {
     "coarse": Change("coarse"),
-    "intensity 0.1 %": _stream(0.001),
-    "intensity 5 %": _stream(0.05),
-    "viscosity ratio 1": _stream(ratio=1.0),
     "viscosity ratio 100": _stream(ratio=100.0),
     "intensity 5 %, viscosity ratio 100": _stream(0.05, 100.0),
     "k and omega by second-order upwind": Change(
         "coarse", schemes=_divergence(k="linearUpwind grad(k)", omega="linearUpwind grad(omega)")
     ),
-    "k and omega by first-order upwind": Change(
-        "coarse", schemes=_divergence(k="upwind", omega="upwind")
-    ),
     "gradient of the velocity limited": Change(
         "coarse", schemes={"gradSchemes": {"grad(U)": _LIMITED}}
     ),
-    "velocity by first-order upwind": Change("coarse", schemes=_divergence(U="upwind")),
     "first cell 1e-4 c": Change("coarse", spacing=first_cell(1e-4)),
     "first cell 1e-3 c": Change("coarse", spacing=first_cell(1e-3)),
     "twice the rows off the sides": Change("coarse", spacing=rows_off_sides(64)),
@@ -144,6 +138,9 @@ CHANGES: Mapping[str, Change] = {
         "coarse", spacing=off_sides(layers(FIRST_LAYER), 36)
     ),
     "medium": Change("medium", PRESETS["medium"].refinement),
+    "medium, gradient of the velocity limited": Change(
+        "medium", PRESETS["medium"].refinement, schemes={"gradSchemes": {"grad(U)": _LIMITED}}
+    ),
     "five-layers": Change("medium", 1.0, PRESETS["five-layers"].spacing),
 }
 
@@ -160,15 +157,16 @@ def run(name: str) -> dict[str, object]:
         schemes[part] = {**schemes[part], **entries}
     write_system(folder, control("simpleFoam", MOST, 1, MOST), schemes, flow.steady_solution())
     write_mesh_dictionary(folder, mesh)
-    began = time.perf_counter()
     make_mesh(find(), folder)
     _, loads, has_converged = iterate(find(), "simpleFoam", folder, nothing)
-    if not has_converged:
-        loads = loads.last(10 * WINDOW)
     found = steady_mean(find(), folder, loads, mesh)
+    if not has_converged:
+        drag, lift, moment = loads.last(10 * WINDOW).means()
+        found = replace(found, drag=drag, lift=lift, moment=moment)
     sides = [found.surface.on(side) for side in ("upper", "lower")]
     y_plus = np.concatenate([side.y_plus for side in sides])
     length = np.concatenate([side.length for side in sides])
+    assert case.geometry.upstream is not None
     left = change.turbulence.after(case.geometry.upstream - 0.5, 1.0 / reynolds)
     return {
         "change": name,
@@ -184,7 +182,6 @@ def run(name: str) -> dict[str, object]:
         "viscosity_ratio_at_plate": left.viscosity_ratio,
         "iterations": loads.time[-1],
         "half_range": loads.last(WINDOW).spread(),
-        "seconds": time.perf_counter() - began,
     }
 
 
@@ -235,6 +232,6 @@ if __name__ == "__main__":
     shown = [
         "cells", "cl", "cm", "cd", "bubble", "cl %", "cm %", "cd %", "bubble +", "y_plus_mean",
         "y_plus_largest", "intensity_at_plate", "viscosity_ratio_at_plate", "iterations",
-        "half_range", "seconds",
+        "half_range",
     ]  # fmt: skip
     print(table()[shown].to_string(float_format="%.4g"))

@@ -3,7 +3,8 @@
     python -m tests.benchmarks.starts
 
 prints verdict, growth and time to the verdict of both starts, for the sections and the beams of the
-kept releases.
+kept releases; and verdict and growth of the kept releases by OpenFOAM from both, as if they ended
+at some times.
 """
 
 import json
@@ -11,6 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -22,6 +24,8 @@ from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import STABLE, Regime, UnsteadyResult
 from equisection.solvers.embedded.adapter import Adapter
 from equisection.solvers.registry import solver_from_config
+from equisection.solvers.verdicts import judge
+from equisection.store.judged_again import tip_motion
 from tests.benchmarks.measure import Row
 from tests.workflow.project import ROOT
 
@@ -30,6 +34,13 @@ SOURCES = {
     "2d": KEPT / "paper-plate-openfoam/unsteady/2d",
     "3d": KEPT / "paper-plate-openfoam-3d/unsteady/3d",
 }
+#: Kept releases of a section by OpenFOAM (3,132 cells) from both starts, and the times (c/V) at
+#: which they are judged.
+BY_OPENFOAM = {
+    "rigid": KEPT / "paper-reductions/unsteady/2d-consistent",
+    "equilibrium": KEPT / "openfoam-equilibrium/unsteady/2d",
+}
+JUDGED_AT = (40.0, 50.0, 60.0)
 #: Twist (deg) of the tip by which the equilibrium is disturbed.
 PUSH = 0.3
 STARTS = {"rigid": Start(), "equilibrium": Start(state="equilibrium", twist_deg=PUSH)}
@@ -114,6 +125,20 @@ def rows() -> Iterator[Row]:
             )
 
 
+def of_openfoam() -> Iterator[tuple[float, str, float, dict[str, Any]]]:
+    """Yield k*, start, time and verdict of the kept releases of a section from both starts."""
+    for path in sorted(
+        BY_OPENFOAM["equilibrium"].glob("k*.nc"), key=lambda one: float(one.stem[1:])
+    ):
+        for start, folder in BY_OPENFOAM.items():
+            kept = read_dataset(folder / path.name)
+            raw = json.loads(kept.attrs["case"])
+            del raw["criteria"]["rules"]
+            case = UnsteadyCase.model_validate(raw)
+            for end in JUDGED_AT:
+                yield case.k_star, start, end, judge(case, tip_motion(kept, end))
+
+
 def main() -> None:
     """Print the table."""
     print("model k*    eigenvalue  start        regime       growth    c/V")
@@ -125,6 +150,15 @@ def main() -> None:
                     f"{model:5} {one.k_star:<5g} {one.eigenvalue:+10.4f}  {name:12} "
                     f"{verdict['regime']:12} {verdict['growth_rate']:+.4f} {result.time[-1]:6.0f}"
                 )
+    print(
+        "section by OpenFOAM: k*, start, c/V, regime, growth with the interval of 95 %, amplitude"
+    )
+    for k_star, start, end, verdict in of_openfoam():
+        half = 0.5 * (verdict["growth_high"] - verdict["growth_low"])
+        print(
+            f"{k_star:<5g} {start:12} {end:3.0f} {verdict['regime']:12} "
+            f"{verdict['growth_rate']:+.4f} +- {half:.4f} {verdict['twist_amplitude_deg']:.2f} deg"
+        )
 
 
 if __name__ == "__main__":

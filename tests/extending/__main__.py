@@ -2,7 +2,8 @@
 
 ``python -m tests.extending`` applies each change to a copy of the project, runs its checks there,
 and prints the table; it ends with 1 if a check fails, or a person has to edit more than five files.
-``--write`` also writes table and files into ``docs/extending.md``. ``--into FOLDER NAME`` leaves a
+``--write`` also writes the table into ``docs/extending.md``, and the files into the
+pages that show a change in full. ``--into FOLDER NAME`` leaves a
 copy of the project with one of the changes, to look at.
 """
 
@@ -14,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 from tests.extending.changes import CHANGES, Outcome, apply, check, copy_project
-from tests.extending.page import MOST, PAGE, table, with_files, with_table
+from tests.extending.page import IN_FULL, MOST, PAGE, table, with_files, with_table
 
 
 def main() -> int:
@@ -23,7 +24,9 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         prog="python -m tests.extending", description=__doc__.splitlines()[0]
     )
-    parser.add_argument("--write", action="store_true", help=f"write {PAGE.name} too")
+    parser.add_argument(
+        "--write", action="store_true", help=f"write {PAGE.name} and the pages in full too"
+    )
     parser.add_argument("--into", type=Path, metavar="FOLDER", help="leave one change in a copy")
     parser.add_argument("name", nargs="?", choices=sorted(names), help="the change of --into")
     options = parser.parse_args()
@@ -37,7 +40,9 @@ def main() -> int:
     text = table(outcomes)
     print(f"Counted are all files that a person edits, tests and documentation too.\n\n{text}")
     if options.write:
-        PAGE.write_text(with_files(with_table(PAGE.read_text("utf-8"), text)), encoding="utf-8")
+        PAGE.write_text(with_table(PAGE.read_text("utf-8"), text), encoding="utf-8")
+        for page in IN_FULL.values():
+            page.write_text(with_files(page.read_text("utf-8")), encoding="utf-8")
     wrong = problems(outcomes)
     print("\n".join(wrong), file=sys.stderr, end="\n" if wrong else "")
     return 1 if wrong else 0

@@ -1,4 +1,4 @@
-"""The page on extending the project: its table, and the files of the worked examples."""
+"""The pages on extending the project: the table, and the files of the examples shown in full."""
 
 from __future__ import annotations
 
@@ -9,6 +9,11 @@ from tests.conftest import ROOT
 from tests.extending.changes import FOLDER, Outcome
 
 PAGE = ROOT / "docs" / "extending.md"
+#: Pages with all files of a change, by its name.
+IN_FULL = {
+    "figure": ROOT / "docs" / "extending-a-figure.md",
+    "polar_format": ROOT / "docs" / "extending-a-polar-format.md",
+}
 #: Most files that a person edits for a change.
 MOST = 5
 #: A block of code, below a comment that names the file that it is.

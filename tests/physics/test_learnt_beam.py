@@ -63,22 +63,25 @@ def beams(k_star: list[float], shapes: str = "cantilever", **changes) -> BeamPar
         torsion = bending = np.ones((1, span.size))
     scale = np.sqrt(np.array(k_star) / 6.44)[:, None]
     modes = torsion.shape[0]
+    given = {
+        "torsion_frequencies": scale * np.array([1.01, 3.1])[:modes],
+        "inertia": np.full(len(k_star), 6.67),
+        "bending_frequencies": scale * np.array([0.14, 0.87])[:modes],
+        "mass": np.full(len(k_star), 80.0),
+        "stations": STRIPS.stations,
+        "weights": STRIPS.weights,
+    }
     return BeamParameters.from_modes(
-        span=span,
-        torsion_shapes=torsion,
-        torsion_frequencies=scale * np.array([1.01, 3.1])[:modes],
-        inertia=np.full(len(k_star), 6.67),
-        bending_shapes=bending,
-        bending_frequencies=scale * np.array([0.14, 0.87])[:modes],
-        mass=np.full(len(k_star), 80.0),
-        **{"stations": STRIPS.stations, "weights": STRIPS.weights, **changes},
+        span=span, torsion_shapes=torsion, bending_shapes=bending, **{**given, **changes}
     )
 
 
-def recorded(parameters: BeamParameters, loads: LearntStrips = KNOWN) -> BeamRelease:
+def recorded(
+    parameters: BeamParameters, loads: LearntStrips = KNOWN, duration: float = 52.0
+) -> BeamRelease:
     """Return the release of a beam under known loads, as a solver records it."""
     fine = 5
-    swings = LearntBeams(parameters, loads).released(52.0, 0.1 / fine)
+    swings = LearntBeams(parameters, loads).released(duration, 0.1 / fine)
     return BeamRelease(
         swings.time[::fine],
         swings.torsion[::fine, 0].T,

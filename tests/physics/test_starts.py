@@ -22,11 +22,11 @@ from equisection.motion.steady_states import (
     rigid_state,
 )
 from equisection.solvers.embedded.equilibrium_start import (
-    WITHOUT,
     equilibria_of_beams,
     equilibria_of_sections,
 )
 from equisection.solvers.embedded.section_release import release
+from equisection.solvers.verdicts import WITHOUT_EQUILIBRIUM
 from equisection.validation.flutter_values import deck
 from equisection.verdict.cycles import find_cycles
 
@@ -206,11 +206,11 @@ def test_section_without_equilibrium_is_released_undeformed_and_says_so():
     settings = {"incidence_deg": 1.0, "density": DENSITY, "start_twist_deg": 0.2}
     beyond, before = speed_of(PLATE, 1.2), speed_of(PLATE, 8.0)
     lost = release(PLATE, polar, speed=beyond, from_equilibrium=True, **settings)
-    assert WITHOUT in lost.attrs["reason"]
+    assert WITHOUT_EQUILIBRIUM in lost.attrs["reason"]
     assert lost.attrs["start_state"] == "rigid"
     assert np.degrees(lost["twist"].values[0]) == pytest.approx(0.2)
     kept = release(PLATE, polar, speed=before, from_equilibrium=True, **settings)
-    assert WITHOUT not in kept.attrs["reason"]
+    assert WITHOUT_EQUILIBRIUM not in kept.attrs["reason"]
     assert kept.attrs["start_state"] == "equilibrium"
     assert np.degrees(kept["twist"].values[0]) > 0.3
     with pytest.raises(ArgumentError, match="from_equilibrium is True; wanted start_twist_deg"):

@@ -76,6 +76,63 @@ def case(
     return unsteady_case(config, plan.model(name, config.reduction), k_star, data, solver)
 
 
+@pytest.mark.parametrize("name", ["2d", "2d-corrected"])
+def test_section_starts_from_the_equilibrium_of_the_steady_polar(
+    data: dict[str, xr.Dataset], name: str
+) -> None:
+    """The springs carry the polar's loads there; below the fold of a thin plate nothing does."""
+    start = {"state": "equilibrium", "twist_deg": 0.3}
+    flow_solver = {
+        "solver": "openfoam",
+        "sweep": {"models": [name]},
+        "steady": {"resolution": "coarse"},
+        "unsteady": {"time_step": 0.02, "start": start},
+    }
+    config = load_config({**RAW, **flow_solver})
+    assert plan.starts_by_polar(config)
+    angles = np.arange(0.0, 31.0, 2.5)
+    thin = Polar.flat_plate(math.radians(30.0))
+    lift, moment = (
+        getattr(thin, f"{load}_coefficient")(np.radians(angles)) for load in ("lift", "moment")
+    )
+    row = ("resolution", "incidence_deg")
+    polar = xr.Dataset(
+        {
+            "cd": (row, 0.01 * np.ones((1, angles.size))),
+            "cl": (row, lift[None]),
+            "cm": (row, moment[None]),
+        },
+        {"resolution": ["coarse"], "incidence_deg": angles},
+        {"solver_coarse": "a thin plate"},
+    )
+    solver = solver_from_config(config, "coarse")
+    known = {**data, "polar_2d": polar}
+
+    def case_of(k_star: float) -> UnsteadyCase:
+        return unsteady_case(config, plan.model(name, config.reduction), k_star, known, solver)
+
+    found = case_of(6.0)
+    section, equilibrium = found.section, found.start.equilibrium
+    assert section is not None
+    assert equilibrium is not None
+    alpha = math.radians(2.5) + equilibrium[0]
+    assert section.torsional_stiffness * equilibrium[0] == pytest.approx(
+        float(thin.moment_coefficient(alpha)), rel=1e-4
+    )
+    assert section.flexural_stiffness * equilibrium[1] == pytest.approx(
+        float(thin.lift_coefficient(alpha)), rel=1e-4
+    )
+    push = math.radians(0.3) * section.twist_recovery
+    assert found.section_start_twist == pytest.approx(equilibrium[0] + push)
+    assert case_of(0.5).start.equilibrium is None
+    rigid = load_config({**RAW, **flow_solver, "unsteady": {"time_step": 0.02}})
+    released = unsteady_case(
+        rigid, plan.model(name, rigid.reduction), 6.0, known, solver_from_config(rigid, "coarse")
+    )
+    assert released.start.equilibrium is None
+    assert "equilibrium" not in released.model_dump_json()
+
+
 @pytest.mark.parametrize("k_star", [2.0, 6.44, 21.0])
 def test_section_of_the_paper_has_the_k_star_of_its_case(
     k_star: float, data: dict[str, xr.Dataset]

@@ -312,15 +312,6 @@ MALFORMED = [
         "allowed with sweep.onset 'model' is 'rigid'",
     ),
     (
-        {
-            "sweep": {"onset": "model", "models": ["2d", "3d"]},
-            "unsteady": {"start": {"twist_deg": 0.2}},
-        },
-        "sweep.models",
-        "['2d', '3d']",
-        "models without 3d",
-    ),
-    (
         {"sweep": {"onset": "refine", "k_star": [3]}},
         "sweep.k_star",
         "[3",
@@ -366,7 +357,13 @@ MALFORMED = [
         {"solver": "openfoam", "unsteady": {"time_step": 0.02, "start": {"state": "equilibrium"}}},
         "unsteady.start.state",
         "'equilibrium'",
-        "'rigid' with solver 'openfoam'",
+        "'rigid' with solver 'openfoam' and the model 3d",
+    ),
+    (
+        {"solver": "given", "unsteady": {"start": {"state": "equilibrium", "twist_deg": 0.2}}},
+        "unsteady.start.state",
+        "'equilibrium'",
+        "'rigid' with solver 'given'",
     ),
     ({"embedded": {"incidence_point": 0}}, "embedded.incidence_point", "0", "0.25"),
     (

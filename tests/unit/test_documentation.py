@@ -18,6 +18,7 @@ import equisection
 from equisection.figures.catalogue import CATALOGUE
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
+from equisection.run.starter import EXAMPLES
 
 ROOT = Path(__file__).parents[2]
 #: Pages that send a reader to places of the project.
@@ -49,15 +50,58 @@ NUMBER = re.compile(r"(?<![\w#.-])(-?\d+(?:\.\d+)?)(?![\w.])")
 
 def test_the_drawing_is_what_its_script_draws(tmp_path: Path) -> None:
     """Lines, colours and words are the same, places to a hundredth of a point."""
-    script = ROOT / "docs" / "drawings" / "beam_and_section.py"
     drawn = tmp_path / "beam-and-section.svg"
-    subprocess.run([sys.executable, script, drawn], check=True)
+    script_of("docs/drawings/beam_and_section.py").draw(drawn)
     kept = (ROOT / "docs" / "beam-and-section.svg").read_text()
     parts, kept_parts = NUMBER.split(drawn.read_text()), NUMBER.split(kept)
     assert parts[::2] == kept_parts[::2], "make drawing draws it anew"
     assert [float(part) for part in parts[1::2]] == pytest.approx(
         [float(part) for part in kept_parts[1::2]], abs=0.01
     ), "make drawing draws it anew"
+
+
+def is_as_kept(drawn: Path, kept: Path) -> bool:
+    """Compare two pictures, but for what another version of FreeType makes of the letters."""
+    one, other = imread(drawn), imread(kept)
+    return one.shape == other.shape and (np.abs(one - other).max(axis=-1) > 0.1).mean() < 2e-3
+
+
+def test_drawings_of_the_gallery_are_what_their_script_draws(tmp_path: Path) -> None:
+    examples = script_of("docs/drawings/examples.py")
+    examples.main(tmp_path)
+    drawn = sorted(tmp_path.glob("*.png"))
+    assert [path.stem for path in drawn] == sorted(f"{name}-drawing" for name in examples.EXAMPLES)
+    for path in drawn:
+        assert is_as_kept(path, ROOT / "docs" / "gallery" / path.name), "make drawing draws it anew"
+
+
+def test_examples_of_the_gallery_are_what_init_writes() -> None:
+    examples = script_of("docs/drawings/examples.py").EXAMPLES
+    assert {name: Path(path).name for name, path in examples.items()} == {
+        name: EXAMPLES[name] for name in examples
+    }
+    for name in examples:
+        page = (ROOT / "docs" / f"gallery-{name}.md").read_text()
+        assert f"--like {name}" in page
+        (block,) = re.findall(r"^```yaml\n(.*?)^```", page, re.M | re.S)
+        assert is_part(yaml.safe_load(block), yaml.safe_load((ROOT / examples[name]).read_text()))
+
+
+def is_part(shown: object, whole: object) -> bool:
+    """Tell whether a configuration that a page shows is a part of another; of a list the first."""
+    if isinstance(shown, dict):
+        assert isinstance(whole, dict)
+        return all(is_part(value, whole[key]) for key, value in shown.items())
+    if isinstance(shown, list):
+        assert isinstance(whole, list)
+        return whole[: len(shown)] == shown
+    return shown == whole
+
+
+@pytest.mark.parametrize("page", sorted(path.name for path in (ROOT / "docs").glob("*.md")))
+def test_a_page_is_short(page: str) -> None:
+    most = 400 if page == "side-by-side.md" else 300  # that page is written by a command
+    assert len((ROOT / "docs" / page).read_text().splitlines()) <= most
 
 
 @pytest.mark.parametrize("guide", GUIDES)
@@ -96,15 +140,20 @@ def test_the_python_of_the_readme_prints_what_it_says() -> None:
     assert run.stdout == blocks[at + 1][1], run.stderr
 
 
-@pytest.fixture(scope="module")
-def drawing() -> ModuleType:
-    """The script that draws the workflow."""
-    spec = importlib.util.spec_from_file_location("drawing", ROOT / "docs" / "workflow_drawing.py")
+def script_of(place: str) -> ModuleType:
+    """Return a script of the project as a module."""
+    spec = importlib.util.spec_from_file_location(f"script_{Path(place).stem}", ROOT / place)
     assert spec is not None
     assert spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="module")
+def drawing() -> ModuleType:
+    """The script that draws the workflow."""
+    return script_of("docs/workflow_drawing.py")
 
 
 def test_drawing_of_the_workflow_has_rules_that_there_are(drawing: ModuleType) -> None:
@@ -118,13 +167,10 @@ def test_drawing_of_the_workflow_has_rules_that_there_are(drawing: ModuleType) -
 
 
 def test_drawing_of_the_workflow_is_up_to_date(drawing: ModuleType, tmp_path: Path) -> None:
-    """But for what another version of FreeType makes of the letters."""
     with drawing_style(ROOT / "envs" / "equisection.mplstyle"):
         save_figure(drawing.draw(), [tmp_path / "workflow.png"])
-    drawn, kept = imread(tmp_path / "workflow.png"), imread(drawing.FOLDER / "workflow.png")
-    assert drawn.shape == kept.shape, "python docs/workflow_drawing.py"
-    differ = np.abs(drawn - kept).max(axis=-1) > 0.1
-    assert differ.mean() < 2e-3, "python docs/workflow_drawing.py"
+    kept = drawing.FOLDER / "workflow.png"
+    assert is_as_kept(tmp_path / "workflow.png", kept), "python docs/workflow_drawing.py"
 
 
 #: Words that no public docstring begins with; it begins with a noun or a verb.

@@ -5,7 +5,7 @@ import subprocess
 import pytest
 from tests.conftest import ROOT
 from tests.extending.changes import CHANGES, FOLDER, Change
-from tests.extending.page import MOST, PAGE, with_files
+from tests.extending.page import IN_FULL, MOST, PAGE, with_files
 
 each = pytest.mark.parametrize("change", CHANGES, ids=lambda change: change.name)
 
@@ -33,17 +33,20 @@ def test_every_example_is_a_change() -> None:
     assert {path.name for path in FOLDER.iterdir()} == {change.name for change in CHANGES}
 
 
-def test_page_shows_the_files_of_both_examples_in_full() -> None:
-    page = PAGE.read_text(encoding="utf-8")
+@pytest.mark.parametrize("name", IN_FULL)
+def test_page_in_full_shows_every_file_of_its_change(name: str) -> None:
+    page = IN_FULL[name].read_text(encoding="utf-8")
     assert page == with_files(page), "python -m tests.extending --write"
-    for change in CHANGES[:2]:
-        for name in (*change.new, "edits.patch"):
-            assert f"<!-- {change.name}/{name} -->" in page
+    (change,) = (change for change in CHANGES if change.name == name)
+    for file in (*change.new, "edits.patch"):
+        assert f"<!-- {name}/{file} -->" in page
 
 
 def test_page_names_the_files_of_the_others() -> None:
     page = PAGE.read_text(encoding="utf-8")
-    for change in CHANGES[2:]:
+    for change in CHANGES:
+        if change.name in IN_FULL:
+            continue
         section = page.partition(f"`examples/extending/{change.name}`")[2].partition("\n## ")[0]
         rows = [line.split("`")[1] for line in section.splitlines() if line.startswith("| `")]
         files = [*change.new, *change.edited]

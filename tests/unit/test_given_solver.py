@@ -185,7 +185,7 @@ def test_missing_records_are_named_and_the_others_go_on(
         ({"given": {**RUN["given"], "polars": {}}}, r"steady\.resolution: 'coarse'"),
         ({"given": {**RUN["given"], "signs": {"twist": 0}}}, r"given\.signs\.twist: 0"),
         ({"sweep": {**RUN["sweep"], "onset": "refine"}}, r"sweep\.onset: 'refine'.* no file has"),
-        ({"forced": {"run": True}}, r"forced\.run: true.* derivatives\.table"),
+        ({"forced": {"run": True}}, r"given\.forced: ''.* derivatives\.table"),
     ],
     ids=str,
 )

@@ -28,7 +28,14 @@ from equisection.analysis.mapped_models import (
     stability_table,
 )
 from equisection.analysis.onset_intervals import sensitivity_table, with_intervals
-from equisection.analysis.releases_of_map import checked_in_time, in_use
+from equisection.analysis.releases_of_map import (
+    ASIDE,
+    SMALL_DEG,
+    MapRelease,
+    checked_in_time,
+    in_use,
+    released,
+)
 from equisection.config import Config, load_config
 from equisection.config.groups import Beam, Flow, Structure
 from equisection.errors import ConfigError
@@ -37,6 +44,7 @@ from equisection.figures.style import drawing_style
 from equisection.motion.critical import critical_of
 from equisection.motion.stability import critical_speed
 from equisection.motion.stability_map import map_lines
+from equisection.motion.steady_states import least_stable
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.correction_dataset import factors_to_dataset
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -288,6 +296,22 @@ def test_small_releases_agree_with_the_eigenvalues(
     assert set(checked["below_small"]) <= {"settled", "decaying"}
     assert set(checked["above_small"]) == {"growing"}
     assert checked["in_time"].str.len().gt(0).all()
+
+
+@pytest.mark.parametrize("name", ["2d", "3d"])
+def test_growth_of_a_small_release_is_that_of_the_eigenvalue(
+    config: Config, models: list[MappedModel], name: str
+) -> None:
+    """Fitted to pitch and heaves together, and with its error, 5 % below the onset."""
+    line = next(one for one in models if one.name == name).lines[-1]
+    assert line.onset is not None
+    speed = (1.0 - ASIDE) * line.onset.speed
+    (verdict,) = released([MapRelease(line, speed, SMALL_DEG)], config)
+    system, states, deficits = line.path.system(np.array([speed]))
+    exact = least_stable(system, states, deficits)[0].real
+    assert exact < 0.0
+    assert verdict["growth_rate"] == pytest.approx(exact, abs=5e-4)
+    assert 0.0 < verdict["growth_standard_error"] < 1e-3
 
 
 def test_design_speed_has_the_loads_of_statics(config: Config, models: list[MappedModel]) -> None:

@@ -280,7 +280,7 @@ def test_start_without_an_outline_loads_no_splines() -> None:
 
 def test_case_of_another_mesher_is_refused() -> None:
     with pytest.raises(SolverError, match=r"'outline 0, gmsh 1', installed is 'outline"):
-        require_mesher("outline 0, gmsh 1")
+        require_mesher("outline 0, gmsh 1", 3.4e5)
 
 
 CROSS_SECTION = {
@@ -301,6 +301,9 @@ def test_outline_decides_the_mesher() -> None:
     config = load_config(WING)
     settings = Adapter.from_config(config, "coarse").settings("2d")
     assert settings["mesher"].startswith("outline 1, gmsh ")
+    fast = load_config({**WING, "flow": {"speed": 80.0}})  # 5.1e5: another mesh, another case
+    mesher = Adapter.from_config(fast, "coarse").settings("2d")["mesher"]
+    assert mesher.startswith("outline 2, gmsh ")
     assert steady_dimensions(config) == ("2d",)
     plate = load_config({**WING, "beam": {}, "structure": {}})
     assert "mesher" not in Adapter.from_config(plate, "coarse").settings("2d")

@@ -163,12 +163,12 @@ def test_module_from_a_tag(clone: Path, tmp_path: Path) -> None:
     for part in ("envs", "scripts", "workflow"):
         shutil.copytree(clone / part, repository / part)
     git = ("git", "-C", str(repository), "-c", "user.name=t", "-c", "user.email=t@example.org")
-    for words in (("init", "-q"), ("add", "-A"), ("commit", "-qm", "all"), ("tag", "v0.1.0")):
+    for words in (("init", "-q"), ("add", "-A"), ("commit", "-qm", "all"), ("tag", "v0.2.0")):
         subprocess.run([*git, *words], check=True)
     # what comes behind the tag is not taken
     (repository / "workflow" / "Snakefile").write_text("what stands here is no workflow\n")
     subprocess.run([*git, "commit", "-qam", "another"], check=True)
-    source = f'gitfile({str(repository)!r}, path="workflow/Snakefile", tag="v0.1.0")'
+    source = f'gitfile({str(repository)!r}, path="workflow/Snakefile", tag="v0.2.0")'
     module(here, clone, 'prefix: "eq"', small(sweep=SWEEP), source)
     made = f"eq/results/small/{STEADY}"
     finished(snakemake(here, clone, "--cores", "1", made))

@@ -1,3 +1,4 @@
+import base64
 import hashlib
 import re
 from pathlib import Path
@@ -12,10 +13,11 @@ import equisection
 from equisection.cases import case_hash, read_cases
 from equisection.config import load_config
 from equisection.results.netcdf import read_attributes
+from equisection.run.answer import answer_of
 from equisection.run.verify import verify_run
 from equisection.store.index import read_index
 from equisection.store.lock import FOLDER as OWNERS
-from tests.workflow.project import ROOT, Project, has_nothing_to_do, small
+from tests.workflow.project import ROOT, Project, has_nothing_to_do, jobs_run, small
 
 MODELS = ("2d", "2d-corrected", "3d")
 K_STAR = ("k6", "k10", "k21")
@@ -260,23 +262,23 @@ def test_figure_with_a_number_is_the_one_named_by_what_it_shows(
 
 
 @pytest.fixture(scope="module")
-def reported(finished: Project, tmp_path_factory: pytest.TempPathFactory) -> tuple[str, str]:
-    """Return what Snakemake said while it made the report, and the report."""
+def reported(finished: Project, tmp_path_factory: pytest.TempPathFactory) -> str:
+    """Return the report of the run, which is no part of it but is made by name."""
     project = finished.copy(tmp_path_factory.mktemp("report") / "project")
-    said = project.run("--report", "report.html")
-    return said, (project.folder / "report.html").read_text()
+    assert jobs_run(project.run("report_page")) == {"report_page": 1}
+    return (project.results / "report.html").read_text()
 
 
-def test_report_shows_every_figure_and_table_with_its_caption(reported: tuple[str, str]) -> None:
-    entry = r'"name": "([^"]+)", "filename": .{0,300}?"caption": "((?:[^"\\]|\\.)*)"'
-    captions = dict(re.findall(entry, reported[1]))
+def test_report_shows_every_figure_and_table_with_its_caption(reported: str) -> None:
+    section = r'<(?:figure|section) id="(?:figure|table)-([^"]+)">(.*?)</(?:figure|section)>'
+    captions = dict(re.findall(section, reported, re.DOTALL))
     report, paper = ROOT / "workflow/report", ROOT / "workflow/equisection/paper/captions"
-    shown = {f"{name}.png": report / "figures" / f"{name}.rst" for name in UNNUMBERED}
-    for name in ("fig01-workflow", *NUMBERED.values()):
-        shown[f"{name}.png"] = paper / f"{name.partition('-')[0]}.rst"
+    shown = {name: report / "figures" / f"{name}.rst" for name in UNNUMBERED}
+    for name, numbered in {"fig01-workflow": "fig01-workflow", **NUMBERED}.items():
+        shown[name] = paper / f"{numbered.partition('-')[0]}.rst"
     for name in REPORTED_TABLES:
         place = paper if (paper / f"{name}.rst").exists() else report
-        shown[f"{name}.csv"] = place / f"{name}.rst"
+        shown[name] = place / f"{name}.rst"
     assert set(captions) == set(shown)
     for name, source in shown.items():
         text = source.read_text()
@@ -285,6 +287,17 @@ def test_report_shows_every_figure_and_table_with_its_caption(reported: tuple[st
         assert words.group() in captions[name]
 
 
-def test_captions_are_valid_markup(reported: tuple[str, str]) -> None:
-    assert "(WARNING/" not in reported[0]
-    assert "(ERROR/" not in reported[0]
+def test_report_begins_with_the_answer_of_the_run(reported: str, finished: Project) -> None:
+    parts = dict(answer_of(finished.results).parts())
+    for words in (parts["critical speed"], parts["mechanism"], parts["how sure"]):
+        assert f"<dd>{words}</dd>" in reported
+    assert "All " in reported  # cases have a result
+
+
+def test_report_has_every_picture_and_table_in_itself(reported: str, finished: Project) -> None:
+    pictures = re.findall(r'<img src="data:image/png;base64,([^"]+)"', reported)
+    folder = finished.results / "figures"
+    assert {base64.b64decode(one) for one in pictures} == {
+        (folder / f"{name}.png").read_bytes() for name in FIGURES
+    }
+    assert not re.search(r'(?:src|href)="(?!data:|#)', reported)

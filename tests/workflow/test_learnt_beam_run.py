@@ -7,23 +7,39 @@ import numpy as np
 import pytest
 
 from equisection.analysis.learning import Lessons, dataset_of, onsets_of
+from equisection.analysis.learnt_map import LearntLine, map_of_learnt, stability_of_learnt
 from equisection.config import load_config
+from equisection.results.netcdf import write_dataset
+from equisection.results.section_dataset import nominal_k_star
+from equisection.study.axes import AsGiven
 from tests.workflow.project import Project, small
 
 LEARNT = {"models": ["3d"], "onset": "model", "k_star": [6.0, 10.0, 21.0]}
 
 
-def test_model_of_the_beam_is_made_from_its_own_files(tmp_path: Path) -> None:
-    project = Project.fresh(tmp_path / "project", small(sweep=LEARNT))
-    said = project.run("-n", project.target("rom/3d/model.nc"))
-    reason = said.partition("3d: model learnt from its releases\n")[2].splitlines()[0]
-    for made in ("steady/polar_3d.nc", "structure/modes.nc", "unsteady/3d/round3.json"):
-        assert made in reason
-    assert "polar_2d" not in reason
+def test_model_and_map_of_the_beam_are_made_from_its_own_files(tmp_path: Path) -> None:
+    config = small(sweep={**LEARNT, "incidence_deg": [2.5, 4.0]})
+    project = Project.fresh(tmp_path / "project", config)
+    said = project.run(
+        "-n", project.target("rom/3d/model_a4.nc"), project.target("comparison/stability_map.nc")
+    )
+    of_model, of_map = (
+        said.partition(f"{message}\n")[2].splitlines()[0]
+        for message in (
+            "3d: model learnt from its releases",
+            "stability over incidence and speed, by learnt models",
+        )
+    )
+    for made in ("steady/polar_3d.nc", "structure/modes.nc"):
+        assert made in of_model
+        assert made in of_map
+    assert "unsteady/3d/round3.json" in of_model
+    assert "rom/3d/model_a2.5.nc" in of_map
+    assert "polar_2d" not in of_model + of_map
 
 
 def test_finished_sweep_of_the_beam_can_be_learnt_from(
-    finished: Project, caplog: pytest.LogCaptureFixture
+    finished: Project, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     """The model of a release says what it is, and the angles that its polar lacks are named."""
     lessons = Lessons.read(
@@ -48,3 +64,16 @@ def test_finished_sweep_of_the_beam_can_be_learnt_from(
     assert data.attrs["learnt_from"] == f"3d/{lessons.last_release.point.name}"
     assert list(onsets_of([data])["model"]) == ["3d"]
     assert lessons.limit_cycles().table["limit_cycle_deg"].size == data.sizes["k_star"]
+    # its map has two kinds of modes, and the speed of the model
+    given = AsGiven(nominal_k_star(lessons.data["equivalent"]), lessons.config.flow.speed)
+    line = LearntLine(lessons, data, given, np.geomspace(20.0, 60.0, 9))
+    table = stability_of_learnt([line], chord=lessons.config.beam.chord, design_speed=10.0)
+    found = map_of_learnt([line], table, chord=lessons.config.beam.chord)
+    write_dataset(tmp_path / "map.nc", found)
+    assert sorted(found["mode"].values) == ["bending 1", "bending 2", "torsion 1", "torsion 2"]
+    growth = found["growth_rate"].isel(model=0, incidence_deg=0).values
+    assert (growth > 0.0).tolist() == (found["speed"].values > line.small[0]).tolist()
+    (row,) = table.to_dict("records")
+    onset = float(given.speed_at(data.attrs["onset_k_star"]))
+    assert row["speed"] == pytest.approx(onset, nan_ok=True)
+    assert row["basis"] == "model"

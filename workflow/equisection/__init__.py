@@ -20,7 +20,7 @@ from equisection.needs import require
 
 require()
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 __all__ = [
     "Beam",

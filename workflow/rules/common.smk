@@ -216,6 +216,8 @@ def structure_of(name):
         files["modes"] = f"{RESULTS}/structure/modes.nc"
     if model.corrected:
         files["correction"] = f"{RESULTS}/steady/correction.nc"
+    if plan.starts_by_polar(CONFIG) and model.dimension == "2d":
+        files["polar_2d"] = f"{RESULTS}/steady/polar_2d.nc"
     return files
 
 

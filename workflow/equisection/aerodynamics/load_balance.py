@@ -39,12 +39,12 @@ _AS_GOOD = 1.5
 #: Difference from 1 from which a factor of a load is a mistake (-).
 _FACTOR = 0.02
 #: Factors that are mistaken units: name of what to change, by the factor that mends it.
-_LENGTHS = {0.5: "semi-chords taken for chords", 2.0: "chords taken for semi-chords"}
-_DISTANCES = _LENGTHS | {
+LENGTHS = {0.5: "semi-chords taken for chords", 2.0: "chords taken for semi-chords"}
+DISTANCES = LENGTHS | {
     1e-3: "millimetres taken for metres",
     1e3: "metres taken for millimetres",
 }
-_ANGLES = {
+ANGLES = {
     math.radians(1.0): "degrees taken for radians",
     math.degrees(1.0): "radians taken for degrees",
 }
@@ -247,11 +247,11 @@ def _changes(record: Motion, section: Section) -> Iterator[tuple[Motion, str]]:
     for name in ("deflection", "twist", "lift", "moment"):
         values = getattr(record, name)
         yield replace(record, **{name: -values}), f"signs.{name}: -1 explains it"
-        factors = _ANGLES if name == "twist" else _DISTANCES if name == "deflection" else _FORCES
+        factors = ANGLES if name == "twist" else DISTANCES if name == "deflection" else _FORCES
         for factor, mistake in factors.items():
             said = f"a {name} {factor:.4g} times as large explains it ({mistake}): units.{name}"
             yield replace(record, **{name: factor * values}), said
-    for factor, mistake in _LENGTHS.items():
+    for factor, mistake in LENGTHS.items():
         said = f"a time {factor:g} times as long explains it ({mistake}): units.time"
         yield replace(record, interval=factor * record.interval), said
     (lift, moment), (_, wanted) = _varying(record, section)

@@ -44,9 +44,19 @@ def derivatives_of(results: ForcedResults) -> ForcedAnswers:
         _COMPONENTS,
         moved=lambda case: case.component,
         histories=lambda data: [data[load].to_numpy() for load in _LOADS],
+        driven=lambda case, data: {
+            "heave": data["deflection"].to_numpy() / case.geometry.chord,
+            "pitch": data["twist"].to_numpy(),
+        },
     )
     first = next(case for case, _ in results.values())
     return ForcedAnswers(_table(found, first), found.fits, found.remarks)
+
+
+def _source(case: ForcedCase) -> str:
+    """Return the solver and the resolution, or the source of what a solver has read."""
+    recorded = case.solver.settings.get("source")
+    return str(recorded or f"solver {case.solver.name}, {case.resolution}")
 
 
 def _table(found: LoadsOverMotion, case: ForcedCase) -> Derivatives:
@@ -67,5 +77,5 @@ def _table(found: LoadsOverMotion, case: ForcedCase) -> Derivatives:
         found.values,
         spread=np.stack(columns, axis=1),
         incidence_deg=case.incidence_deg,
-        label=f"forced motion, solver {case.solver.name}, {case.resolution}",
+        label=f"forced motion, {_source(case)}",
     )

@@ -6,9 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
+import xarray as xr
+from numpy.typing import NDArray
 
 from equisection.aerodynamics.generalised_forces import GeneralisedForces, mode_names
 from equisection.analysis.forced_loads import ForcedResults, loads_over_motion
+from equisection.cases import ForcedCase
 
 
 @dataclass(frozen=True)
@@ -18,6 +21,18 @@ class MovedModes:
     forces: GeneralisedForces
     fits: pd.DataFrame
     remarks: tuple[str, ...]
+
+
+def _mode_of(case: ForcedCase) -> str:
+    """Return the name of the mode that a case moves."""
+    return f"{'torsion' if case.component == 'pitch' else 'bending'}{case.mode}"
+
+
+def _amplitude(case: ForcedCase, data: xr.Dataset) -> NDArray[np.float64]:
+    """Return the amplitude of that mode over time, in rad or chords."""
+    if case.component == "pitch":
+        return data["twist"].to_numpy()
+    return data["deflection"].to_numpy() / case.geometry.chord
 
 
 def generalised_forces_of(results: ForcedResults) -> MovedModes:
@@ -40,10 +55,11 @@ def generalised_forces_of(results: ForcedResults) -> MovedModes:
         results,
         modes,
         modes,
-        moved=lambda case: f"{'torsion' if case.component == 'pitch' else 'bending'}{case.mode}",
+        moved=_mode_of,
         histories=lambda data: np.concatenate(
             [data["bending_load"].to_numpy(), data["torsion_load"].to_numpy()]
         ),
+        driven=lambda case, data: {_mode_of(case): _amplitude(case, data)},
         called="the load on ",
     )
     forces = GeneralisedForces(

@@ -49,6 +49,11 @@ class LearntBodies(Protocol):
         """Lowest frequency omega c/V in vacuum of the first of them."""
         ...
 
+    @property
+    def pitch(self) -> float:
+        """Frequency omega c/V in vacuum of the first torsion of the first of them."""
+        ...
+
     def at_rest(self, loads: Any) -> tuple[Floats, Floats]:
         """Return states of equilibrium (N, n) and matrices of small motions (N, n, n) about them.
 
@@ -93,6 +98,11 @@ class LearntSectionBodies:
     def slowest(self) -> float:
         """Lowest frequency omega c/V in vacuum of the first of them."""
         return 2.0 * np.pi * min(self.sections[0].uncoupled_frequencies)
+
+    @property
+    def pitch(self) -> float:
+        """Frequency omega c/V in vacuum of the torsion of the first of them."""
+        return 2.0 * np.pi * self.sections[0].uncoupled_frequencies[0]
 
     def at_rest(self, loads: LearntLoads) -> tuple[Floats, Floats]:
         """Return states of equilibrium (N, 5), and matrices of small motions (N, 5, 5)."""
@@ -149,6 +159,12 @@ class LearntBeamBodies:
             (structure.bending_stiffness / structure.bending_mass)[0].min(),
         )
         return float(np.sqrt(min(squares)))
+
+    @property
+    def pitch(self) -> float:
+        """Frequency omega c/V in vacuum of the first torsion of the first of them."""
+        structure = self.parameters.structure
+        return float(np.sqrt(structure.torsion_stiffness[0, 0] / structure.torsion_inertia[0, 0]))
 
     @property
     def _modes(self) -> tuple[int, int]:

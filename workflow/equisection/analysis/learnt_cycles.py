@@ -30,6 +30,8 @@ Floats = NDArray[np.float64]
 
 #: Columns of the predicted limit cycles.
 AMPLITUDE, EXTRAPOLATED = "limit_cycle_deg", "limit_cycle_extrapolated"
+#: What is known of the error of a beam's limit cycle (``python -m tests.benchmarks learnt``).
+ERROR_OF_BEAMS = "of a beam a guess: on embedded beams it was off by a factor of up to 4"
 
 
 @dataclass(frozen=True)
@@ -121,6 +123,8 @@ def _of_tips(
         f"limit cycle by a model learnt from all {float(grown.time[-1]):.3g} c/V of the release "
         f"at k* = {grown.k_star:g}"
     )
+    if isinstance(grown, BeamRelease):
+        words += f", {ERROR_OF_BEAMS}"
     return LimitCycles(table, words)
 
 

@@ -248,6 +248,7 @@ def export(data: xr.Dataset, polar: Polar, output: Path) -> None:
     if output.suffix == ".json":
         write_text(output, json.dumps(as_json(data, polar), indent=1) + "\n")
     elif output.suffix == ".csv":
+        require_model(data)
         words = f"# {data.attrs['words']}; {data.attrs['confirmation']}\n"
         with written_whole(output) as aside:
             table = as_table(data).to_csv(index=False, float_format="%.6g")

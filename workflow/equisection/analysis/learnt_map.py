@@ -37,6 +37,7 @@ from equisection.analysis.reduced_beam import SMALLEST_BAND_OF_BEAM, ReducedBeam
 from equisection.analysis.reduced_model import SMALLEST_BAND
 from equisection.cases import UnsteadyCase
 from equisection.errors import EquisectionError
+from equisection.motion.learnt_beams import SWINGS_ALONG
 from equisection.motion.map_dataset import described
 from equisection.motion.mechanism import (
     Instabilities,
@@ -337,7 +338,9 @@ def _row(line: LearntLine, chord: float) -> dict[str, object]:
     row |= _equilibrium(line, speed)
     unstable = small_high if math.isfinite(small_high) else small
     if math.isfinite(unstable):
-        told = line.mechanisms(line.spectrum(np.array([unstable * (1.0 + 1e-6)])))
+        spectrum = line.spectrum(np.array([unstable * (1.0 + 1e-6)]))
+        _add(row, _faster_than_learnt(line, spectrum))
+        told = line.mechanisms(spectrum)
         row |= {
             "mechanism": str(told.mechanism[0]),
             "heave_share": float(told.heave_share[0]),
@@ -351,6 +354,15 @@ def _row(line: LearntLine, chord: float) -> dict[str, object]:
         row["mechanism"] = _of_release(line, learnt)
         _add(row, "no small motion about an equilibrium grows: the release alone does")
     return row
+
+
+def _faster_than_learnt(line: LearntLine, spectrum: Spectrum) -> str:
+    """Say that the least stable motion is far faster than the pitch; empty where it is not."""
+    bodies, _ = line.bodies(spectrum.speed)
+    part = 0.0 if bodies is None else float(spectrum.least_stable.imag[0]) / bodies.pitch
+    if part <= SWINGS_ALONG:
+        return ""
+    return f"what grows swings at {part:.2g} times the frequency of the pitch that was learnt from"
 
 
 def _of_release(line: LearntLine, learnt: pd.Series) -> str:

@@ -30,7 +30,13 @@ from equisection.motion.stability_map import MapLine
 from equisection.motion.steady_states import consistent_deficits
 from equisection.motion.strip_system import StripSystem
 from equisection.results.unsteady_result import STABLE, UNKNOWN
-from equisection.solvers.verdicts import Judge, TipMotion, monitor_of
+from equisection.solvers.verdicts import (
+    BENDING_MODES,
+    Judge,
+    TipMotion,
+    growths_of_tips,
+    monitor_of,
+)
 from equisection.verdict import Criteria
 
 Floats = NDArray[np.float64]
@@ -275,7 +281,7 @@ def _released(releases: Sequence[MapRelease], config: Config) -> list[dict[str, 
     deficits = consistent_deficits(system, states, deficits)
     outputs = _tip_rows(body, system)
     criteria = Criteria(**unsteady.verdict.model_dump())
-    judges = [Judge(criteria, body.pitch_frequency * body.chord / one.speed) for one in releases]
+    judges = [_judge_of(one, criteria) for one in releases]
     look = monitor_of(judges, _tip_of)
 
     def monitor(recording: Recording, active: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -290,13 +296,21 @@ def _released(releases: Sequence[MapRelease], config: Config) -> list[dict[str, 
         output_interval=unsteady.output_interval,
         monitor=monitor,
     )
+    tips = [_tip_of(recording, lane, slice(int(end))) for lane, end in enumerate(recording.samples)]
     return [
-        judge.attributes(
-            _tip_of(recording, lane, slice(int(recording.samples[lane]))),
-            _failure(recording.failures, lane),
+        judge.attributes(tip, _failure(recording.failures, lane), growth)
+        for lane, (judge, tip, growth) in enumerate(
+            zip(judges, tips, growths_of_tips(judges, tips), strict=True)
         )
-        for lane, judge in enumerate(judges)
     ]
+
+
+def _judge_of(release: MapRelease, criteria: Criteria) -> Judge:
+    """Return the judge of a release, whose growth is fitted to its pitch and its first heaves."""
+    body = release.line.body
+    per_flow = body.chord / release.speed
+    heaves = per_flow * body.bending_frequencies[:BENDING_MODES]
+    return Judge(criteria, per_flow * body.pitch_frequency, tuple(heaves.tolist()))
 
 
 def _together(releases: Sequence[MapRelease]) -> tuple[StripSystem, Floats, Floats]:
@@ -319,10 +333,18 @@ def _together(releases: Sequence[MapRelease]) -> tuple[StripSystem, Floats, Floa
 
 
 def _tip_rows(body: BodyInFlow, system: StripSystem) -> Floats:
-    """Rows that give twist (rad) and deflection (chords) of the tip."""
-    rows = np.zeros((2, system.rates.shape[2]))
-    rows[0, system.layout.twist] = body.twist_of_tip
-    rows[1, system.layout.deflection] = body.deflection_of_tip
+    """Rows that give twist (rad) and deflection (chords) of the tip.
+
+    Of a beam the amplitudes of its first modes follow.
+    """
+    twist, deflection = system.layout.twist, system.layout.deflection
+    first = [twist.start, *range(deflection.start, deflection.stop)[:BENDING_MODES]]
+    if body.is_section:
+        first = []
+    rows = np.zeros((2 + len(first), system.rates.shape[2]))
+    rows[0, twist] = body.twist_of_tip
+    rows[1, deflection] = body.deflection_of_tip
+    rows[np.arange(2, len(rows)), first] = 1.0
     return np.broadcast_to(rows, (system.rates.shape[0], *rows.shape))
 
 
@@ -334,7 +356,7 @@ def _so_far(recording: Recording) -> Recording:
 
 def _tip_of(recording: Recording, lane: int, part: slice) -> TipMotion:
     values = recording.values[part, lane]
-    return TipMotion(recording.time[part], values[:, 0], values[:, 1])
+    return TipMotion(recording.time[part], values[:, 0], values[:, 1], values[:, 2:].T)
 
 
 def _failure(failures: Sequence[Failure], lane: int) -> str:

@@ -79,7 +79,7 @@ def open_run(folder: Path | str) -> xr.DataTree:
         The folder is no run, or a file in it is broken.
     """
     folder = Path(folder)
-    configuration = _configuration(folder)
+    configuration = configuration_of(folder)
     nodes = {
         f"/{node}": read_dataset(folder / file)
         for node, file in DATASETS.items()
@@ -97,8 +97,14 @@ def open_run(folder: Path | str) -> xr.DataTree:
     return xr.DataTree.from_dict({"/": root, **nodes}, name=str(configuration["run"]))
 
 
-def _configuration(folder: Path) -> dict[str, Any]:
-    """Return the configuration of a run, by which a folder is known as one."""
+def configuration_of(folder: Path) -> dict[str, Any]:
+    """Return the configuration of a run, by which a folder is known as one.
+
+    Raises
+    ------
+    ResultFileError
+        The folder has none, or one that cannot be read.
+    """
     path = folder / CONFIGURATION
     try:
         read = yaml.safe_load(path.read_text(encoding="utf-8"))

@@ -206,11 +206,14 @@ class Start(Block):
     """Start of a free motion: twist of the tip until the release (deg), and its heave rate then.
 
     The beam has them in its first modes, the section by its recovery factors. The twist is that
-    beyond the state: the undeformed beam, or its static equilibrium in the flow.
+    beyond the state: the undeformed beam, or its static equilibrium in the flow. ``equilibrium`` is
+    that of the section, twist (rad) and deflection (chords), for a solver that does not know it;
+    None where there is none.
     """
 
-    left_out = frozenset({"state"})
+    left_out = frozenset({"state", "equilibrium"})
 
     state: Literal["rigid", "equilibrium"] = "rigid"
     twist_deg: float = 0.0
     heave_rate: float = 0.0  # over V, up
+    equilibrium: tuple[float, float] | None = None

@@ -69,7 +69,13 @@ class UnsteadyCase(Case):
         """Twist (rad) in which the section is held until the release; 0 for a beam."""
         if self.section is None:
             return 0.0
-        return math.radians(self.start.twist_deg) * self.section.twist_recovery
+        pushed = math.radians(self.start.twist_deg) * self.section.twist_recovery
+        return self.section_equilibrium[0] + pushed
+
+    @property
+    def section_equilibrium(self) -> tuple[float, float]:
+        """Twist (rad) and deflection (chords) of the state that a section starts from."""
+        return self.start.equilibrium or (0.0, 0.0)
 
     @property
     def section_heave_rate(self) -> float:

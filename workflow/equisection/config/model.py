@@ -107,6 +107,11 @@ class Config(KeyGroup):
         section: SolverKeys = getattr(self, self.solver)
         return section
 
+    @property
+    def reynolds_number(self) -> float:
+        """Re = rho V c/mu."""
+        return self.flow.density * self.flow.speed * self.beam.chord / self.flow.dynamic_viscosity
+
 
 @check("sweep.speed", "flow.sound_speed")
 def _incompressible_sweep(

@@ -89,7 +89,11 @@ def _reynolds_number(lines: Lines) -> float:
 
 
 def aerodyn_text(
-    points: Iterable[Sequence[float]], reynolds_number: float, comments: Iterable[str]
+    points: Iterable[Sequence[float]],
+    reynolds_number: float,
+    comments: Iterable[str],
+    *,
+    unsteady: bool = False,
 ) -> str:
     """Return points of a polar as the text of an airfoil table of AeroDyn.
 
@@ -104,6 +108,9 @@ def aerodyn_text(
         Reynolds number; written as 1 million, with a comment, where it is NaN.
     comments
         Lines for the top of the file.
+    unsteady
+        Announce data of unsteady aerodynamics, and give none: OpenFAST computes from the table
+        whatever is missing, which its unsteady models need.
     """
     known = math.isfinite(reynolds_number)
     rows = []
@@ -124,7 +131,9 @@ def aerodyn_text(
         "          1   NumTabs           ! Number of tables",
         f" {millions:>10}   Re                ! {whose}",
         "          0   UserProp          ! User property (control setting)",
-        "False         InclUAdata        ! No data of unsteady aerodynamics",
+        "True          InclUAdata        ! Unsteady coefficients: OpenFAST computes them"
+        if unsteady
+        else "False         InclUAdata        ! No data of unsteady aerodynamics",
         f" {len(rows):10d}   NumAlf            ! Number of data lines in the following table",
         "!    Alpha         Cl         Cd         Cm",
         "!    (deg)        (-)        (-)        (-)",

@@ -165,6 +165,13 @@ class BodyInFlow:
         square = float(structure.torsion_stiffness[0, 0] / structure.torsion_inertia[0, 0])
         return math.sqrt(square) * self.speed / (math.tau * self.chord)
 
+    @property
+    def bending_frequencies(self) -> Floats:
+        """Frequencies (Hz) of the bending modes in vacuum, without imbalance, ascending."""
+        structure = self.structure
+        squares = structure.bending_stiffness[0] / structure.bending_mass[0]
+        return np.asarray(np.sqrt(squares) * self.speed / (math.tau * self.chord))
+
     def tip(self, states: NDArray[Any]) -> tuple[Any, Any]:
         """Return twist (rad) and deflection (chords) of the tip in states Y of shape (..., n)."""
         torsion, bending = self.twist_of_tip.size, self.deflection_of_tip.size

@@ -29,6 +29,8 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.polar import Polar
+from equisection.beam.section import Section
+from equisection.errors import ArgumentError, IncidenceOutOfRangeError
 from equisection.motion.strip_system import StripSystem
 
 Floats = NDArray[np.float64]
@@ -117,6 +119,50 @@ class StaticBranch:
             near = np.where(carried < 0.0, middle, near)
             far = np.where(carried < 0.0, far, middle)
         return np.where(wanted > self.k_star_end, 0.5 * (near + far), np.nan)
+
+
+def section_in_equilibrium(
+    section: Section,
+    polar: Polar,
+    incidence_rad: float,
+    load_factors: tuple[float, float] = (1.0, 1.0),
+) -> tuple[float, float] | None:
+    """Twist (rad) and deflection (chords) of a section in equilibrium on the branch from rest.
+
+    None beyond the end of the branch, and where the polar does not cover theta_0. With an offset
+    axis factors of the loads have no branch in closed form; they are refused.
+
+    Parameters
+    ----------
+    section
+        The section in its flow (:meth:`~equisection.beam.section.Section.in_flow`).
+    polar
+        Its polar.
+    incidence_rad
+        Rigid incidence theta_0 (rad).
+    load_factors
+        Factors of c_l and c_m.
+
+    Raises
+    ------
+    ArgumentError
+        There are factors and an offset axis.
+    """
+    lift_factor, moment_factor = load_factors
+    axis = section.axis_behind_mid_chord
+    if load_factors != (1.0, 1.0) and axis:
+        raise ArgumentError(
+            f"load_factors is {load_factors}; allowed with an elastic axis off mid-chord is (1, 1)"
+        )
+    try:
+        branch = StaticBranch.from_rest(polar, incidence_rad, axis)
+    except IncidenceOutOfRangeError:
+        return None
+    alpha = float(branch.incidence(section.torsional_stiffness / moment_factor))
+    if not math.isfinite(alpha):
+        return None
+    lift = lift_factor * float(polar.lift_coefficient(alpha))
+    return alpha - incidence_rad, lift / section.flexural_stiffness
 
 
 def section_equilibrium(system: StripSystem, incidence_rad: Floats) -> tuple[Floats, Floats]:

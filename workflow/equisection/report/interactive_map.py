@@ -60,7 +60,7 @@ def interactive_map(
 def _figure(one: xr.Dataset, stability: pd.DataFrame, design_speed: float | None) -> Any:
     figure = graph_objects.Figure(layout=_layout())
     if np.isfinite(one["growth_rate"].values).any():
-        figure.add_trace(_growth(one))
+        figure.add_traces(_growth(one))
     figure.add_traces(_critical_speeds(one, _rows_of(one, stability)))
     if design_speed is not None:
         ends = one["incidence_deg"].values[[0, -1]]
@@ -83,10 +83,9 @@ def _layout() -> dict[str, Any]:
         "height": _HEIGHT,
         "margin": {"l": 60, "r": 10, "t": 10, "b": 60},
         "xaxis": {**axis, "title": {"text": "incidence (deg)"}},
-        "yaxis": {**axis, "title": {"text": "speed (m/s)"}, "rangemode": "tozero"},
+        "yaxis": {**axis, "title": {"text": "speed (m/s)"}},
         "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0},
         "hoverlabel": {"align": "left"},
-        "plot_bgcolor": LIGHT_GREY,  # where there is no equilibrium to be stable or not
     }
 
 
@@ -97,23 +96,42 @@ def _rows_of(one: xr.Dataset, stability: pd.DataFrame) -> pd.DataFrame:
     return by_angle.reindex(one["incidence_deg"].values.round(6))
 
 
-def _growth(one: xr.Dataset) -> Any:
-    """Return the growth rate of the least stable motion as colours, white where it is nil."""
+def _growth(one: xr.Dataset) -> list[Any]:
+    """Return the growth rate of the least stable motion as colours, white where it is nil.
+
+    Where there is no equilibrium to be stable or not, the colour is grey.
+    """
     growth = one["growth_rate"].transpose("speed", "incidence_deg").values
     sizes = np.abs(growth[np.isfinite(growth)])
     strong = float(np.percentile(sizes, _STRONG)) or 1.0
-    return graph_objects.Heatmap(
-        x=one["incidence_deg"].values,
-        y=one["speed"].values,
+    place = {
+        "x": one["incidence_deg"].values,
+        "y": one["speed"].values,
+        "text": _words_of_points(one),
+        "hovertemplate": "%{text}<extra></extra>",
+        "hoverongaps": False,
+    }
+    coloured = graph_objects.Heatmap(
+        **place,
         z=growth,
         zmin=-strong,
         zmax=strong,
         colorscale=[[0.0, BLUE], [0.5, "#FFFFFF"], [1.0, VERMILLION]],
         colorbar={"title": {"text": "growth (1/s)", "side": "right"}, "thickness": 12},
-        text=_words_of_points(one),
-        hovertemplate="%{text}<extra></extra>",
         name="growth",
     )
+    lost = np.isnan(growth)
+    if not lost.any():
+        return [coloured]
+    grey = [[0.0, LIGHT_GREY], [1.0, LIGHT_GREY]]
+    without = graph_objects.Heatmap(
+        **place,
+        z=np.where(lost, 1.0, np.nan),
+        colorscale=grey,
+        showscale=False,
+        name="no static equilibrium",
+    )
+    return [without, coloured]
 
 
 def _words_of_points(one: xr.Dataset) -> list[list[str]]:
@@ -147,8 +165,10 @@ def _critical_speeds(one: xr.Dataset, rows: pd.DataFrame) -> list[Any]:
     angle, speed = one["incidence_deg"].values, one["critical_speed"].values
     # of models that were learnt at these incidences alone nothing is known in between
     joined = one.attrs["basis"] != "model"
-    ends = [rows[name].to_numpy(dtype=np.float64) for name in ("speed_from", "speed_to")]
-    below, above = speed - ends[0], ends[1] - speed
+    low, high = (rows[name].to_numpy(dtype=np.float64) for name in ("speed_from", "speed_to"))
+    top = float(np.nanmax([*one["speed"].values, *speed]))
+    opened = np.isinf(high) & np.isfinite(speed)
+    below, above = speed - low, np.where(opened, top, high) - speed
     found = graph_objects.Scatter(
         x=angle,
         y=speed,
@@ -178,24 +198,27 @@ def _critical_speeds(one: xr.Dataset, rows: pd.DataFrame) -> list[Any]:
         name="critical speed and its interval" if np.isfinite(below).any() else "critical speed",
     )
     stable = np.isnan(speed) & np.isfinite(one["speed_low"].values)
-    if not stable.any():
-        return [found]
-    low = one["speed_low"].values[stable]
-    return [
-        found,
-        graph_objects.Scatter(
-            x=angle[stable],
-            y=low,
-            mode="markers",
-            marker={"symbol": "arrow-bar-up", "size": 12, "color": BLACK},
-            hovertemplate="stable up to %{y:.4g} m/s at %{x:g} deg<extra></extra>",
-            name="stable up to here",
-        ),
-    ]
+    marks = (
+        (opened, np.full(angle.size, top), "triangle-up", "interval is open above"),
+        (stable, one["speed_low"].values, "arrow-bar-up", "stable up to here"),
+    )
+    return [found, *(_marks(angle[at], y[at], *look) for at, y, *look in marks if at.any())]
+
+
+def _marks(angle: Floats, speed: Floats, symbol: str, name: str) -> Any:
+    """Return marks of one kind."""
+    return graph_objects.Scatter(
+        x=angle,
+        y=speed,
+        mode="markers",
+        marker={"symbol": symbol, "size": 12, "color": BLACK},
+        hovertemplate=f"{name}: %{{y:.4g}} m/s at %{{x:g}} deg<extra></extra>",
+        name=name,
+    )
 
 
 def _bars(length: Floats) -> list[float]:
-    """Return lengths of error bars, nil where they are open or not known."""
+    """Return lengths of error bars, nil where they are not known."""
     return [float(one) if np.isfinite(one) and one > 0.0 else 0.0 for one in length]
 
 

@@ -6,7 +6,8 @@
   const options = {
     responsive: true,
     displaylogo: false,
-    modeBarButtonsToRemove: ["select2d", "lasso2d", "autoScale2d"],
+    // named one by one, so that none of a later plotly sends the map anywhere
+    modeBarButtons: [["toImage", "zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d"]],
     toImageButtonOptions: { filename: "stability-map", scale: 2 },
   };
   const draw = () => {

@@ -10,6 +10,7 @@ import argparse
 import os
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -27,12 +28,15 @@ from equisection.run.starter import (
 if TYPE_CHECKING:  # what a command needs is imported there, so that --help comes at once
     from equisection.config import Config
 
+#: Kinds of exports (:data:`equisection.analysis.exported.KINDS`), known without loading them.
+EXPORTS = ("polars", "models", "derivatives", "modes", "section", "openfast")
 _EXAMPLES = """\
 examples:
   equisection init my-row --like tracker write a configuration to start from, my-row.yaml
   equisection run my-row.yaml            run it; the same as snakemake --configfile my-row.yaml
   equisection onset results/my-row       its critical speed, by what, and how sure
   equisection show results/my-row        its figures
+  equisection export results/my-row      its polars, models, modes and section for other programs
   equisection status                     how far the runs in results/ are
   equisection status results/my-beam     how far one run is
   equisection status --plain | grep failed
@@ -235,7 +239,7 @@ def _add_start(commands: Any) -> None:
 
 
 def _add_answers(commands: Any) -> None:
-    """Add the commands that say what came out: ``onset``, ``show``, and ``completion``."""
+    """Add the commands that say what came out: ``onset``, ``show``, ``export``; ``completion``."""
     onset = commands.add_parser(
         "onset",
         help="the critical speed, by what, and how sure",
@@ -253,6 +257,28 @@ def _add_answers(commands: Any) -> None:
     show.add_argument("run_folder", type=Path, metavar="RUN_FOLDER")
     show.add_argument("figure", nargs="*", metavar="FIGURE", help="names (default: all)")
     show.add_argument("--to", type=Path, metavar="FOLDER", help="copy them there instead")
+    export = commands.add_parser(
+        "export",
+        help="polars, models, derivatives, modes and section for other programs",
+        description="Write what runs have for other programs: polars as airfoil tables of AeroDyn "
+        "(OpenFAST), learnt models, flutter derivatives, modes and equivalent section as CSV and "
+        "JSON, and the section as input of OpenFAST's unsteady-aerodynamics driver.",
+    )
+    export.add_argument("run_folder", nargs="+", type=Path, metavar="RUN_FOLDER")
+    export.add_argument(
+        "--to",
+        type=Path,
+        metavar="FOLDER",
+        help="where to write, with a folder for each run (default: export/ in that of the run)",
+    )
+    export.add_argument(
+        "--only",
+        action="append",
+        choices=EXPORTS,
+        default=[],
+        help="leave out the other kinds; can be given again",
+    )
+    export.add_argument("--json", action="store_true", help="list the files as JSON")
     completion = commands.add_parser(
         "completion",
         help="a script by which a shell completes this command",
@@ -334,6 +360,24 @@ def _show(run: Path, names: Sequence[str], folder: Path | None) -> None:
     elif opened(pictures):
         return
     print("\n".join(map(str, pictures)))
+
+
+def _export(runs: Sequence[Path], to: Path | None, kinds: Sequence[str], as_json: bool) -> None:
+    # Imported here, so that --help and --version come at once.
+    import json  # noqa: PLC0415
+
+    from equisection.analysis.exported import exported  # noqa: PLC0415
+
+    files = [
+        file
+        for run in runs
+        for file in exported(run, run / "export" if to is None else to / run.resolve().name, kinds)
+    ]
+    if as_json:
+        print(json.dumps([{**asdict(file), "path": str(file.path)} for file in files], indent=2))
+        return
+    for file in files:
+        print(f"left out        {file.path}: {file.left_out}" if file.left_out else file.path)
 
 
 def _completion(shell: str) -> None:
@@ -497,6 +541,7 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "run": lambda of: _run(of.configfile, of.snakemake),
     "onset": lambda of: _onset(of.run_folder, of.json),
     "show": lambda of: _show(of.run_folder, of.figure, of.to),
+    "export": lambda of: _export(of.run_folder, of.to, of.only, of.json),
     "completion": lambda of: _completion(of.shell),
     "status": lambda of: _status(of.run_folder, of.plain, of.html),
     "verify": lambda of: int(not _verify(of.folder)),

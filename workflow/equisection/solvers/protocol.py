@@ -29,7 +29,7 @@ class Capability(StrEnum):
     FIELDS = "fields"  # the flow near the tip of the beam
     MESH = "mesh"  # a mesh of section and beam, which can be shown and refined
     STATES = "states"  # motions are equations, so that eigenvalues tell their stability
-    RECORDS = "records"  # releases are read from files, of which some may be missing
+    RECORDS = "records"  # histories are read from files, of which some may be missing
 
 
 #: What starts the ranks of MPI where no scheduler says otherwise.
@@ -181,6 +181,10 @@ class HasRecords(Protocol):
 
     def record_of(self, model: str, case: str, point: Mapping[str, float]) -> dict[str, Any]:
         """Return the settings of a release of a model, by its case's name and point."""
+        ...
+
+    def motion_record_of(self, case: str, known: Mapping[str, str]) -> dict[str, Any]:
+        """Return the settings of a forced motion, by its case's name and what a path may name."""
         ...
 
     def missing(self, case: Case) -> str:

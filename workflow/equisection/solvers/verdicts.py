@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
 import numpy as np
@@ -31,6 +31,10 @@ LOOK_AGAIN = 1.3
 LOOKS_EVERY = 5.0
 #: Time (c/V) over which a motion beyond the bound is looked for; longer than a slow period.
 LATE = 20.0
+#: What the reason of a verdict says of a motion that has no equilibrium to start from.
+WITHOUT_EQUILIBRIUM = (
+    "released from the undeformed state, since the branch from rest has no static equilibrium here"
+)
 #: Bending modes of a beam that are fitted with its first torsion mode.
 BENDING_MODES = 2
 #: A heave that is this many times faster than the pitch does not beat with it (-).
@@ -273,6 +277,12 @@ def refused(case: Case) -> UnsteadyResult:
         incidence=nothing,
         verdict=_without_numbers(regime, case.not_run),
     )
+
+
+def told_without_equilibrium(result: UnsteadyResult) -> UnsteadyResult:
+    """Return a result whose verdict says that there was no equilibrium to start from."""
+    reason = f"{result.verdict['reason']}; {WITHOUT_EQUILIBRIUM}"
+    return replace(result, verdict={**result.verdict, "reason": reason})
 
 
 def monitor_of(

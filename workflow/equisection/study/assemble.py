@@ -24,14 +24,16 @@ from equisection.cases import (
 from equisection.cases.beam_in_flow import beam_modes_in_flow
 from equisection.config import Config
 from equisection.errors import DivergenceError, EquisectionError, ReductionError
+from equisection.motion.static_branch import section_in_equilibrium
 from equisection.reduction.corrected_section import corrected_section
 from equisection.reduction.flutter_bias import refusal as bias_refusal
 from equisection.reduction.flutter_bias import unlike
 from equisection.reduction.reduce import Reduction
 from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
+from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import no_section, section_from_dataset
-from equisection.solvers.protocol import HasRecords, Solver
+from equisection.solvers.protocol import Capability, HasRecords, Solver
 from equisection.solvers.verdicts import pitch_frequency
 from equisection.study.axes import K_STAR, Point
 from equisection.study.plan import Model
@@ -86,7 +88,8 @@ def unsteady_case(
     k_star
         k* of the uncorrected structural stiffness.
     data
-        ``equivalent``, with ``modes`` in 3D and ``correction`` for a corrected model.
+        ``equivalent``, with ``modes`` in 3D and ``correction`` for a corrected model, and with
+        ``polar_2d`` for a section that starts from an equilibrium that its solver does not know.
     solver
         The solver that is to run it.
 
@@ -119,7 +122,7 @@ def unsteady_case(
         lift_factor=factors[0],
         moment_factor=factors[1],
         beam=beam,
-        start=Start(**unsteady.start.model_dump()),
+        start=_start(config, section, factors, data, solver),
         duration=unsteady.duration,
         time_step=unsteady.time_step,
         output_interval=unsteady.output_interval,
@@ -131,6 +134,24 @@ def unsteady_case(
     if not case.not_run and (reason := _seldom(case)):
         return case.model_copy(update={"section": None, "beam": None, "refusal": reason})
     return case
+
+
+def _start(
+    config: Config,
+    section: Section | None,
+    factors: tuple[float, float],
+    data: Mapping[str, xr.Dataset],
+    solver: Solver,
+) -> Start:
+    """Return the start of a case, with the equilibrium that its solver does not know."""
+    start = Start(**config.unsteady.start.model_dump())
+    known = Capability.STATES in solver.provides or start.state != "equilibrium"
+    if known or section is None or "polar_2d" not in data:
+        return start
+    polar = polar_at(data["polar_2d"], config.steady.resolution).continued
+    rigid = math.radians(config.flow.incidence_deg)
+    found = section_in_equilibrium(section, polar, rigid, factors)
+    return start.model_copy(update={"equilibrium": found})
 
 
 def _seldom(case: UnsteadyCase) -> str:

@@ -11,6 +11,7 @@ from equisection.cases import ForcedCase, Harmonic, ModeShapes
 from equisection.errors import ArgumentError
 from equisection.motion.forced_signal import schroeder_phases
 from equisection.results.modes_dataset import modes_from_dataset
+from equisection.solvers.protocol import HasRecords
 from equisection.study.assemble import steady_case
 
 if TYPE_CHECKING:
@@ -64,6 +65,10 @@ def forced_case(
     mean = config.flow.incidence_deg if keys.incidence_deg is None else keys.incidence_deg
     rigid = steady_case(config, dimension, mean, config.steady.resolution, solver)
     shared = {name: getattr(rigid, name) for name in type(rigid).model_fields if name != "kind"}
+    if isinstance(solver, HasRecords):
+        known = {"component": kind, "reduced_velocity": velocity, "incidence_deg": f"{mean:g}"}
+        record = solver.motion_record_of(name, known)
+        shared["solver"] = rigid.solver.model_copy(update={"settings": record})
     return ForcedCase(
         **shared,
         component=kind,

@@ -70,7 +70,7 @@ def polar_notices(config: Config, directory: Path | None = None) -> Iterator[str
             of_file = reynolds_number((directory or Path.cwd()) / path)
         except PolarFileError:
             continue  # `check_polars` refuses it
-        here = _reynolds_number(config)
+        here = config.reynolds_number
         if max(of_file / here, here / of_file) > _LIKE_REYNOLDS:
             yield (
                 f"warning: {polars.key}.{config.steady.resolution}: {shown(path)} is of Reynolds "
@@ -201,16 +201,11 @@ def _decides_rigid_polar(config: Config) -> dict[str, float | bool]:
     return {
         "L/c": beam.length / beam.chord,
         "h/c": beam.thickness / beam.chord,
-        REYNOLDS: _reynolds_number(config),
+        REYNOLDS: config.reynolds_number,
         "flow.root_on_wall": flow.root_on_wall,
         "flow.channel.height_chords": channel.height_chords if channel else math.inf,
         "flow.channel.tip_gap_chords": channel.tip_gap_chords if channel else math.inf,
     }
-
-
-def _reynolds_number(config: Config) -> float:
-    flow = config.flow
-    return flow.density * flow.speed * config.beam.chord / flow.dynamic_viscosity
 
 
 def _short(value: float) -> str:

@@ -221,6 +221,15 @@ def batches_before(batch: str) -> list[str]:
     return [SWEEP_BATCH, *(f"round{n}" for n in range(1, int(batch.removeprefix("round"))))]
 
 
+def starts_by_polar(config: Config) -> bool:
+    """Tell whether sections start from the equilibrium that the run's steady polar has.
+
+    A solver whose motions are equations knows it by itself.
+    """
+    is_known = Capability.STATES in SOLVERS[config.solver].provides
+    return config.unsteady.start.state == "equilibrium" and not is_known
+
+
 @dataclass(frozen=True)
 class PlannedCases:
     """Cases of a kind that a configuration asks for: of one model, at one resolution.

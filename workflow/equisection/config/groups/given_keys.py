@@ -16,6 +16,8 @@ from equisection.keys.values import EMPTY, NULLABLE, NUMBER, WHOLE, Name, Number
 
 #: Placeholders of the path of histories.
 PLACEHOLDERS = ("model", "case", "k_star", "speed", "incidence_deg")
+#: Placeholders of the path of forced motions.
+OF_FORCED = ("case", "component", "reduced_velocity", "incidence_deg")
 #: A placeholder in a path.
 PLACEHOLDER = re.compile(r"\{(\w*)\}")
 
@@ -73,6 +75,13 @@ class Given(SolverKeys):
         "`data/{model}/k{k_star}.csv`. A release without a file is named in "
         "`comparison/missing.csv`, and the others go on.",
     )
+    forced: Annotated[str, EMPTY] = Field(
+        "",
+        description="Path of the history of each forced motion, with `{case}` (`pitch` and "
+        "`heave`, or `pitch_v12` with `forced.motion: harmonic`), or `{component}`, "
+        "`{reduced_velocity}`, `{incidence_deg}`, in their places: `data/forced/{case}.csv`. "
+        "Columns, units and signs are those of the releases.",
+    )
     polars: dict[Name, _Text] = Field(
         {},
         description="Section polar of each resolution, in a format of `embedded.polars`.",
@@ -123,9 +132,9 @@ class Given(SolverKeys):
 
     def input_files(self) -> list[str]:
         """Return polars and the histories that are there."""
-        pattern = PLACEHOLDER.sub("*", _escaped(self.histories))
-        there = sorted(glob.glob(pattern)) if pattern else []  # noqa: PTH207, of any root
-        return [*self.polars.values(), *there]
+        patterns = [PLACEHOLDER.sub("*", _escaped(path)) for path in (self.histories, self.forced)]
+        found = {path for one in patterns for path in glob.glob(one)}  # noqa: PTH207, of any root
+        return [*self.polars.values(), *sorted(found)]
 
 
 def _escaped(path: str) -> str:
@@ -133,20 +142,27 @@ def _escaped(path: str) -> str:
     return re.sub(r"([\[?*])", r"[\1]", path)
 
 
-@check("given.histories", "solver")
-def _names_histories(histories: str, solver: str) -> Iterator[Problem]:
-    if solver != "given":
+@check("given.histories", "solver", "forced.run")
+def _names_histories(histories: str, solver: str, forced: bool) -> Iterator[Problem]:
+    if solver != "given" or (forced and not histories):
         return
-    allowed = ", ".join(f"{{{name}}}" for name in PLACEHOLDERS)
-    wrong = [name for name in PLACEHOLDER.findall(histories) if name not in PLACEHOLDERS]
-    left = PLACEHOLDER.sub("", histories)
-    if not histories or wrong or {"{", "}"} & set(left):
+    if not _is_path(histories, PLACEHOLDERS):
         yield Problem(
             "given.histories",
             histories,
-            f"allowed with solver 'given' is a path with {allowed} in it, such as "
+            f"allowed with solver 'given' is a path with {_in_braces(PLACEHOLDERS)} in it, such as "
             "data/{model}/{case}.csv",
         )
+
+
+def _is_path(path: str, placeholders: tuple[str, ...]) -> bool:
+    """Tell whether a path is there and has no other braces than placeholders."""
+    wrong = [name for name in PLACEHOLDER.findall(path) if name not in placeholders]
+    return bool(path) and not wrong and not {"{", "}"} & set(PLACEHOLDER.sub("", path))
+
+
+def _in_braces(placeholders: tuple[str, ...]) -> str:
+    return ", ".join(f"{{{name}}}" for name in placeholders)
 
 
 @check("given.polars", "steady.resolution", "steady.study", "solver")
@@ -179,15 +195,24 @@ def _signs_are_not_zero(twist: int, deflection: int, lift: int, moment: int) -> 
             yield Problem(f"given.signs.{name}", sign, "allowed is 1 or -1")
 
 
-@check("solver", "forced.run")
-def _no_forced_motion(solver: str, run: bool) -> Iterator[Problem]:
+@check("solver", "forced.run", "given.forced", "forced.beam_modes")
+def _names_forced_motions(
+    solver: str, run: bool, forced: str, beam_modes: int
+) -> Iterator[Problem]:
     """Refuse motions that nobody has recorded."""
-    if solver == "given" and run:
+    if solver != "given" or not run:
+        return
+    if not _is_path(forced, OF_FORCED):
         yield Problem(
-            "forced.run",
-            run,
-            "allowed with solver 'given' is false: no file has the section's forced motion; give "
-            "measured flutter derivatives in derivatives.table",
+            "given.forced",
+            forced,
+            f"allowed with solver 'given' and forced.run is a path with {_in_braces(OF_FORCED)} in "
+            "it, such as data/forced/{case}.csv; a table of flutter derivatives goes into "
+            "derivatives.table",
+        )
+    if beam_modes:
+        yield Problem(
+            "forced.beam_modes", beam_modes, "allowed with solver 'given' is 0, the section alone"
         )
 
 

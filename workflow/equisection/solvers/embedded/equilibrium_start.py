@@ -23,10 +23,6 @@ from equisection.motion.steady_states import equilibrium
 
 Floats = NDArray[np.float64]
 
-#: What the reason of a verdict says of a motion that has no equilibrium to start from.
-WITHOUT = (
-    "released from the undeformed state, since the branch from rest has no static equilibrium here"
-)
 #: Speed and chord of a body whose equilibrium is wanted at the speed of its numbers alone.
 _ITS_OWN = 1.0
 #: Ratio of the highest speed that a branch is followed to, to that speed.

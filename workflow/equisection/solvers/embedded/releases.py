@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from typing import Any, TypedDict
 
 import numpy as np
@@ -21,12 +20,18 @@ from equisection.motion.march import Failure
 from equisection.motion.sections import SectionHistories, release_sections
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.embedded.equilibrium_start import (
-    WITHOUT,
     equilibria_of_beams,
     equilibria_of_sections,
 )
 from equisection.solvers.protocol import Progress
-from equisection.solvers.verdicts import Judge, TipMotion, first_modes, growths_of_tips, monitor_of
+from equisection.solvers.verdicts import (
+    Judge,
+    TipMotion,
+    first_modes,
+    growths_of_tips,
+    monitor_of,
+    told_without_equilibrium,
+)
 
 Floats = NDArray[np.float64]
 
@@ -125,10 +130,7 @@ def _with_rigid(equilibria: Floats) -> tuple[Floats, NDArray[np.bool_]]:
 
 def _saying(result: UnsteadyResult, is_without: bool) -> UnsteadyResult:
     """Return a result whose verdict says that it has no equilibrium, if it has none."""
-    if not is_without:
-        return result
-    reason = f"{result.verdict['reason']}; {WITHOUT}"
-    return replace(result, verdict={**result.verdict, "reason": reason})
+    return told_without_equilibrium(result) if is_without else result
 
 
 def release_all_sections(

@@ -13,9 +13,8 @@ from equisection.beam.section import Section
 from equisection.config.groups import Unsteady
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
-from equisection.solvers.embedded.equilibrium_start import WITHOUT
 from equisection.solvers.embedded.releases import ReleaseSettings, release_judged
-from equisection.solvers.verdicts import Judge
+from equisection.solvers.verdicts import WITHOUT_EQUILIBRIUM, Judge
 from equisection.verdict import Criteria
 
 #: As the configuration has them.
@@ -133,7 +132,7 @@ def release(
     result = release_judged([flowing], [judge], loads, settings, from_equilibrium=from_equilibrium)[
         0
     ]
-    is_rigid = not from_equilibrium or WITHOUT in str(result.verdict["reason"])
+    is_rigid = not from_equilibrium or WITHOUT_EQUILIBRIUM in str(result.verdict["reason"])
     dataset = result.to_dataset(section.chord)
     convective = dataset["time"].variable
     seconds = convective.values * section.chord / speed

@@ -16,18 +16,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from equisection.aerodynamics.polar import Polar
-from equisection.cases import Case, SteadyCase, UnsteadyCase
+from equisection.cases import Case, ForcedCase, SteadyCase, UnsteadyCase
 from equisection.config import Config
 from equisection.config.groups.given_keys import PLACEHOLDER
 from equisection.errors import HistoryFileError, IncidenceOutOfRangeError, SolverError
 from equisection.provenance import file_hash
+from equisection.results.forced_result import ForcedResult
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
 from equisection.solvers.steady_polar import section_of_polar
 
 if TYPE_CHECKING:
-    from equisection.solvers.given.recorded_release import RecordedRelease
+    from equisection.io.history_file import HistoryColumns, HistoryScales
+    from equisection.solvers.given.recorded_release import RecordAxes, RecordedRelease
 
 logger = logging.getLogger(__name__)
 
@@ -72,6 +74,8 @@ class Adapter:
                 "source": keys.source or keys.basis,
                 "polar": polar.as_settings(),
                 "histories": keys.histories,
+                "forced": keys.forced,
+                "elastic_axis": config.beam.elastic_axis,
                 **{name: keys.model_dump()[name] for name in _MEANING},
             }
         )
@@ -99,17 +103,33 @@ class Adapter:
         point
             Values of the case on the axes of the study by their names.
         """
-        known = {"model": model, "case": case} | {
-            name: f"{value:g}" for name, value in point.items()
-        }
-        path = PLACEHOLDER.sub(
-            lambda found: known.get(found[1], found[0]), self._settings["histories"]
-        )
+        known = {name: f"{value:g}" for name, value in point.items()}
+        return self._record("histories", {"model": model, "case": case} | known)
+
+    def motion_record_of(self, case: str, known: Mapping[str, str]) -> dict[str, Any]:
+        """Return the settings of a forced motion: those of a release, and the polar.
+
+        Parameters
+        ----------
+        case
+            Name of the case.
+        known
+            What the path of its file may name, beside the case.
+        """
+        record = self._record("forced", {"case": case, **known})
+        for axis in ("moment_axis", "deflection_axis"):  # a moved section has no other axis
+            if record[axis] is None:
+                record[axis] = self._settings["elastic_axis"]
+        return {**record, "polar": self._settings["polar"]}
+
+    def _record(self, key: str, known: Mapping[str, str]) -> dict[str, Any]:
+        """Return the file that a key names, its digest, and what it means."""
+        path = PLACEHOLDER.sub(lambda found: known.get(found[1], found[0]), self._settings[key])
         meaning = {name: self._settings[name] for name in _MEANING}
         return {
             "source": self._settings["source"],
             "file": path,
-            "digest": file_hash(Path(path)),
+            "digest": file_hash(Path(path)) if path else "",
             **meaning,
         }
 
@@ -120,11 +140,15 @@ class Adapter:
 
     def missing(self, case: Case) -> str:
         """Return why a case has no result; empty if there was a file of it that can be read."""
-        if not isinstance(case, UnsteadyCase) or case.not_run or self._settings["digest"]:
+        is_recorded = isinstance(case, UnsteadyCase | ForcedCase)
+        if not is_recorded or case.not_run or self._settings["digest"]:
             return ""
+        key = "given.forced" if isinstance(case, ForcedCase) else "given.histories"
+        if not self._settings["file"]:
+            return f"{key} names no file"
         path = Path(self._settings["file"])
         what = "a file that cannot be read is" if path.exists() else "no file"
-        return f"{what} {path}, which given.histories names for it"
+        return f"{what} {path}, which {key} names for it"
 
     def run_steady(
         self, cases: Sequence[SteadyCase], work: Path, progress: Progress
@@ -155,13 +179,65 @@ class Adapter:
             progress(done, total)
         return results
 
+    def run_forced(
+        self, cases: Sequence[ForcedCase], work: Path, progress: Progress
+    ) -> list[ForcedResult]:
+        """Read each forced motion, and compare it with its case and with the polar."""
+        del work
+        total, done, results = sum(case.duration for case in cases), 0.0, []
+        for case in cases:
+            results.append(self._forced(case))
+            done += case.duration
+            progress(done, total)
+        return results
+
+    def _forced(self, case: ForcedCase) -> ForcedResult:
+        from equisection.solvers.given.recorded_motion import recorded_motion  # noqa: PLC0415
+
+        path = self._unchanged()
+        try:
+            return recorded_motion(
+                path,
+                *self._meaning(case),
+                case=case,
+                polar=Polar.of_settings(self._settings["polar"]),
+            )
+        except HistoryFileError as error:
+            return ForcedResult.without_history(str(error))
+
+    def _unchanged(self) -> Path:
+        """Return the file of a case.
+
+        Raises
+        ------
+        SolverError
+            It is another since the case was written.
+        """
+        path = Path(self._settings["file"])
+        if file_hash(path) != self._settings["digest"]:
+            raise SolverError(f"{path} was changed or removed while its case waited; run again")
+        return path
+
+    def _meaning(
+        self, case: UnsteadyCase | ForcedCase
+    ) -> tuple[HistoryColumns, HistoryScales, RecordAxes]:
+        """Return what the columns of the file mean."""
+        # Imported here: writing a case file takes this module too, and none of what follows.
+        from equisection.io.history_file import HistoryColumns, HistoryScales  # noqa: PLC0415
+        from equisection.solvers.given.recorded_release import RecordAxes  # noqa: PLC0415
+
+        of, medium = self._settings, case.medium
+        return (
+            HistoryColumns(of["columns"], of["units"], of["signs"], of["release"]),
+            HistoryScales(case.geometry.chord, medium.density, medium.speed, of["span"]),
+            RecordAxes(of["moment_axis"], of["deflection_axis"]),
+        )
+
     def _release(self, case: UnsteadyCase) -> UnsteadyResult:
         from equisection.solvers.verdicts import refused  # noqa: PLC0415
 
-        path = Path(self._settings["file"])
+        path = self._unchanged()
         try:
-            if file_hash(path) != self._settings["digest"]:
-                raise SolverError(f"{path} was changed or removed while its case waited; run again")
             record = self._read(path, case)
             if not record.balance.is_explained:
                 raise HistoryFileError(f"{path}: {record.balance.text}")
@@ -170,20 +246,12 @@ class Adapter:
             return refused(case.model_copy(update={"refusal": str(error), "diverges": False}))
 
     def _read(self, path: Path, case: UnsteadyCase) -> RecordedRelease:
-        # Imported here: writing a case file takes this module too, and none of what follows.
-        from equisection.io.history_file import HistoryColumns, HistoryScales  # noqa: PLC0415
-        from equisection.solvers.given.recorded_release import (  # noqa: PLC0415
-            RecordAxes,
-            recorded_release,
-        )
+        from equisection.solvers.given.recorded_release import recorded_release  # noqa: PLC0415
 
-        of, medium = self._settings, case.medium
         assert case.section is not None, "the registry lets no 3D case through"
         return recorded_release(
             path,
-            HistoryColumns(of["columns"], of["units"], of["signs"], of["release"]),
-            HistoryScales(case.geometry.chord, medium.density, medium.speed, of["span"]),
-            RecordAxes(of["moment_axis"], of["deflection_axis"]),
+            *self._meaning(case),
             section=case.section,
             incidence_rad=math.radians(case.incidence_deg),
             interval=case.output_interval,

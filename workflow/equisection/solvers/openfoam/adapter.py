@@ -60,7 +60,7 @@ class Adapter:
             section.outer_correctors,
             section.velocity_relaxation,
             section.mesh_motion,
-            "" if config.beam.outline is None and section.mesher == BLOCKS else _mesher(),
+            "" if config.beam.outline is None and section.mesher == BLOCKS else _mesher(config),
             section.far_field_chords if config.flow.channel is None else 0.0,
             section.turbulence,
             *(() if section.turbulence == LAMINAR else inlet),
@@ -201,10 +201,11 @@ class Adapter:
         SolverError
             It needs one and was written without, or for another mesher than the one installed.
         """
+        from equisection.solvers.openfoam.flow_setup import reynolds_number  # noqa: PLC0415
         from equisection.solvers.openfoam.mesh.outline_mesh import require_mesher  # noqa: PLC0415
 
         if self._settings.mesher:
-            require_mesher(self._settings.mesher)
+            require_mesher(self._settings.mesher, reynolds_number(case.geometry, case.medium))
         elif case.geometry.outline is not None:
             raise SolverError("the case has an outline and no mesher of outlines; write it anew")
         return bool(self._settings.mesher)
@@ -304,11 +305,11 @@ class Adapter:
         return run.run(tell)
 
 
-def _mesher() -> str:
-    """Return the mesher of outlines that is installed."""
+def _mesher(config: Config) -> str:
+    """Return the mesher of outlines that is installed, at the Reynolds number of a run."""
     from equisection.solvers.openfoam.mesh.outline_mesh import mesher  # noqa: PLC0415
 
-    return mesher()
+    return mesher(config.reynolds_number)
 
 
 def _require_own_loads(case: UnsteadyCase) -> None:

@@ -82,12 +82,37 @@ class Spacing:
 
 @dataclass(frozen=True)
 class ChannelBox:
-    """Section and channel in chords; ``thickness`` is h/c."""
+    """Section and channel in chords; ``thickness`` is h/c.
+
+    ``section_height`` is that of mid-chord, where y is 0, above the middle of the channel.
+    """
 
     thickness: float
     height: float
     upstream: float
     downstream: float
+    section_height: float = 0.0
+
+    @property
+    def floor(self) -> float:
+        """Height of the floor (chords)."""
+        return -self.height / 2 - self.section_height
+
+    @property
+    def ceiling(self) -> float:
+        """Height of the ceiling (chords)."""
+        return self.height / 2 - self.section_height
+
+    @property
+    def words(self) -> str:
+        """Place of the section in words; empty in the middle of the channel."""
+        height = self.section_height
+        return f" with the section {height:.3g} c above its middle" if height else ""
+
+    @property
+    def room(self) -> float:
+        """Distance from mid-chord to the nearer of floor and ceiling (chords)."""
+        return self.height / 2 - abs(self.section_height)
 
 
 @dataclass(frozen=True)
@@ -138,7 +163,7 @@ class Mesh:
         SolverError
             The turned near field does not fit into the channel.
         """
-        channel, half = self.channel, self.channel.height / 2
+        channel, half = self.channel, self.channel.room
         aside = min(ASIDE, 0.4 * half)
         along = (-0.5 - AHEAD, -0.5, 0.5, 0.5 + BEHIND)
         across = (-aside, -channel.thickness / 2, channel.thickness / 2, aside)
@@ -153,16 +178,17 @@ class Mesh:
             raise SolverError(
                 f"the near field of the mesh, turned to {math.degrees(self.incidence):.4g} deg, "
                 f"does not fit into a channel of {channel.height:g} c from {-channel.upstream:g} c "
-                f"to {channel.downstream:g} c; lower the incidence or enlarge flow.channel"
+                f"to {channel.downstream:g} c{channel.words}; lower the incidence or enlarge "
+                "flow.channel"
             )
         wide = _NEAR_AT_OUTLET * half
         narrow = min(_WAKE_AT_OUTLET, 0.2 * half)
         for i, x, inner in ((0, -channel.upstream, 0.5 * narrow), (5, channel.downstream, narrow)):
             points[i, :, 0] = x
-            points[i, :, 1] = (-half, -wide, -inner, inner, wide, half)
+            points[i, :, 1] = (channel.floor, -wide, -inner, inner, wide, channel.ceiling)
         for i in range(1, 5):
-            points[i, 0] = (points[i, 1, 0], -half)
-            points[i, 5] = (points[i, 4, 0], half)
+            points[i, 0] = (points[i, 1, 0], channel.floor)
+            points[i, 5] = (points[i, 4, 0], channel.ceiling)
         return points
 
     def block_mesh_dict(self) -> str:

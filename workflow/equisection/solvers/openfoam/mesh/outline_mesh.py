@@ -28,11 +28,12 @@ from typing import Any
 from equisection.errors import ConfigError, SolverError
 from equisection.files import write_text
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
-from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
+from equisection.solvers.openfoam.mesh.outline_sizes import FINE_UP_TO, OutlineSizes
 from equisection.solvers.openfoam.process import BlowUpError
 
-#: Version of this mesh, a part of the case that it is made for.
-VERSION = 1
+#: Versions of this mesh, a part of the case that it is made for: the second is that of a Reynolds
+#: number that asks for thinner first cells.
+VERSIONS = 1, 2
 #: Seconds after which gmsh counts as hung.
 TIME_LIMIT = 300.0
 #: Status of the process that makes a mesh where the outline has none.
@@ -45,8 +46,13 @@ _MESHER = "outline_mesher"
 _TO_WALL, _TO_END = 0.25, 1.0
 
 
-def mesher() -> str:
+def mesher(reynolds: float) -> str:
     """Return the mesher of outlines with its version and gmsh's, as a case holds it.
+
+    Parameters
+    ----------
+    reynolds
+        Reynolds number of the chord.
 
     Raises
     ------
@@ -60,20 +66,28 @@ def mesher() -> str:
             "config: beam.outline: needs gmsh, which makes its mesh: make openfoam, or "
             "pip install -c envs/constraints.txt -e '.[openfoam]'"
         ) from None
-    return f"outline {VERSION}, gmsh {version}"
+    return f"outline {VERSIONS[reynolds > FINE_UP_TO]}, gmsh {version}"
 
 
-def require_mesher(named: str) -> None:
+def require_mesher(named: str, reynolds: float) -> None:
     """Refuse a case that was written for another mesher than the one installed.
+
+    Parameters
+    ----------
+    named
+        The mesher that the case holds.
+    reynolds
+        Reynolds number of the chord.
 
     Raises
     ------
     SolverError
         With both versions.
     """
-    if named != mesher():
+    installed = mesher(reynolds)
+    if named != installed:
         raise SolverError(
-            f"the case is for the mesher '{named}', installed is '{mesher()}'; install that "
+            f"the case is for the mesher '{named}', installed is '{installed}'; install that "
             "(envs/constraints.txt), or delete the run's folder 'cases' and run again"
         )
 
@@ -134,7 +148,8 @@ class OutlineMesh:
         x, y = x0 * cosine + y0 * sine, y0 * cosine - x0 * sine
         channel = self.channel
         fits = (
-            abs(y) + radius + _TO_WALL <= channel.height / 2
+            channel.floor <= y - radius - _TO_WALL
+            and y + radius + _TO_WALL <= channel.ceiling
             and radius - x + _TO_END <= channel.upstream
             and radius + x + _TO_END <= channel.downstream
         )
@@ -142,7 +157,7 @@ class OutlineMesh:
             raise SolverError(
                 f"the mesh around the outline, of radius {radius:.3g} c, does not fit into a "
                 f"channel of {channel.height:g} c from {-channel.upstream:g} c to "
-                f"{channel.downstream:g} c; enlarge flow.channel"
+                f"{channel.downstream:g} c{channel.words}; enlarge flow.channel"
             )
 
     def write(self, folder: Path, time_limit: float = TIME_LIMIT) -> None:

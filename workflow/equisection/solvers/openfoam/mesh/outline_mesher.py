@@ -132,14 +132,14 @@ def _far(mesh: OutlineMesh) -> float:
 def _box(mesh: OutlineMesh) -> Floats:
     """Return the points along the channel's walls and ends, counter-clockwise, an even number."""
     channel, far = mesh.channel, _far(mesh)
-    half, length = channel.height / 2, channel.upstream + channel.downstream
+    length = channel.upstream + channel.downstream
     along, across = round(length / far), round(_FEWEST_ACROSS * channel.height / far)
     corners = np.array(
         [
-            (-channel.upstream, -half),
-            (channel.downstream, -half),
-            (channel.downstream, half),
-            (-channel.upstream, half),
+            (-channel.upstream, channel.floor),
+            (channel.downstream, channel.floor),
+            (channel.downstream, channel.ceiling),
+            (-channel.upstream, channel.ceiling),
         ]
     )
     return np.concatenate(
@@ -160,8 +160,8 @@ def patches_of(channel: ChannelBox, first: Floats, last: Floats) -> NDArray[np.s
         [
             np.abs(x + channel.upstream) < tiny,
             np.abs(x - channel.downstream) < tiny,
-            np.abs(y + channel.height / 2) < tiny,
-            np.abs(y - channel.height / 2) < tiny,
+            np.abs(y - channel.floor) < tiny,
+            np.abs(y - channel.ceiling) < tiny,
         ],
         ["inlet", "outlet", "floor", "ceiling"],
         "plate",

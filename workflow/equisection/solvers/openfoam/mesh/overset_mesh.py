@@ -82,17 +82,17 @@ class OversetMesh:
 
     @property
     def _aside(self) -> float:
-        return min(_ASIDE, _ASIDE_PART * self.channel.height / 2)
+        return min(_ASIDE, _ASIDE_PART * self.channel.room)
 
     def _background_lines(self) -> tuple[list[float], list[float]]:
-        half = self.channel.height / 2
-        x = [-self.channel.upstream, -_EVEN_AHEAD, _EVEN_BEHIND, self.channel.downstream]
+        channel, half = self.channel, self.channel.room
+        x = [-channel.upstream, -_EVEN_AHEAD, _EVEN_BEHIND, channel.downstream]
         if sorted(x) != x:
             raise SolverError(
                 f"flow.channel: the background of an overset mesh reaches from {-_EVEN_AHEAD:g} c "
                 f"to {_EVEN_BEHIND:g} c; the channel only from {x[0]:g} c to {x[3]:g} c"
             )
-        return x, [-half, -_EVEN_PART * half, _EVEN_PART * half, half]
+        return x, [channel.floor, -_EVEN_PART * half, _EVEN_PART * half, channel.ceiling]
 
     def _background(self) -> tuple[list[Row], list[Row]]:
         """Return columns and rows of the background at refinement 1."""
@@ -151,10 +151,11 @@ class OversetMesh:
     def reach(self, twist: float, deflection: float) -> float:
         """Return the reach of the component from the middle of the channel (chords).
 
-        The section is at a twist (rad) and a deflection (chords).
+        The section is at a twist (rad) and a deflection (chords) beyond those of the mesh.
         """
         turned = OversetMesh(self.channel, self.incidence + twist, self.refinement)
-        return max(abs(y + deflection) for _, y in turned._component_points())
+        above = self.channel.section_height + deflection
+        return max(abs(y + above) for _, y in turned._component_points())
 
     def _component_points(self) -> list[tuple[float, float]]:
         half = self.channel.thickness / 2

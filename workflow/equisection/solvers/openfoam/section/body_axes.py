@@ -52,15 +52,25 @@ class BodyAxes:
         d, chords from the elastic axis back to the centre of mass.
     start_twist
         Twist at the release (rad), in which the section is meshed.
+    equilibrium
+        Twist (rad) and deflection (chords) that the steady flow carries; of the twist at the
+        release a part, of the deflection all.
     """
 
     incidence: float
     behind_mid_chord: float = 0.0
     arm: float = 0.0
     start_twist: float = 0.0
+    equilibrium: tuple[float, float] = (0.0, 0.0)
 
     @classmethod
-    def of(cls, section: Section, incidence: float, start_twist: float = 0.0) -> BodyAxes:
+    def of(
+        cls,
+        section: Section,
+        incidence: float,
+        start_twist: float = 0.0,
+        equilibrium: tuple[float, float] = (0.0, 0.0),
+    ) -> BodyAxes:
         """Return the axes of a section in its flow at a rigid incidence and a first twist (rad).
 
         Raises
@@ -70,7 +80,7 @@ class BodyAxes:
         """
         section.require_defaults("the rigid body of OpenFOAM", but=OF_BODY)
         arm = section.static_imbalance / section.mass
-        return cls(incidence, section.axis_behind_mid_chord, arm, start_twist)
+        return cls(incidence, section.axis_behind_mid_chord, arm, start_twist, equilibrium)
 
     @property
     def elastic_axis(self) -> tuple[float, float]:
@@ -92,12 +102,14 @@ class BodyAxes:
 
     def deflection(self, height: Floats, twist: Floats) -> Floats:
         """Return w/c of the elastic axis from the height of the centre of mass and the twist."""
-        return np.asarray(height - self.elastic_axis[1] + self.arm * np.sin(twist))
+        moved = height - self.elastic_axis[1] + self.arm * np.sin(twist)
+        return np.asarray(self.equilibrium[1] + moved)
 
     def axis_places(self, twist: Floats, deflection: Floats) -> Places:
         """Return the places of the elastic axis at twists (rad) and deflections (chords)."""
         along, up = self.elastic_axis
-        return along + self.arm * (math.cos(self.start_twist) - np.cos(twist)), up + deflection
+        moved = deflection - self.equilibrium[1]
+        return along + self.arm * (math.cos(self.start_twist) - np.cos(twist)), up + moved
 
     def mid_chord_places(self, twist: Floats, deflection: Floats) -> Places:
         """Return the places of mid-chord at twists (rad) and deflections (chords)."""

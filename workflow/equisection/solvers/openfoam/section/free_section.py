@@ -53,6 +53,7 @@ from equisection.solvers.verdicts import (
     judge,
     last_look,
     refused,
+    told_without_equilibrium,
 )
 from equisection.verdict.zigzag import zigzag_of
 
@@ -72,9 +73,12 @@ class SectionRun(FreeRun[SectionCells]):
     @property
     def axes(self) -> BodyAxes:
         """Axes of the section."""
-        assert self.case.section is not None
-        incidence = math.radians(self.case.incidence_deg)
-        return BodyAxes.of(self.case.section, incidence, self.case.section_start_twist)
+        case = self.case
+        assert case.section is not None
+        incidence = math.radians(case.incidence_deg)
+        return BodyAxes.of(
+            case.section, incidence, case.section_start_twist, case.section_equilibrium
+        )
 
     def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
         """Make the rigid steady flow, as :func:`~.section_rigid.run_steady` does."""
@@ -89,7 +93,7 @@ class SectionRun(FreeRun[SectionCells]):
             folder,
             self.case.section,
             self.axes,
-            self.mesh.channel.height,
+            2 * self.mesh.channel.room,
             self.case.section_heave_rate,
         )
 
@@ -171,7 +175,7 @@ class SectionRun(FreeRun[SectionCells]):
 
         ``height`` is that of mid-chord (chords).
         """
-        mesh = MorphingMesh(self.installation, self.folder, self.mesh.channel.height)
+        mesh = MorphingMesh(self.installation, self.folder, 2 * self.mesh.channel.room)
         quality = mesh.along(rotation, height, 1, self.work / "moved")[-1]
         faults = quality.faults
         if not faults and quality.non_orthogonality_deg > _OBLIQUE:
@@ -230,7 +234,7 @@ def _from_release(
     return SectionHistory(
         np.concatenate([[0.0], sampled.time]),
         np.concatenate([[case.section_start_twist], sampled.twist]),
-        np.concatenate([[0.0], sampled.deflection]),
+        np.concatenate([[case.section_equilibrium[1]], sampled.deflection]),
         np.concatenate([[loads["lift"]], sampled.lift]),
         np.concatenate([[loads["moment"]], sampled.moment]),
         np.concatenate([[loads.get("axis_moment", loads["moment"])], sampled.axis_moment]),
@@ -247,7 +251,7 @@ def _result(
     tip = _tip(case.section, history)
     assert case.section is not None
     is_offset = case.section.axis_behind_mid_chord != 0.0
-    return UnsteadyResult(
+    result = UnsteadyResult(
         time=history.time,
         twist=history.twist,
         deflection=history.deflection,
@@ -260,3 +264,5 @@ def _result(
         verdict=judge(case, tip, failure),
         loads_zigzag=zigzag_of(so_far.time, so_far.lift, so_far.moment),
     )
+    is_without = case.start.state == "equilibrium" and case.start.equilibrium is None
+    return told_without_equilibrium(result) if is_without else result

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.beam.outline import outline_of, rectangle
-from equisection.cases import ForcedCase, Geometry, SteadyCase, UnsteadyCase
+from equisection.cases import ForcedCase, SteadyCase, UnsteadyCase
 from equisection.errors import SolverError
 from equisection.results.fluctuation import Fluctuation
 from equisection.results.surface import SectionSurface
@@ -89,7 +89,7 @@ def mesh_of(
     SolverError
         The case has no channel, which the mesh fills.
     """
-    return Mesh(_channel(case.geometry), _incidence(case), refinement, spacing)
+    return Mesh(_channel(case), _incidence(case), refinement, spacing)
 
 
 def outline_mesh_of(
@@ -124,21 +124,36 @@ def outline_mesh_of(
     if geometry.channel_height is None and far_field:
         channel = ChannelBox(geometry.thickness, 2 * far_field, far_field, far_field)
     else:
-        channel = _channel(geometry)
+        channel = _channel(case)
     if sizes is None:
         sizes = SIZES.resolving(flow.reynolds_number(geometry, case.medium))
     return OutlineMesh(outline, channel, _incidence(case), refinement, sizes)
 
 
-def _channel(geometry: Geometry) -> ChannelBox:
+def _channel(case: SteadyCase | UnsteadyCase | ForcedCase) -> ChannelBox:
+    """Return the channel of a case, of a free section about its place at the release."""
+    geometry = case.geometry
     if None in (geometry.channel_height, geometry.upstream, geometry.downstream):
         raise SolverError("flow.channel: null: the mesh of OpenFOAM fills a channel; give one")
     assert geometry.channel_height is not None
     assert geometry.upstream is not None
     assert geometry.downstream is not None
     return ChannelBox(
-        geometry.thickness, geometry.channel_height, geometry.upstream, geometry.downstream
+        geometry.thickness,
+        geometry.channel_height,
+        geometry.upstream,
+        geometry.downstream,
+        _height(case),
     )
+
+
+def _height(case: SteadyCase | UnsteadyCase | ForcedCase) -> float:
+    """Return the height of mid-chord at the release (chords), that of the undeformed section 0."""
+    if not isinstance(case, UnsteadyCase) or case.section is None or not case.start.equilibrium:
+        return 0.0
+    ahead, rigid = case.section.axis_behind_mid_chord, math.radians(case.incidence_deg)
+    turned = math.sin(_incidence(case)) - math.sin(rigid)
+    return case.section_equilibrium[1] + ahead * turned
 
 
 def _incidence(case: SteadyCase | UnsteadyCase | ForcedCase) -> float:

@@ -89,7 +89,7 @@ def rigid_body(
 ) -> dict[str, Any]:
     """Return the section in its flow, released from its first twist.
 
-    The springs are slack, but for that of the torsion where there is a first twist.
+    The springs are slack, but for what its axes have of a first twist and of an equilibrium.
 
     Parameters
     ----------
@@ -116,8 +116,8 @@ def rigid_body(
         "velocity": (0, heave_rate, 0),
         "acceleration": (0, 0, 0),
         "angularMomentum": (0, 0, 0),
-        # of the spring; without it the first step would have half of it
-        "torque": (0, 0, section.torsional_stiffness / 2 * twist),
+        # of the spring, less what the flow carries; without it the first step would have half of it
+        "torque": (0, 0, section.torsional_stiffness / 2 * (twist - axes.equilibrium[0])),
         "rho": "rhoInf",
         "rhoInf": 1.0,
         "g": (0, 0, 0),
@@ -149,11 +149,11 @@ def rigid_body(
 def _bending(section: Section, axes: BodyAxes) -> dict[str, Any]:
     """Return spring and damper of the bending, attached to the elastic axis."""
     along, up = axes.elastic_axis
-    up = round(up, _DIGITS)
+    up, slack = round(up, _DIGITS), round(up - axes.equilibrium[1], _DIGITS)
     length = _LONG if section.has_offset or section.flexural_damping else 0.0
     return {
         "sixDoFRigidBodyMotionRestraint": "linearSpring",
-        "anchor": (along, up - length, 0),
+        "anchor": (along, slack - length, 0),
         "refAttachmentPt": (along, up, 0),
         "stiffness": section.flexural_stiffness / 2,
         "damping": section.flexural_damping / 2,

@@ -1,0 +1,354 @@
+"""Results of a run as files for other programs: plain CSV and JSON, and input of OpenFAST.
+
+Each kind is one function, which writes what the run has of it; what the run has not is left out.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+import xarray as xr
+
+from equisection.analysis.learnt_file import export
+from equisection.analysis.run_tree import configuration_of
+from equisection.beam.section import QUANTITIES, Section
+from equisection.errors import ResultFileError
+from equisection.files import write_text
+from equisection.io.aerodyn_polar import aerodyn_text
+from equisection.io.ua_driver import DriverSection, ua_driver_text
+from equisection.results.modes_dataset import modes_from_dataset
+from equisection.results.netcdf import read_dataset
+from equisection.results.polar_dataset import polar_at
+from equisection.results.section_dataset import no_section, section_from_dataset
+
+
+@dataclass(frozen=True)
+class ExportedFile:
+    """File that was written, or the reason why one was not.
+
+    Attributes
+    ----------
+    kind
+        One of :data:`KINDS`.
+    path
+        The file.
+    holds
+        Contents in words.
+    left_out
+        Why there is no such file; empty where there is one.
+    """
+
+    kind: str
+    path: Path
+    holds: str
+    left_out: str = ""
+
+
+@dataclass(frozen=True)
+class _ExportedRun:
+    """Folder of a run, with its configuration and the files that every kind needs."""
+
+    folder: Path
+    to: Path
+
+    @cached_property
+    def configuration(self) -> dict[str, Any]:
+        return configuration_of(self.folder)
+
+    @cached_property
+    def flow(self) -> dict[str, Any]:
+        return dict(self.configuration["flow"])
+
+    @property
+    def resolution(self) -> str:
+        return str(self.configuration["steady"]["resolution"])
+
+    @property
+    def reynolds_number(self) -> float:
+        """Reynolds number V c/nu of the run's flow."""
+        chord = float(self.configuration["beam"]["chord"])
+        return float(self.flow["speed"]) * chord / self.kinematic_viscosity
+
+    @property
+    def kinematic_viscosity(self) -> float:
+        """Kinematic viscosity nu = mu/rho (m^2/s)."""
+        return float(self.flow["dynamic_viscosity"]) / float(self.flow["density"])
+
+    def read(self, file: str) -> xr.Dataset | None:
+        """Return a data set of the run; None where the run does not have it."""
+        path = self.folder / file
+        return read_dataset(path) if path.is_file() else None
+
+    def wrote(self, kind: str, name: str, text: str, holds: str) -> ExportedFile:
+        """Write a text file to the folder of the export."""
+        path = self.to / name
+        write_text(path, text)
+        return ExportedFile(kind, path, holds)
+
+    def as_json(self, kind: str, name: str, content: Any, holds: str) -> ExportedFile:
+        """Write a JSON file; numbers that are not finite become null."""
+        text = json.dumps(_finite(content), indent=1, allow_nan=False) + "\n"
+        return self.wrote(kind, name, text, holds)
+
+
+def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFile]:
+    """Write what a run has for other programs; return the files.
+
+    Parameters
+    ----------
+    run
+        Folder of the run.
+    to
+        Folder to write to; files of these names are written over.
+    kinds
+        Some of :data:`KINDS`; all of them where none is named.
+
+    Raises
+    ------
+    ResultFileError
+        The folder is no run, a file in it is broken, the folder ``to`` cannot be written to, or
+        the run has nothing of these kinds yet.
+    """
+    opened = _ExportedRun(run, to)
+    _ = opened.configuration
+    try:
+        files = [file for kind in kinds or KINDS for file in KINDS[kind](opened)]
+    except OSError as error:
+        raise ResultFileError(f"{to}: cannot be written to ({error})") from None
+    if not files:
+        wanted = ", ".join(kinds or KINDS)
+        raise ResultFileError(
+            f"{run}: nothing to export yet of {wanted}; 'equisection status {run}' says how far "
+            "the run is"
+        )
+    return files
+
+
+def _polars(run: _ExportedRun) -> Iterator[ExportedFile]:
+    """Write each steady polar as an airfoil table of AeroDyn."""
+    for dimension, whose in (("2d", "section"), ("3d", "beam")):
+        data = run.read(f"steady/polar_{dimension}.nc")
+        holds = f"polar of the {whose}, airfoil table of AeroDyn"
+        for resolution in [] if data is None else map(str, data["resolution"].values):
+            name = f"polar_{dimension}_{resolution}.dat"
+            try:
+                yield run.wrote("polars", name, _table(run, data, resolution), holds)
+            except ResultFileError as error:
+                yield ExportedFile("polars", run.to / name, holds, str(error))
+
+
+def _table(
+    run: _ExportedRun, data: xr.Dataset | None, resolution: str, *, unsteady: bool = False
+) -> str:
+    """Return an airfoil table; the half polar of a symmetric section gets its other half.
+
+    Raises
+    ------
+    ResultFileError
+        Too few incidences have a result.
+    """
+    if data is None:
+        raise ResultFileError("the run has no steady polar of the section yet")
+    given = polar_at(data, resolution)
+    whole = given.continued
+    comments = [
+        f"{given.label}.",
+        f"Written by 'equisection export' from the run {run.configuration['run']}; the Reynolds "
+        "number is that of its flow.",
+    ]
+    if whole is not given:
+        comments.append("Negative angles by symmetry.")
+    points = np.stack([np.degrees(whole.incidence), whole.lift, whole.moment, whole.drag], axis=1)
+    return aerodyn_text(points.tolist(), run.reynolds_number, comments, unsteady=unsteady)
+
+
+def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
+    """Write each learnt model as JSON, and its prediction as CSV."""
+    found = sorted((run.folder / "rom").glob("*/model*.nc"))
+    polar_file = run.read("steady/polar_2d.nc") if found else None
+    for path in found:
+        data = read_dataset(path)
+        stem = path.stem.replace("model", f"model_{path.parent.name}", 1)
+        for suffix, holds in (
+            (".json", "learnt model: coefficients, polar, equations"),
+            (".csv", "growth and frequency that the learnt model predicts"),
+        ):
+            output = run.to / f"{stem}{suffix}"
+            try:
+                if polar_file is None:
+                    raise ResultFileError("the run has no steady/polar_2d.nc")
+                export(data, polar_at(polar_file, run.resolution), output)
+            except ResultFileError as error:
+                yield ExportedFile("models", output, holds, str(error))
+            else:
+                yield ExportedFile("models", output, holds)
+
+
+def _derivatives(run: _ExportedRun) -> Iterator[ExportedFile]:
+    """Write tables of derivatives as they are, and as JSON with their convention."""
+    for dimension, holds in (
+        ("2d", "flutter derivatives of the section"),
+        ("3d", "forces on the modes of the beam"),
+    ):
+        path = run.folder / "derivatives" / f"{dimension}.csv"
+        if not path.is_file():
+            continue
+        text = path.read_text(encoding="utf-8")
+        said = [line.lstrip("# ") for line in text.splitlines() if line.startswith("#")]
+        columns = pd.read_csv(path, comment="#").to_dict("list")
+        name = f"derivatives_{dimension}"
+        yield run.wrote("derivatives", f"{name}.csv", text, holds)
+        content = {"convention": said, "columns": columns}
+        yield run.as_json("derivatives", f"{name}.json", content, holds)
+
+
+def _modes(run: _ExportedRun) -> Iterator[ExportedFile]:
+    """Write the modes of the beam: frequencies and shapes."""
+    data = run.read("structure/modes.nc")
+    if data is None:
+        return
+    modes = modes_from_dataset(data)
+    numbers = [int(number) for number in data["mode"].values]
+    table = pd.DataFrame(
+        {
+            "mode": numbers,
+            "kind": modes.kind,
+            "frequency_hz": modes.frequency,
+            "frequency_constant": data["frequency_constant"].values,
+        }
+    )
+    shapes = pd.DataFrame(modes.shape.T, columns=[f"mode_{number}" for number in numbers])
+    shapes.insert(0, "span", modes.span)
+    yield run.wrote("modes", "modes.csv", _csv(table), "natural frequencies (Hz)")
+    yield run.wrote("modes", "mode_shapes.csv", _csv(shapes), "mode shapes over z/L, largest 1")
+    content = {
+        "method": modes.method,
+        "elements": modes.elements,
+        "span": modes.span.tolist(),
+        "modes": [
+            {**row, "shape": shape.tolist()}
+            for row, shape in zip(table.to_dict("records"), modes.shape, strict=True)
+        ],
+    }
+    yield run.as_json("modes", "modes.json", content, "frequencies (Hz) and shapes over z/L")
+
+
+def _sections(run: _ExportedRun) -> dict[str, Section]:
+    """Return the equivalent section of each reduction that has one."""
+    data = run.read("structure/equivalent.nc")
+    if data is None:
+        return {}
+    reductions = map(str, data["reduction"].values)
+    return {
+        name: section_from_dataset(data, name) for name in reductions if not no_section(data, name)
+    }
+
+
+def _section(run: _ExportedRun) -> Iterator[ExportedFile]:
+    """Write the equivalent section of each reduction, SI per metre of span."""
+    sections = _sections(run)
+    if not sections:
+        return
+    table = pd.DataFrame(
+        [
+            {
+                "quantity": name,
+                "unit": quantity.units,
+                **{reduction: getattr(one, name) for reduction, one in sections.items()},
+                "meaning": quantity.meaning,
+            }
+            for name, quantity in QUANTITIES.items()
+        ]
+    )
+    holds = "equivalent section, SI units per metre of span"
+    yield run.wrote("section", "section.csv", _csv(table), holds)
+    content = {
+        "units": {name: quantity.units for name, quantity in QUANTITIES.items()},
+        "reductions": {
+            name: {member: getattr(one, member) for member in QUANTITIES}
+            for name, one in sections.items()
+        },
+    }
+    yield run.as_json("section", "section.json", content, holds)
+
+
+#: Airfoil table that the input of the driver names.
+_AIRFOIL = "ua_airfoil.dat"
+
+
+def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
+    """Write the section as input of OpenFAST's unsteady-aerodynamics driver, with its airfoil."""
+    sections = _sections(run)
+    if not sections:
+        return
+    kind, holds = "openfast", "airfoil table of the driver"
+    try:
+        polar = run.read("steady/polar_2d.nc")
+        table = _table(run, polar, run.resolution, unsteady=True)
+    except ResultFileError as error:
+        yield ExportedFile(kind, run.to / _AIRFOIL, holds, str(error))
+        return
+    yield run.wrote(kind, _AIRFOIL, table, holds)
+    for reduction, section in sections.items():
+        title = f"{run.configuration['run']}: equivalent section, {reduction} reduction"
+        text = ua_driver_text(_driver_section(run, section), title)
+        holds = f"section of the {reduction} reduction, UnsteadyAero_Driver"
+        yield run.wrote(kind, f"ua_{reduction}.dvr", text, holds)
+
+
+def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
+    flow, unsteady = run.flow, run.configuration["unsteady"]
+    speed = float(flow["speed"])
+    convective = section.chord / speed
+    start = unsteady["start"]
+    return DriverSection(
+        airfoil=_AIRFOIL,
+        chord=section.chord,
+        elastic_axis=section.elastic_axis,
+        mass=section.mass_matrix.tolist(),
+        damping=section.damping_matrix.tolist(),
+        stiffness=section.stiffness_matrix.tolist(),
+        incidence_deg=float(flow["incidence_deg"]),
+        twist=math.radians(float(start["twist_deg"])) * section.twist_recovery,
+        heave_rate=float(start["heave_rate"]) * speed * section.deflection_recovery,
+        density=float(flow["density"]),
+        kinematic_viscosity=run.kinematic_viscosity,
+        sound_speed=float(flow["sound_speed"]),
+        speed=speed,
+        duration=float(unsteady["duration"]) * convective,
+        time_step=float(unsteady["time_step"]) * convective,
+    )
+
+
+def _csv(table: pd.DataFrame) -> str:
+    return str(table.to_csv(index=False, float_format="%.10g"))
+
+
+def _finite(content: Any) -> Any:
+    """Return plain numbers, lists and dicts; None in the place of what is not finite."""
+    if isinstance(content, dict):
+        return {name: _finite(value) for name, value in content.items()}
+    if isinstance(content, list | tuple):
+        return [_finite(value) for value in content]
+    if isinstance(content, float) and not math.isfinite(content):
+        return None
+    return content
+
+
+#: Kinds of exports, in the order in which they are written.
+KINDS: dict[str, Callable[[_ExportedRun], Iterator[ExportedFile]]] = {
+    "polars": _polars,
+    "models": _models,
+    "derivatives": _derivatives,
+    "modes": _modes,
+    "section": _section,
+    "openfast": _openfast,
+}
