@@ -108,7 +108,7 @@ def growth_behind_release(case: UnsteadyCase, tip: TipMotion, end: float = UNTIL
 def mesh_releases(reference: Path) -> list[MeshRelease]:
     """Return the kept releases of the plate and its sections on meshes of one family.
 
-    They have the time step of :data:`STEPS`; of several of a model, k*, mesh and number of
+    They have the time step of :data:`STEPS` and start from rest, rigid; of several of a model, k*, mesh and number of
     iterations the longest is taken.
     """
     chosen: dict[tuple[Any, ...], MeshRelease] = {}
@@ -134,7 +134,7 @@ def mesh_releases(reference: Path) -> list[MeshRelease]:
 
 def _is_compared(kept: Kept) -> bool:
     case = kept.case
-    if case.get("kind") != FREE.folder or "outline" in case["geometry"]:
+    if case.get("kind") != FREE.folder or "outline" in case["geometry"] or "start" in case:
         return False
     settings = case["solver"]["settings"]
     unusual = {"mesh_motion", "mesher"} & settings.keys()
