@@ -108,8 +108,8 @@ def growth_behind_release(case: UnsteadyCase, tip: TipMotion, end: float = UNTIL
 def mesh_releases(reference: Path) -> list[MeshRelease]:
     """Return the kept releases of the plate and its sections on meshes of one family.
 
-    They have the time step of :data:`STEPS` and start from rest, rigid; of several of a model, k*, mesh and number of
-    iterations the longest is taken.
+    They have the time step of :data:`STEPS` and start from rest, rigid; of several of a model, k*,
+    mesh and number of iterations the longest is taken.
     """
     chosen: dict[tuple[Any, ...], MeshRelease] = {}
     for kept in kept_results(reference):  # the longest first
