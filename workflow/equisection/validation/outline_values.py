@@ -7,9 +7,8 @@ from pathlib import Path
 
 from equisection.aerodynamics.derivatives import Derivatives
 from equisection.analysis.forced_derivatives import derivatives_of
-from equisection.cases import ForcedCase, SteadyCase
+from equisection.cases import ForcedCase
 from equisection.results.netcdf import read_dataset
-from equisection.results.surface import surface_from_dataset
 from equisection.store.kept import kept_results
 from equisection.validation.known_values import KnownValue, Source
 
@@ -40,13 +39,6 @@ _LOADS = {
     "moment by heave": (4, 7),
     "moment by pitch": (5, 6),
 }
-_CHERRY = Source(
-    "unconfirmed",
-    "Cherry, Hillier and Latour, Journal of Fluid Mechanics 144, 1984: 4.9 thicknesses at a "
-    "Reynolds number of the thickness of 3.2e4",
-)
-_BLUNT = "Blunt plate at 0 deg by OpenFOAM, Re 5e3 of its thickness"
-_FINE = "paper-plate-openfoam-grid/steady/2d/fine_a0"
 _AIRFOIL, _SLOW = "NACA 0012 by OpenFOAM, Re 3.4e5", "NACA 0012 by OpenFOAM, Re 500, laminar"
 
 
@@ -66,16 +58,6 @@ def kept_load(name: str, coefficient: str) -> float:
         The result is missing or altered.
     """
     return float(read_dataset(_KEPT / f"{name}.nc")[coefficient])
-
-
-def _reattachment(name: str) -> float:
-    """Return the mean length of the bubbles of both sides over the thickness of the plate."""
-    result = read_dataset(_KEPT / f"{name}.nc")
-    surface = surface_from_dataset(result)
-    assert surface is not None
-    ends = [surface.reattachment(side) for side in ("upper", "lower")]
-    thickness = SteadyCase.model_validate_json(result.attrs["case"]).geometry.thickness
-    return sum(ends) / len(ends) / thickness
 
 
 def _lift_slope(name: str, incidence_deg: float) -> float:
@@ -133,7 +115,7 @@ def _moved_plate() -> list[KnownValue]:
 
 
 def outline_values() -> list[KnownValue]:
-    """Return known loads of an airfoil and of a thin plate, and the bubble of a blunt one."""
+    """Return known loads of an airfoil and of a thin plate."""
     coarse = "coarse mesh, of some 1e4 cells"
     return [
         KnownValue(
@@ -171,15 +153,4 @@ def outline_values() -> list[KnownValue]:
             for code, known in (("CFL3D", 0.1741), ("PowerFLOW", 0.1717))
         ),
         *_moved_plate(),
-        KnownValue(
-            _BLUNT,
-            "end of the bubble over the thickness, mesh fine",
-            "-",
-            4.9,
-            _CHERRY,
-            partial(_reattachment, _FINE),
-            0.2,
-            "a lower Reynolds number, and eddy viscosity in a bubble that sheds vortices; the "
-            "bubble is 11 % longer on the coarse mesh",
-        ),
     ]
