@@ -195,8 +195,14 @@ def test_every_beam_runs_without_the_paper(path: Path, without_the_paper: Projec
     assert jobs_planned(said) == jobs_wanted(raw, batches, with_paper=False)
 
 
+#: Examples that are the paper's plate.
+OF_THE_PLATE = ("own_polar", "openfoam_equilibrium")
+
+
 @pytest.mark.parametrize(
-    "path", [path for path in EXAMPLES if path.stem != "own_polar"], ids=lambda path: path.stem
+    "path",
+    [path for path in EXAMPLES if path.stem not in OF_THE_PLATE],
+    ids=lambda path: path.stem,
 )
 def test_another_beam_makes_no_file_of_the_paper(path: Path, clone: Project) -> None:
     said = clone.run("--dry-run", "--configfile", str(path.relative_to(ROOT)))
