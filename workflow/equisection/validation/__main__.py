@@ -45,7 +45,7 @@ _WITHOUT = (
         "the coefficients beyond A_1 were not at hand to look them up",
     ),
     (
-        "square cylinder at Re 100, rms of the lift (Sohankar, Norberg and Davidson, 1998)",
+        "square cylinder at Re 100, rms of the lift (Sohankar and others, 1998)",
         "0.177 on one mesh here, 0.139 to 0.156 on the three of the source: why is not known",
     ),
     (
