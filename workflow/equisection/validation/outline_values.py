@@ -166,8 +166,8 @@ def outline_values() -> list[KnownValue]:
                 _SOHANKAR,
                 partial(kept_load, "square-cylinder/steady/2d/coarse_a0", coefficient),
                 0.02,
-                "C_D of the three grids of the source is 1.460 to 1.478; here it is of 12 periods on "
-                "one mesh, whose halves are 1.5 % apart. The rms of the lift is no row (below)",
+                "C_D of the three grids of the source is 1.460 to 1.478; here it is of 12 periods "
+                "on one mesh, whose halves are 1.5 % apart. The rms of the lift is no row (below)",
             )
             for quantity, known, coefficient in (
                 ("mean drag", 1.478, "cd"),
