@@ -27,6 +27,8 @@ from equisection.results.section_dataset import (
     section_in_flow,
     with_flutter,
 )
+from equisection.solvers.openfoam.flow_setup import reynolds_number
+from equisection.solvers.openfoam.mesh.outline_mesh import require_mesher
 from equisection.solvers.registry import solver_from_config
 from equisection.structure.mode_set import frequency_constants
 from equisection.structure.modes import compute_modes, modes_of_kinds
@@ -370,6 +372,25 @@ def test_point_of_a_speed_is_the_beam_as_given_at_that_speed(
     assert beam.beam.torsion_frequency == pytest.approx(
         ratio * np.array(as_given.torsion_frequency), rel=1e-12
     )
+
+
+def test_each_speed_of_a_sweep_has_the_mesher_of_its_reynolds_number(
+    data: dict[str, xr.Dataset],
+) -> None:
+    """The configuration's own speed may be on the other side of where the first cells thin."""
+    sweep = {"speed": [20.0, 90.0], "models": ["2d"]}
+    config = load_config(
+        RAW
+        | {"solver": "openfoam", "openfoam": {"mesher": "outline"}, "sweep": sweep}
+        | {"steady": {"resolution": "coarse"}, "unsteady": {"time_step": 0.02}}
+    )
+    solver, model = solver_from_config(config, "coarse"), plan.model("2d", config.reduction)
+    meshers = []
+    for speed in config.sweep.values():
+        found = case_at(config, model, Point.at({SPEED: speed}), data, solver)
+        meshers.append(found.solver.settings["mesher"])
+        require_mesher(meshers[-1], reynolds_number(found.geometry, found.medium))
+    assert [mesher.partition(",")[0] for mesher in meshers] == ["outline 1", "outline 2"]
 
 
 @pytest.mark.parametrize("member", ["static_imbalance", "flexural_damping", "torsional_damping"])

@@ -12,6 +12,7 @@ if TYPE_CHECKING:  # the graph is built from what solvers provide, without numer
     from equisection.aerodynamics.polar import Polar
     from equisection.aerodynamics.separation import SeparationLags
     from equisection.cases import Case, SteadyCase, UnsteadyCase
+    from equisection.config import Config
     from equisection.motion.body_in_flow import BodyInFlow
     from equisection.results.plate_grid import PlateGrid
     from equisection.results.section_mesh import SectionMesh
@@ -172,6 +173,15 @@ class HasStates(Protocol):
 
     def body(self, case: UnsteadyCase) -> BodyInFlow:
         """Return section or beam of a case in a flow of any speed, without its correction."""
+        ...
+
+
+@runtime_checkable
+class OfFlow(Protocol):
+    """Solver whose set-up goes with the flow of a case, as that of a mesh does with its speed."""
+
+    def in_flow(self, config: Config) -> Solver:
+        """Return the solver as it is set up in the flow of a configuration."""
         ...
 
 

@@ -33,7 +33,7 @@ from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import no_section, section_from_dataset
-from equisection.solvers.protocol import Capability, HasRecords, Solver
+from equisection.solvers.protocol import Capability, HasRecords, OfFlow, Solver
 from equisection.solvers.verdicts import pitch_frequency
 from equisection.study.axes import K_STAR, Point
 from equisection.study.plan import Model
@@ -67,6 +67,8 @@ def case_at(
     """
     there = point.of_config(config)
     k_star = point.columns.get(K_STAR.name) or k_star_as_given(there, data["equivalent"])
+    if isinstance(solver, OfFlow):
+        solver = solver.in_flow(there)
     case = unsteady_case(there, model, k_star, data, solver)
     if not isinstance(solver, HasRecords):
         return case

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -73,6 +74,13 @@ class Adapter:
     ) -> Adapter:
         """Return the solver of a case, to run on as many ranks as there are threads."""
         return cls(Settings(**settings), allocation)
+
+    def in_flow(self, config: Config) -> Adapter:
+        """Return the solver in the flow of a configuration, whose speed a mesher may go by."""
+        if not self._settings.mesher:
+            return self
+        settings = replace(self._settings, mesher=_mesher(config))
+        return Adapter(settings, Allocation(self._ranks, self._launcher))
 
     def settings(self, dimension: str) -> dict[str, Any]:
         """Return the settings of a case that decide the results of a dimension."""
