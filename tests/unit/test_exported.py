@@ -6,6 +6,7 @@ import io
 import json
 import shutil
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -34,7 +35,7 @@ SECTION = Section(
 )
 ANGLES = np.array([-2.0, 0.0, 2.0, 4.0, 6.0])
 LIFT, MOMENT, DRAG = 0.1 * ANGLES, 0.02 * ANGLES, 0.01 + 0.0 * ANGLES
-CONFIGURATION = {
+CONFIGURATION: dict[str, Any] = {
     "run": "made-up",
     "beam": {"chord": 0.8},
     "flow": {
@@ -205,6 +206,28 @@ def test_a_model_without_coefficients_says_why(
     assert main(["export", str(copy), "--only", "models"]) == 0
     said = capsys.readouterr().out
     assert f"left out        {copy / 'export' / 'model_2d_a4.json'}: 2d: no model: its" in said
+
+
+@pytest.mark.parametrize("content", [b"", b'a,b\n1,2,3,4\n5\n"', b"\xff\xfe"], ids=repr)
+def test_a_broken_table_is_named(
+    run: Path, content: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    (copy / "derivatives" / "2d.csv").write_bytes(content)
+    assert main(["export", str(copy), "--only", "derivatives"]) == 1
+    assert f"{copy / 'derivatives' / '2d.csv'}: cannot be read" in capsys.readouterr().err
+
+
+def test_a_configuration_without_a_key_that_is_needed_is_named(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    flow = {name: value for name, value in CONFIGURATION["flow"].items() if name != "sound_speed"}
+    (copy / "config.resolved.yaml").write_text(yaml.safe_dump({**CONFIGURATION, "flow": flow}))
+    assert main(["export", str(copy), "--only", "openfast"]) == 1
+    assert "config.resolved.yaml: no key flow.sound_speed" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -5,6 +5,7 @@ Each kind is one function, which writes what the run has of it; what the run has
 
 from __future__ import annotations
 
+import io
 import json
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -18,7 +19,7 @@ import pandas as pd
 import xarray as xr
 
 from equisection.analysis.learnt_file import export
-from equisection.analysis.run_tree import configuration_of
+from equisection.analysis.run_tree import CONFIGURATION, configuration_of
 from equisection.beam.section import QUANTITIES, Section
 from equisection.errors import ResultFileError
 from equisection.files import write_text
@@ -63,24 +64,47 @@ class _ExportedRun:
     def configuration(self) -> dict[str, Any]:
         return configuration_of(self.folder)
 
-    @cached_property
-    def flow(self) -> dict[str, Any]:
-        return dict(self.configuration["flow"])
+    def value(self, *names: str) -> Any:
+        """Return the value of a key, by its names from the outermost in.
+
+        Raises
+        ------
+        ResultFileError
+            The configuration has no such key.
+        """
+        value: Any = self.configuration
+        for name in names:
+            if not isinstance(value, dict) or name not in value:
+                raise ResultFileError(
+                    f"{self.folder / CONFIGURATION}: no key {'.'.join(names)}, as one of another "
+                    "version or one that was edited; run again"
+                )
+            value = value[name]
+        return value
 
     @property
     def resolution(self) -> str:
-        return str(self.configuration["steady"]["resolution"])
+        return str(self.value("steady", "resolution"))
+
+    @property
+    def speed(self) -> float:
+        """V (m/s)."""
+        return float(self.value("flow", "speed"))
+
+    @property
+    def density(self) -> float:
+        """Density rho (kg/m^3)."""
+        return float(self.value("flow", "density"))
 
     @property
     def reynolds_number(self) -> float:
         """Reynolds number V c/nu of the run's flow."""
-        chord = float(self.configuration["beam"]["chord"])
-        return float(self.flow["speed"]) * chord / self.kinematic_viscosity
+        return self.speed * float(self.value("beam", "chord")) / self.kinematic_viscosity
 
     @property
     def kinematic_viscosity(self) -> float:
         """Kinematic viscosity nu = mu/rho (m^2/s)."""
-        return float(self.flow["dynamic_viscosity"]) / float(self.flow["density"])
+        return float(self.value("flow", "dynamic_viscosity")) / self.density
 
     def read(self, file: str) -> xr.Dataset | None:
         """Return a data set of the run; None where the run does not have it."""
@@ -201,9 +225,15 @@ def _derivatives(run: _ExportedRun) -> Iterator[ExportedFile]:
         path = run.folder / "derivatives" / f"{dimension}.csv"
         if not path.is_file():
             continue
-        text = path.read_text(encoding="utf-8")
+        try:
+            text = path.read_text(encoding="utf-8")
+            columns = pd.read_csv(io.StringIO(text), comment="#").to_dict("list")
+        except (OSError, ValueError) as error:  # what pandas cannot parse is a ValueError
+            reason = " ".join(str(error).split())
+            raise ResultFileError(
+                f"{path}: cannot be read as a table ({reason}); delete it and run again"
+            ) from None
         said = [line.lstrip("# ") for line in text.splitlines() if line.startswith("#")]
-        columns = pd.read_csv(path, comment="#").to_dict("list")
         name = f"derivatives_{dimension}"
         yield run.wrote("derivatives", f"{name}.csv", text, holds)
         content = {"convention": said, "columns": columns}
@@ -305,10 +335,9 @@ def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
 
 
 def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
-    flow, unsteady = run.flow, run.configuration["unsteady"]
-    speed = float(flow["speed"])
-    convective = section.chord / speed
-    start = unsteady["start"]
+    convective = section.chord / run.speed
+    pushed = math.radians(float(run.value("unsteady", "start", "twist_deg")))
+    rate = float(run.value("unsteady", "start", "heave_rate")) * run.speed
     return DriverSection(
         airfoil=_AIRFOIL,
         chord=section.chord,
@@ -316,15 +345,15 @@ def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
         mass=section.mass_matrix.tolist(),
         damping=section.damping_matrix.tolist(),
         stiffness=section.stiffness_matrix.tolist(),
-        incidence_deg=float(flow["incidence_deg"]),
-        twist=math.radians(float(start["twist_deg"])) * section.twist_recovery,
-        heave_rate=float(start["heave_rate"]) * speed * section.deflection_recovery,
-        density=float(flow["density"]),
+        incidence_deg=float(run.value("flow", "incidence_deg")),
+        twist=pushed * section.twist_recovery,
+        heave_rate=rate * section.deflection_recovery,
+        density=run.density,
         kinematic_viscosity=run.kinematic_viscosity,
-        sound_speed=float(flow["sound_speed"]),
-        speed=speed,
-        duration=float(unsteady["duration"]) * convective,
-        time_step=float(unsteady["time_step"]) * convective,
+        sound_speed=float(run.value("flow", "sound_speed")),
+        speed=run.speed,
+        duration=float(run.value("unsteady", "duration")) * convective,
+        time_step=float(run.value("unsteady", "time_step")) * convective,
     )
 
 
