@@ -49,7 +49,7 @@ CONFIGURATION: dict[str, Any] = {
     "unsteady": {
         "duration": 400.0,
         "time_step": 0.05,
-        "start": {"twist_deg": 1.0, "heave_rate": 0.02},
+        "start": {"state": "rigid", "twist_deg": 1.0, "heave_rate": 0.02},
     },
 }
 
@@ -186,6 +186,27 @@ def test_start_of_the_driver_is_that_of_the_section(run: Path, tmp_path: Path) -
     assert float(values["InitVel"][0]) == pytest.approx(0.02 * 10.0 * 0.4)
     assert float(values["TMax"][0]) == pytest.approx(400.0 * 0.08)
     assert float(values["DT"][0]) == pytest.approx(0.05 * 0.08)
+
+
+def test_start_from_equilibrium_has_the_springs_carry_the_loads(run: Path, tmp_path: Path) -> None:
+    """Without the push K q is lift and moment of the polar, here about the elastic axis."""
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    start = {"state": "equilibrium", "twist_deg": 1.0, "heave_rate": 0.0}
+    unsteady = {**CONFIGURATION["unsteady"], "start": start}
+    flow = {**CONFIGURATION["flow"], "speed": 5.0}  # at 10 m/s it has none
+    changed = {**CONFIGURATION, "flow": flow, "unsteady": unsteady}
+    (copy / "config.resolved.yaml").write_text(yaml.safe_dump(changed))
+    assert main(["export", str(copy), "--only", "openfast"]) == 0
+    text = (copy / "export" / "ua_consistent.dvr").read_text()
+    line = next(one for one in text.splitlines() if " InitPos " in one)
+    deflection, _, nose_down = map(float, line.replace(",", " ").split()[:3])
+    twist = -nose_down - np.radians(1.0) * SECTION.twist_recovery
+    alpha = 2.5 + np.degrees(twist)
+    pressure = 0.5 * 1.2 * 5.0**2 * SECTION.chord
+    assert SECTION.flexural_stiffness * deflection == pytest.approx(pressure * 0.1 * alpha)
+    moment = pressure * SECTION.chord * 0.02 * alpha
+    assert SECTION.torsional_stiffness * twist == pytest.approx(moment)
 
 
 def test_for_machines(run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

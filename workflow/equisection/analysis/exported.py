@@ -18,6 +18,7 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from equisection.aerodynamics.polar import Polar
 from equisection.analysis.learnt_file import export
 from equisection.analysis.run_tree import CONFIGURATION, configuration_of
 from equisection.beam.section import QUANTITIES, Section
@@ -25,6 +26,7 @@ from equisection.errors import ResultFileError
 from equisection.files import write_text
 from equisection.io.aerodyn_polar import aerodyn_text
 from equisection.io.ua_driver import DriverSection, ua_driver_text
+from equisection.motion.static_branch import section_in_equilibrium
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
@@ -321,20 +323,29 @@ def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
         return
     kind, holds = "openfast", "airfoil table of the driver"
     try:
-        polar = run.read("steady/polar_2d.nc")
-        table = _table(run, polar, run.resolution, unsteady=True)
+        data = run.read("steady/polar_2d.nc")
+        table = _table(run, data, run.resolution, unsteady=True)
     except ResultFileError as error:
         yield ExportedFile(kind, run.to / _AIRFOIL, holds, str(error))
         return
     yield run.wrote(kind, _AIRFOIL, table, holds)
+    assert data is not None, "without it there is no table"
+    polar = polar_at(data, run.resolution).continued
     for reduction, section in sections.items():
         title = f"{run.configuration['run']}: equivalent section, {reduction} reduction"
-        text = ua_driver_text(_driver_section(run, section), title)
+        text = ua_driver_text(_driver_section(run, section, polar), title)
         holds = f"section of the {reduction} reduction, UnsteadyAero_Driver"
         yield run.wrote(kind, f"ua_{reduction}.dvr", text, holds)
 
 
-def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
+def _driver_section(run: _ExportedRun, section: Section, polar: Polar) -> DriverSection:
+    """Return the section with the start of the run; undeformed where it has no equilibrium."""
+    incidence_deg = float(run.value("flow", "incidence_deg"))
+    twist, deflection = 0.0, 0.0
+    if run.value("unsteady", "start", "state") == "equilibrium":
+        flowing = section.in_flow(run.density, run.speed)
+        found = section_in_equilibrium(flowing, polar, math.radians(incidence_deg))
+        twist, deflection = found or (twist, deflection)
     convective = section.chord / run.speed
     pushed = math.radians(float(run.value("unsteady", "start", "twist_deg")))
     rate = float(run.value("unsteady", "start", "heave_rate")) * run.speed
@@ -345,8 +356,9 @@ def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
         mass=section.mass_matrix.tolist(),
         damping=section.damping_matrix.tolist(),
         stiffness=section.stiffness_matrix.tolist(),
-        incidence_deg=float(run.value("flow", "incidence_deg")),
-        twist=pushed * section.twist_recovery,
+        incidence_deg=incidence_deg,
+        twist=twist + pushed * section.twist_recovery,
+        deflection=deflection * section.chord,
         heave_rate=rate * section.deflection_recovery,
         density=run.density,
         kinematic_viscosity=run.kinematic_viscosity,
