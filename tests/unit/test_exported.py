@@ -209,6 +209,18 @@ def test_start_from_equilibrium_has_the_springs_carry_the_loads(run: Path, tmp_p
     assert SECTION.torsional_stiffness * twist == pytest.approx(moment)
 
 
+def test_runs_of_one_name_are_not_written_over_each_other(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = tmp_path / "elsewhere" / run.name
+    shutil.copytree(run, other)
+    to = tmp_path / "to"
+    assert main(["export", str(run), str(other), "--to", str(to)]) == 1
+    assert "two of the runs have one name" in capsys.readouterr().err
+    assert not to.exists()
+    assert main(["export", str(other), str(other), "--to", str(to)]) == 0
+
+
 def test_for_machines(run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     wanted = ["--only", "section", "--only", "modes", "--json"]
     assert main(["export", str(run), "--to", str(tmp_path), *wanted]) == 0
