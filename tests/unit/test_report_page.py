@@ -135,6 +135,28 @@ def test_colour_of_the_map_changes_at_the_critical_speed(
 
 
 @pytest.mark.parametrize(
+    ("basis", "words"),
+    [
+        ("eigenvalue", "The line is the critical speed"),
+        ("model", "Markers are the critical speeds of releases by a learnt model"),
+    ],
+)
+def test_map_of_learnt_models_joins_nothing_and_says_what_it_shows(
+    stability_map: xr.Dataset,
+    stability: pd.DataFrame,
+    basis: str,
+    words: str,
+    tmp_path: Path,
+) -> None:
+    of_basis = stability_map.assign_attrs(basis=basis)
+    section, _ = interactive_map(of_basis, stability, None)["models"]
+    assert section["figure"]["data"][1]["mode"] == (
+        "markers" if basis == "model" else "lines+markers"
+    )
+    assert words in written(tmp_path, of_basis, stability).read_text()
+
+
+@pytest.mark.parametrize(
     "template",
     ["{{ snakemake.config['no'] }}", "A long title\n=====\n", ".. raw:: html\n\n   <b>", "*open"],
 )

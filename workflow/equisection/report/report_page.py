@@ -129,6 +129,7 @@ def write_report(
         cases=len(status.entries),
         untold=_untold(status),
         map=Markup(_as_script(drawn)) if drawn else None,  # noqa: S704, without < and &
+        learnt=drawn is not None and drawn["is_learnt"],
         lacks=lacks,
         first=[(one, picture(one.path)) for one in first],
         figures=[(one, picture(one.path)) for one in further],
