@@ -209,6 +209,21 @@ def test_what_cannot_be_read_or_written_is_named(tmp_path: Path) -> None:
         write_report(tmp_path / "a-file" / "a.html", run.folder, figures=[], **parts)
 
 
+@pytest.mark.parametrize("text", ["", "a,b\n1,2\n", "model,incidence_deg\n2d,two\n"])
+def test_a_broken_table_of_the_map_is_named(tmp_path: Path, text: str) -> None:
+    (tmp_path / "stability.csv").write_text(text)
+    files = MapFiles(tmp_path / "map.nc", tmp_path / "stability.csv", None)
+    with pytest.raises(ReportError, match=r"stability\.csv: no table of a map"):
+        write_report(
+            tmp_path / "report.html",
+            Run(tmp_path).folder,
+            figures=[],
+            tables=[],
+            map_files=files,
+            config_text="",
+        )
+
+
 @pytest.fixture(scope="module")
 def page(
     tmp_path_factory: pytest.TempPathFactory, stability_map: xr.Dataset, stability: pd.DataFrame
