@@ -241,6 +241,30 @@ def test_a_model_without_coefficients_says_why(
     assert f"left out        {copy / 'export' / 'model_2d_a4.json'}: 2d: no model: its" in said
 
 
+def test_a_model_of_a_beam_has_its_prediction_without_a_polar_of_the_section(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    (copy / "steady" / "polar_2d.nc").unlink()
+    learnt = xr.Dataset(
+        {
+            "rate": ("fit", [0.2], says("rate")),
+            "moment_terms": (("fit", "term"), np.zeros((1, 5)), says("terms")),
+            "growth_rate": ("k_star", [0.1, -0.1], says("growth")),
+        },
+        {"k_star": ("k_star", [3.0, 4.0], says("k*"))},
+        {"model": "3d", "words": "learnt", "confirmation": "none", "axis": "k_star"},
+    )
+    write_dataset(copy / "rom" / "3d" / "model.nc", learnt)
+    assert main(["export", str(copy), "--only", "models"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert "model_3d.json: 3d: a model of the strips of a beam" in said[0]
+    assert said[1] == str(copy / "export" / "model_3d.csv")
+    growth = pd.read_csv(said[1], comment="#")
+    assert growth["growth_rate"].tolist() == [0.1, -0.1]
+
+
 @pytest.mark.parametrize("content", [b"", b'a,b\n1,2,3,4\n5\n"', b"\xff\xfe"], ids=repr)
 def test_a_broken_table_is_named(
     run: Path, content: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]

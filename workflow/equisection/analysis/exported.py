@@ -19,7 +19,7 @@ import pandas as pd
 import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
-from equisection.analysis.learnt_file import export
+from equisection.analysis.learnt_file import export, is_of_strips, require_model
 from equisection.analysis.run_tree import CONFIGURATION, configuration_of
 from equisection.beam.section import QUANTITIES, Section
 from equisection.errors import ResultFileError
@@ -199,7 +199,7 @@ def _table(
 def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write each learnt model as JSON, and its prediction as CSV."""
     found = sorted((run.folder / "rom").glob("*/model*.nc"))
-    polar_file = run.read("steady/polar_2d.nc") if found else None
+    polars = run.read("steady/polar_2d.nc") if found else None
     for path in found:
         data = read_dataset(path)
         stem = path.stem.replace("model", f"model_{path.parent.name}", 1)
@@ -209,9 +209,11 @@ def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
         ):
             output = run.to / f"{stem}{suffix}"
             try:
-                if polar_file is None:
-                    raise ResultFileError("the run has no steady/polar_2d.nc")
-                export(data, polar_at(polar_file, run.resolution), output)
+                require_model(data)
+                polar = None
+                if polars is not None and suffix == ".json" and not is_of_strips(data):
+                    polar = polar_at(polars, run.resolution)
+                export(data, polar, output)
             except ResultFileError as error:
                 yield ExportedFile("models", output, holds, str(error))
             else:
