@@ -55,6 +55,7 @@ def given(section: Section = SECTION) -> DriverSection:
         stiffness=section.stiffness_matrix.tolist(),
         incidence_deg=INCIDENCE,
         twist=0.01,
+        deflection=0.02,
         heave_rate=0.2,
         density=DENSITY,
         kinematic_viscosity=1.5e-5,
@@ -109,7 +110,7 @@ def test_units_are_si_and_angles_in_degrees_where_the_driver_has_them(
     ):
         assert numbers(driver, name) == pytest.approx([value]), name
     assert numbers(driver, "Inflow") == pytest.approx([0.0, SPEED])
-    assert numbers(driver, "InitPos") == pytest.approx([0.0, 0.0, -0.01])
+    assert numbers(driver, "InitPos") == pytest.approx([0.02, 0.0, -0.01])
     assert numbers(driver, "InitVel") == pytest.approx([0.2, 0.0, 0.0])
     assert driver["ActiveDOF"] == ["T", "F", "T"]
     assert driver["AirFoil"] == ['"ua_airfoil.dat"']

@@ -87,6 +87,10 @@ class TestOnset:
         assert "below 10 m/s" in lines[0]
         assert lines[2].endswith("no speed is known to be stable")
 
+    def test_a_model_whose_name_is_a_number_is_taken_as_a_name(self, tmp_path: Path) -> None:
+        run = run_with(tmp_path / "run", "2,0,30,29,31,flutter,2,1,,time,,,")
+        assert answer_of(run).chosen["model"] == "2"
+
     def test_recorded_histories_of_another_run_answer_before_eigenvalues(
         self, tmp_path: Path
     ) -> None:
@@ -153,6 +157,7 @@ class TestOnset:
             HEADER,
             HEADER + "3d,0,fast,,,none,,,,time,,,\n",
             HEADER + "3d,,1,1,1,flutter,,,,time,,,\n",
+            HEADER + ",0,1,1,1,flutter,,,,time,,,\n",
         ],
     )
     def test_what_is_no_such_table_is_named(

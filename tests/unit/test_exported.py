@@ -6,6 +6,7 @@ import io
 import json
 import shutil
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -34,7 +35,7 @@ SECTION = Section(
 )
 ANGLES = np.array([-2.0, 0.0, 2.0, 4.0, 6.0])
 LIFT, MOMENT, DRAG = 0.1 * ANGLES, 0.02 * ANGLES, 0.01 + 0.0 * ANGLES
-CONFIGURATION = {
+CONFIGURATION: dict[str, Any] = {
     "run": "made-up",
     "beam": {"chord": 0.8},
     "flow": {
@@ -48,7 +49,7 @@ CONFIGURATION = {
     "unsteady": {
         "duration": 400.0,
         "time_step": 0.05,
-        "start": {"twist_deg": 1.0, "heave_rate": 0.02},
+        "start": {"state": "rigid", "twist_deg": 1.0, "heave_rate": 0.02},
     },
 }
 
@@ -187,6 +188,39 @@ def test_start_of_the_driver_is_that_of_the_section(run: Path, tmp_path: Path) -
     assert float(values["DT"][0]) == pytest.approx(0.05 * 0.08)
 
 
+def test_start_from_equilibrium_has_the_springs_carry_the_loads(run: Path, tmp_path: Path) -> None:
+    """Without the push K q is lift and moment of the polar, here about the elastic axis."""
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    start = {"state": "equilibrium", "twist_deg": 1.0, "heave_rate": 0.0}
+    unsteady = {**CONFIGURATION["unsteady"], "start": start}
+    flow = {**CONFIGURATION["flow"], "speed": 5.0}  # at 10 m/s it has none
+    changed = {**CONFIGURATION, "flow": flow, "unsteady": unsteady}
+    (copy / "config.resolved.yaml").write_text(yaml.safe_dump(changed))
+    assert main(["export", str(copy), "--only", "openfast"]) == 0
+    text = (copy / "export" / "ua_consistent.dvr").read_text()
+    line = next(one for one in text.splitlines() if " InitPos " in one)
+    deflection, _, nose_down = map(float, line.replace(",", " ").split()[:3])
+    twist = -nose_down - np.radians(1.0) * SECTION.twist_recovery
+    alpha = 2.5 + np.degrees(twist)
+    pressure = 0.5 * 1.2 * 5.0**2 * SECTION.chord
+    assert SECTION.flexural_stiffness * deflection == pytest.approx(pressure * 0.1 * alpha)
+    moment = pressure * SECTION.chord * 0.02 * alpha
+    assert SECTION.torsional_stiffness * twist == pytest.approx(moment)
+
+
+def test_runs_of_one_name_are_not_written_over_each_other(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = tmp_path / "elsewhere" / run.name
+    shutil.copytree(run, other)
+    to = tmp_path / "to"
+    assert main(["export", str(run), str(other), "--to", str(to)]) == 1
+    assert "two of the runs have one name" in capsys.readouterr().err
+    assert not to.exists()
+    assert main(["export", str(other), str(other), "--to", str(to)]) == 0
+
+
 def test_for_machines(run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     wanted = ["--only", "section", "--only", "modes", "--json"]
     assert main(["export", str(run), "--to", str(tmp_path), *wanted]) == 0
@@ -205,6 +239,52 @@ def test_a_model_without_coefficients_says_why(
     assert main(["export", str(copy), "--only", "models"]) == 0
     said = capsys.readouterr().out
     assert f"left out        {copy / 'export' / 'model_2d_a4.json'}: 2d: no model: its" in said
+
+
+def test_a_model_of_a_beam_has_its_prediction_without_a_polar_of_the_section(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    (copy / "steady" / "polar_2d.nc").unlink()
+    learnt = xr.Dataset(
+        {
+            "rate": ("fit", [0.2], says("rate")),
+            "moment_terms": (("fit", "term"), np.zeros((1, 5)), says("terms")),
+            "growth_rate": ("k_star", [0.1, -0.1], says("growth")),
+        },
+        {"k_star": ("k_star", [3.0, 4.0], says("k*"))},
+        {"model": "3d", "words": "learnt", "confirmation": "none", "axis": "k_star"},
+    )
+    write_dataset(copy / "rom" / "3d" / "model.nc", learnt)
+    assert main(["export", str(copy), "--only", "models"]) == 0
+    said = capsys.readouterr().out.splitlines()
+    assert "model_3d.json: 3d: a model of the strips of a beam" in said[0]
+    assert said[1] == str(copy / "export" / "model_3d.csv")
+    growth = pd.read_csv(said[1], comment="#")
+    assert growth["growth_rate"].tolist() == [0.1, -0.1]
+
+
+@pytest.mark.parametrize("content", [b"", b'a,b\n1,2,3,4\n5\n"', b"\xff\xfe"], ids=repr)
+def test_a_broken_table_is_named(
+    run: Path, content: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    (copy / "derivatives" / "2d.csv").write_bytes(content)
+    assert main(["export", str(copy), "--only", "derivatives"]) == 1
+    assert f"{copy / 'derivatives' / '2d.csv'}: cannot be read" in capsys.readouterr().err
+
+
+def test_a_configuration_without_a_key_that_is_needed_is_named(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    flow = {name: value for name, value in CONFIGURATION["flow"].items() if name != "sound_speed"}
+    (copy / "config.resolved.yaml").write_text(yaml.safe_dump({**CONFIGURATION, "flow": flow}))
+    assert main(["export", str(copy), "--only", "openfast"]) == 1
+    assert "config.resolved.yaml: no key flow.sound_speed" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -106,7 +106,7 @@ UNITS = RUN["given"]["units"]
         ("heave", {"units": {**UNITS, "deflection": "m"}}, "units.deflection"),
         ("pitch", {"signs": {"deflection": -1}}, "signs.twist: -1 explains it"),
         ("heave", {"signs": {"twist": -1}}, "signs.deflection: -1 explains it"),
-        ("pitch", {"moment_axis": 0.5}, "moment_axis: 0.2"),
+        ("pitch", {"moment_axis": 0.5}, "moment_axis: 0.26"),
         ("heave", {"span": 10.0}, "lift and moment some "),
         ("heave", {"units": {**UNITS, "time": "s"}}, "forced.reduced_velocity"),
         ("pitch", {"units": {**UNITS, "time": "c/V"}}, "allowed is 0.25 c/V, 12 samples"),
@@ -134,7 +134,7 @@ def test_a_wrong_mapping_is_refused_by_name(
         ({"amplitude_deg": 0.25}, "forced.amplitude_deg: 0.5 is that of the record"),
         ({"reduced_velocity": [1.5, 2.25, 3.5, 6]}, r"a time 0\.5 times as long.*units.time"),
         ({"reduced_velocity": [2.2, 3, 4.5, 7, 12]}, r"no pitch at V/\(f c\) = 2\.2"),
-        ({"periods": 8}, "the record ends at"),
+        ({"periods": 8}, r"ends at 1244 ms \(68 c/V\) after its begin; allowed is 2121 ms or more"),
     ],
     ids=str,
 )

@@ -135,6 +135,28 @@ def test_colour_of_the_map_changes_at_the_critical_speed(
 
 
 @pytest.mark.parametrize(
+    ("basis", "words"),
+    [
+        ("eigenvalue", "The line is the critical speed"),
+        ("model", "Markers are the critical speeds of releases by a learnt model"),
+    ],
+)
+def test_map_of_learnt_models_joins_nothing_and_says_what_it_shows(
+    stability_map: xr.Dataset,
+    stability: pd.DataFrame,
+    basis: str,
+    words: str,
+    tmp_path: Path,
+) -> None:
+    of_basis = stability_map.assign_attrs(basis=basis)
+    section, _ = interactive_map(of_basis, stability, None)["models"]
+    assert section["figure"]["data"][1]["mode"] == (
+        "markers" if basis == "model" else "lines+markers"
+    )
+    assert words in written(tmp_path, of_basis, stability).read_text()
+
+
+@pytest.mark.parametrize(
     "template",
     ["{{ snakemake.config['no'] }}", "A long title\n=====\n", ".. raw:: html\n\n   <b>", "*open"],
 )
@@ -185,6 +207,21 @@ def test_what_cannot_be_read_or_written_is_named(tmp_path: Path) -> None:
     (tmp_path / "a-file").touch()
     with pytest.raises(ReportError, match="cannot be written there"):
         write_report(tmp_path / "a-file" / "a.html", run.folder, figures=[], **parts)
+
+
+@pytest.mark.parametrize("text", ["", "a,b\n1,2\n", "model,incidence_deg\n2d,two\n"])
+def test_a_broken_table_of_the_map_is_named(tmp_path: Path, text: str) -> None:
+    (tmp_path / "stability.csv").write_text(text)
+    files = MapFiles(tmp_path / "map.nc", tmp_path / "stability.csv", None)
+    with pytest.raises(ReportError, match=r"stability\.csv: no table of a map"):
+        write_report(
+            tmp_path / "report.html",
+            Run(tmp_path).folder,
+            figures=[],
+            tables=[],
+            map_files=files,
+            config_text="",
+        )
 
 
 @pytest.fixture(scope="module")

@@ -5,6 +5,7 @@ Each kind is one function, which writes what the run has of it; what the run has
 
 from __future__ import annotations
 
+import io
 import json
 import math
 from collections.abc import Callable, Iterator, Sequence
@@ -17,13 +18,15 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
-from equisection.analysis.learnt_file import export
-from equisection.analysis.run_tree import configuration_of
+from equisection.aerodynamics.polar import Polar
+from equisection.analysis.learnt_file import export, is_of_strips, require_model
+from equisection.analysis.run_tree import CONFIGURATION, configuration_of
 from equisection.beam.section import QUANTITIES, Section
 from equisection.errors import ResultFileError
 from equisection.files import write_text
 from equisection.io.aerodyn_polar import aerodyn_text
 from equisection.io.ua_driver import DriverSection, ua_driver_text
+from equisection.motion.static_branch import section_in_equilibrium
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
@@ -63,24 +66,47 @@ class _ExportedRun:
     def configuration(self) -> dict[str, Any]:
         return configuration_of(self.folder)
 
-    @cached_property
-    def flow(self) -> dict[str, Any]:
-        return dict(self.configuration["flow"])
+    def value(self, *names: str) -> Any:
+        """Return the value of a key, by its names from the outermost in.
+
+        Raises
+        ------
+        ResultFileError
+            The configuration has no such key.
+        """
+        value: Any = self.configuration
+        for name in names:
+            if not isinstance(value, dict) or name not in value:
+                raise ResultFileError(
+                    f"{self.folder / CONFIGURATION}: no key {'.'.join(names)}, as one of another "
+                    "version or one that was edited; run again"
+                )
+            value = value[name]
+        return value
 
     @property
     def resolution(self) -> str:
-        return str(self.configuration["steady"]["resolution"])
+        return str(self.value("steady", "resolution"))
+
+    @property
+    def speed(self) -> float:
+        """V (m/s)."""
+        return float(self.value("flow", "speed"))
+
+    @property
+    def density(self) -> float:
+        """Density rho (kg/m^3)."""
+        return float(self.value("flow", "density"))
 
     @property
     def reynolds_number(self) -> float:
         """Reynolds number V c/nu of the run's flow."""
-        chord = float(self.configuration["beam"]["chord"])
-        return float(self.flow["speed"]) * chord / self.kinematic_viscosity
+        return self.speed * float(self.value("beam", "chord")) / self.kinematic_viscosity
 
     @property
     def kinematic_viscosity(self) -> float:
         """Kinematic viscosity nu = mu/rho (m^2/s)."""
-        return float(self.flow["dynamic_viscosity"]) / float(self.flow["density"])
+        return float(self.value("flow", "dynamic_viscosity")) / self.density
 
     def read(self, file: str) -> xr.Dataset | None:
         """Return a data set of the run; None where the run does not have it."""
@@ -173,7 +199,7 @@ def _table(
 def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
     """Write each learnt model as JSON, and its prediction as CSV."""
     found = sorted((run.folder / "rom").glob("*/model*.nc"))
-    polar_file = run.read("steady/polar_2d.nc") if found else None
+    polars = run.read("steady/polar_2d.nc") if found else None
     for path in found:
         data = read_dataset(path)
         stem = path.stem.replace("model", f"model_{path.parent.name}", 1)
@@ -183,9 +209,11 @@ def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
         ):
             output = run.to / f"{stem}{suffix}"
             try:
-                if polar_file is None:
-                    raise ResultFileError("the run has no steady/polar_2d.nc")
-                export(data, polar_at(polar_file, run.resolution), output)
+                require_model(data)
+                polar = None
+                if polars is not None and suffix == ".json" and not is_of_strips(data):
+                    polar = polar_at(polars, run.resolution)
+                export(data, polar, output)
             except ResultFileError as error:
                 yield ExportedFile("models", output, holds, str(error))
             else:
@@ -201,9 +229,15 @@ def _derivatives(run: _ExportedRun) -> Iterator[ExportedFile]:
         path = run.folder / "derivatives" / f"{dimension}.csv"
         if not path.is_file():
             continue
-        text = path.read_text(encoding="utf-8")
+        try:
+            text = path.read_text(encoding="utf-8")
+            columns = pd.read_csv(io.StringIO(text), comment="#").to_dict("list")
+        except (OSError, ValueError) as error:  # what pandas cannot parse is a ValueError
+            reason = " ".join(str(error).split())
+            raise ResultFileError(
+                f"{path}: cannot be read as a table ({reason}); delete it and run again"
+            ) from None
         said = [line.lstrip("# ") for line in text.splitlines() if line.startswith("#")]
-        columns = pd.read_csv(path, comment="#").to_dict("list")
         name = f"derivatives_{dimension}"
         yield run.wrote("derivatives", f"{name}.csv", text, holds)
         content = {"convention": said, "columns": columns}
@@ -291,24 +325,32 @@ def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
         return
     kind, holds = "openfast", "airfoil table of the driver"
     try:
-        polar = run.read("steady/polar_2d.nc")
-        table = _table(run, polar, run.resolution, unsteady=True)
+        data = run.read("steady/polar_2d.nc")
+        table = _table(run, data, run.resolution, unsteady=True)
     except ResultFileError as error:
         yield ExportedFile(kind, run.to / _AIRFOIL, holds, str(error))
         return
     yield run.wrote(kind, _AIRFOIL, table, holds)
+    assert data is not None, "without it there is no table"
+    polar = polar_at(data, run.resolution).continued
     for reduction, section in sections.items():
         title = f"{run.configuration['run']}: equivalent section, {reduction} reduction"
-        text = ua_driver_text(_driver_section(run, section), title)
+        text = ua_driver_text(_driver_section(run, section, polar), title)
         holds = f"section of the {reduction} reduction, UnsteadyAero_Driver"
         yield run.wrote(kind, f"ua_{reduction}.dvr", text, holds)
 
 
-def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
-    flow, unsteady = run.flow, run.configuration["unsteady"]
-    speed = float(flow["speed"])
-    convective = section.chord / speed
-    start = unsteady["start"]
+def _driver_section(run: _ExportedRun, section: Section, polar: Polar) -> DriverSection:
+    """Return the section with the start of the run; undeformed where it has no equilibrium."""
+    incidence_deg = float(run.value("flow", "incidence_deg"))
+    twist, deflection = 0.0, 0.0
+    if run.value("unsteady", "start", "state") == "equilibrium":
+        flowing = section.in_flow(run.density, run.speed)
+        found = section_in_equilibrium(flowing, polar, math.radians(incidence_deg))
+        twist, deflection = found or (twist, deflection)
+    convective = section.chord / run.speed
+    pushed = math.radians(float(run.value("unsteady", "start", "twist_deg")))
+    rate = float(run.value("unsteady", "start", "heave_rate")) * run.speed
     return DriverSection(
         airfoil=_AIRFOIL,
         chord=section.chord,
@@ -316,15 +358,16 @@ def _driver_section(run: _ExportedRun, section: Section) -> DriverSection:
         mass=section.mass_matrix.tolist(),
         damping=section.damping_matrix.tolist(),
         stiffness=section.stiffness_matrix.tolist(),
-        incidence_deg=float(flow["incidence_deg"]),
-        twist=math.radians(float(start["twist_deg"])) * section.twist_recovery,
-        heave_rate=float(start["heave_rate"]) * speed * section.deflection_recovery,
-        density=float(flow["density"]),
+        incidence_deg=incidence_deg,
+        twist=twist + pushed * section.twist_recovery,
+        deflection=deflection * section.chord,
+        heave_rate=rate * section.deflection_recovery,
+        density=run.density,
         kinematic_viscosity=run.kinematic_viscosity,
-        sound_speed=float(flow["sound_speed"]),
-        speed=speed,
-        duration=float(unsteady["duration"]) * convective,
-        time_step=float(unsteady["time_step"]) * convective,
+        sound_speed=float(run.value("flow", "sound_speed")),
+        speed=run.speed,
+        duration=float(run.value("unsteady", "duration")) * convective,
+        time_step=float(run.value("unsteady", "time_step")) * convective,
     )
 
 

@@ -59,12 +59,7 @@ def model_of(data: xr.Dataset, polar: Polar) -> ReducedModel:
     ResultFileError
         There is no model in it, but the reason why; or it is that of a beam on strips.
     """
-    require_model(data)
-    if is_of_strips(data):
-        raise ResultFileError(
-            f"{data.attrs['model']}: a model of the strips of a beam, of {data.sizes['term']} "
-            f"terms; allowed is that of a section, of {len(TERMS)}"
-        )
+    _require_model_of_section(data)
     first, *others = (LearntLoads(polar=polar.continued, **one) for one in _fits_of(data))
     return ReducedModel(loads=first, refits=tuple(others), **_origin_of(data))
 
@@ -96,6 +91,15 @@ def require_model(data: xr.Dataset) -> None:
     if "rate" not in data:
         reason = data.attrs.get("refusal") or "it has no coefficients"
         raise ResultFileError(f"{data.attrs.get('model', 'the file')}: no model: {reason}")
+
+
+def _require_model_of_section(data: xr.Dataset) -> None:
+    require_model(data)
+    if is_of_strips(data):
+        raise ResultFileError(
+            f"{data.attrs['model']}: a model of the strips of a beam, of {data.sizes['term']} "
+            f"terms; allowed is that of a section, of {len(TERMS)}"
+        )
 
 
 def _fits_of(data: xr.Dataset) -> list[dict[str, Any]]:
@@ -235,17 +239,29 @@ def as_table(data: xr.Dataset) -> pd.DataFrame:
     return data[columns].to_dataframe().reset_index()
 
 
-def export(data: xr.Dataset, polar: Polar, output: Path) -> None:
+def export(data: xr.Dataset, polar: Polar | None, output: Path) -> None:
     """Write a learnt model as JSON (:func:`as_json`), or its prediction as CSV (:func:`as_table`).
+
+    Parameters
+    ----------
+    data
+        ``rom/<model>/model*.nc``.
+    polar
+        The steady polar that it was learnt with, for JSON; CSV holds none.
+    output
+        The file.
 
     Raises
     ------
     ArgumentError
         The name of the file ends in neither ``.json`` nor ``.csv``.
     ResultFileError
-        There is no model in the data.
+        There is no model in the data, or no polar for JSON.
     """
     if output.suffix == ".json":
+        _require_model_of_section(data)
+        if polar is None:
+            raise ResultFileError("there is no steady polar of the section")
         write_text(output, json.dumps(as_json(data, polar), indent=1) + "\n")
     elif output.suffix == ".csv":
         require_model(data)

@@ -36,8 +36,8 @@ class DriverSection:
         Matrices of (w, theta) about A, shape (2, 2): kg/m to kg m; N s/m^2 to N s; N/m^2 to N.
     incidence_deg
         Rigid incidence theta_0 (deg), nose up.
-    twist
-        Twist at the start (rad), nose up.
+    twist, deflection
+        Twist (rad), nose up, and deflection (m), up, at the start.
     heave_rate
         Rate of the deflection at the start (m/s), up.
     density, kinematic_viscosity, sound_speed, speed
@@ -54,6 +54,7 @@ class DriverSection:
     stiffness: Sequence[Sequence[float]]
     incidence_deg: float
     twist: float
+    deflection: float
     heave_rate: float
     density: float
     kinematic_viscosity: float
@@ -115,7 +116,7 @@ def ua_driver_text(section: DriverSection, title: str) -> str:
         _line(section.duration, "TMax", "Total run time (s)"),
         _line(section.time_step, "DT", "Time step (s)"),
         _line(("T", "F", "T"), "ActiveDOF", "Degrees of freedom that move: x, y, th (flags)"),
-        _line((0.0, 0.0, -section.twist), "InitPos", "Start (m, m, rad)"),
+        _line((section.deflection, 0.0, -section.twist), "InitPos", "Start (m, m, rad)"),
         _line((section.heave_rate, 0.0, 0.0), "InitVel", "Start (m/s, m/s, rad/s)"),
         *_matrix("GFScaling", ((1, 0, 0), (0, 1, 0), (0, 0, 1)), "Loads per metre as they are (-)"),
         *_matrix("MassMatrix", _of_three(section.mass), "Mass matrix (kg/m, kg, kg m)"),

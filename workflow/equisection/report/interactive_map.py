@@ -44,7 +44,8 @@ def interactive_map(
     Returns
     -------
     dict
-        ``models``, each with ``name``, ``label`` and its ``figure`` (``data`` and ``layout``).
+        ``models``, each with ``name``, ``label`` and its ``figure`` (``data`` and ``layout``), and
+        ``is_learnt``: the critical speeds are those of releases by learnt models.
     """
     models = [
         {
@@ -54,7 +55,11 @@ def interactive_map(
         }
         for one, look in models_of(stability_map)
     ]
-    return {"models": models}
+    return {"models": models, "is_learnt": _is_learnt(stability_map)}
+
+
+def _is_learnt(stability_map: xr.Dataset) -> bool:
+    return bool(stability_map.attrs["basis"] == "model")
 
 
 def _figure(one: xr.Dataset, stability: pd.DataFrame, design_speed: float | None) -> Any:
@@ -164,7 +169,7 @@ def _critical_speeds(one: xr.Dataset, rows: pd.DataFrame) -> list[Any]:
     """Return the critical speeds with their intervals, and where there is none up to a speed."""
     angle, speed = one["incidence_deg"].values, one["critical_speed"].values
     # of models that were learnt at these incidences alone nothing is known in between
-    joined = one.attrs["basis"] != "model"
+    joined = not _is_learnt(one)
     low, high = (rows[name].to_numpy(dtype=np.float64) for name in ("speed_from", "speed_to"))
     top = float(np.nanmax([*one["speed"].values, *speed]))
     opened = np.isinf(high) & np.isfinite(speed)

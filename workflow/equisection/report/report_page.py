@@ -129,6 +129,7 @@ def write_report(
         cases=len(status.entries),
         untold=_untold(status),
         map=Markup(_as_script(drawn)) if drawn else None,  # noqa: S704, without < and &
+        learnt=drawn is not None and drawn["is_learnt"],
         lacks=lacks,
         first=[(one, picture(one.path)) for one in first],
         figures=[(one, picture(one.path)) for one in further],
@@ -195,10 +196,17 @@ def _map(files: MapFiles) -> tuple[dict[str, Any] | None, list[str]]:
             "the map of stability is a picture alone, since the package plotly is not there: "
             "pip install -c envs/constraints.txt -e '.[report]', and make the report again"
         ]
-    drawn = interactive_map(
-        read_dataset(files.stability_map), pd.read_csv(files.stability), files.design_speed
-    )
-    return drawn, []
+    table = _stability(files.stability)
+    return interactive_map(read_dataset(files.stability_map), table, files.design_speed), []
+
+
+def _stability(path: Path) -> pd.DataFrame:
+    """Return the table of a map of stability."""
+    kinds = {"model": str, "incidence_deg": float, "speed_from": float, "speed_to": float}
+    try:
+        return pd.read_csv(path).astype(kinds)
+    except (OSError, ValueError, KeyError) as error:
+        raise ReportError(f"{path}: no table of a map ({error}); delete it and run again") from None
 
 
 def _plotly() -> str:

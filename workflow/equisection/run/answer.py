@@ -159,7 +159,7 @@ def _table(path: Path) -> pd.DataFrame:
     import pandas as pd  # noqa: PLC0415
 
     try:
-        table = pd.read_csv(path)
+        table = pd.read_csv(path, dtype={"model": str})
     except (ValueError, OSError) as error:
         raise AnswerError(f"{path}: no table that can be read ({error}); make it again") from None
     missing = [name for name in _NEEDED if name not in table]
@@ -173,8 +173,9 @@ def _table(path: Path) -> pd.DataFrame:
             raise AnswerError(
                 f"{path}: column {name!r}: {error}; delete the file and run again"
             ) from None
-    if table["incidence_deg"].isna().any():
-        raise AnswerError(f"{path}: a line has no incidence_deg; delete the file and run again")
+    for name in ("model", "incidence_deg"):
+        if table[name].isna().any():
+            raise AnswerError(f"{path}: a line has no {name}; delete the file and run again")
     return table
 
 

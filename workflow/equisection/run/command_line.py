@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import equisection
-from equisection.errors import ConfigError, EquisectionError
+from equisection.errors import ArgumentError, ConfigError, EquisectionError
 from equisection.run.starter import (
     EXAMPLES,
     QUESTIONS,
@@ -368,11 +368,10 @@ def _export(runs: Sequence[Path], to: Path | None, kinds: Sequence[str], as_json
 
     from equisection.analysis.exported import exported  # noqa: PLC0415
 
-    files = [
-        file
-        for run in runs
-        for file in exported(run, run / "export" if to is None else to / run.resolve().name, kinds)
-    ]
+    places = {run: run / "export" if to is None else to / run.resolve().name for run in runs}
+    if len(set(places.values())) < len({run.resolve() for run in runs}):
+        raise ArgumentError(f"--to {to}: two of the runs have one name; export each by itself")
+    files = [file for run, place in places.items() for file in exported(run, place, kinds)]
     if as_json:
         print(json.dumps([{**asdict(file), "path": str(file.path)} for file in files], indent=2))
         return
