@@ -1,14 +1,23 @@
 """What is made of kept results on several meshes: polars, quotients, limits, and the page."""
 
+import json
 import math
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.workflow.project import ROOT
 
+from equisection.paper.mesh_convergence import kept_releases
 from equisection.paper.mesh_convergence.convergence_figure import draw
 from equisection.paper.mesh_convergence.convergence_page import is_converged, page
-from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS, MeshLoads, polars_of
+from equisection.paper.mesh_convergence.kept_releases import (
+    OWN_RATIOS,
+    MeshLoads,
+    mesh_releases,
+    polars_of,
+    rigid_loads,
+)
 from equisection.paper.mesh_convergence.loads_by_mesh import (
     EQUAL_CELLS,
     load_series,
@@ -24,6 +33,8 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     own_factors,
 )
 from equisection.paper.printed_values import PAPER_ONSET
+from equisection.results.netcdf import read_attributes
+from equisection.store.kept import Kept
 
 DENSE = [0.0, 1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 10.0]
 SPARSE = [0.0, 2.5, 5.0, 10.0]
@@ -85,6 +96,30 @@ def test_loads_are_taken_at_the_incidences_of_table_1_on_similar_meshes(tmp_path
     assert {one.at for one in found} == {"0 deg", "2.5 deg", "5 deg", "10 deg"}
     assert {value.mesh for one in found for value in one.values} == {"coarse"}
     assert [one.quantity for one in found if one.at == "0 deg"] == ["c_d"]  # the rest is nil
+
+
+@pytest.mark.parametrize(
+    ("settings", "is_taken"),
+    [
+        ({}, True),
+        ({"mesh": "five-layers"}, False),
+        ({"mesh": "finest"}, False),
+        ({"turbulence_intensity": 0.05}, False),
+    ],
+)
+def test_results_on_other_meshes_or_in_another_stream_have_no_place_in_a_series(
+    settings: dict[str, object], is_taken: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = ROOT / "results" / "reference" / "paper-plate-openfoam"
+    changed = []
+    for path in (run / "steady/2d/coarse_a2.5.nc", run / "unsteady/2d/k14.nc"):
+        attributes = read_attributes(path)
+        case = json.loads(attributes["case"])
+        case["solver"]["settings"] |= settings
+        changed.append(Kept(path, attributes | {"case": json.dumps(case)}))
+    monkeypatch.setattr(kept_releases, "kept_results", lambda _: changed)
+    assert len(rigid_loads(run, "2d")) == is_taken
+    assert len(mesh_releases(run)) == is_taken
 
 
 def test_intervals_of_table_1_hold_its_finest_mesh() -> None:
