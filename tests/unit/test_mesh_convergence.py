@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -20,7 +21,9 @@ from equisection.paper.mesh_convergence.kept_releases import (
 )
 from equisection.paper.mesh_convergence.loads_by_mesh import (
     EQUAL_CELLS,
+    iteration_series,
     load_series,
+    modal_series,
     printed_limit,
     ratio_series,
 )
@@ -30,6 +33,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_RELEASES,
     ONSET,
     damped,
+    early_growth_of_plate,
     own_factors,
 )
 from equisection.paper.printed_values import PAPER_ONSET
@@ -120,6 +124,23 @@ def test_results_on_other_meshes_or_in_another_stream_have_no_place_in_a_series(
     monkeypatch.setattr(kept_releases, "kept_results", lambda _: changed)
     assert len(rigid_loads(run, "2d")) == is_taken
     assert len(mesh_releases(run)) == is_taken
+
+
+def test_plate_is_compared_at_one_k_star_whatever_else_is_kept() -> None:
+    """A release at another k*, or with more iterations, is no further mesh."""
+    kept = [one for one in mesh_releases(ROOT / "results" / "reference") if one.model == "3d"]
+    four = next(one for one in kept if one.mesh == "coarse" and one.iterations == 4)
+    more = [
+        replace(four, case=four.case.model_copy(update={"k_star": 5.0})),
+        replace(four, iterations=8),
+    ]
+    alone = [early_growth_of_plate(kept), *modal_series(kept), *iteration_series(kept)]
+    beside = [*more, *kept]
+    found = [early_growth_of_plate(beside), *modal_series(beside), *iteration_series(beside)]
+    assert len(alone) == 5
+    assert [(one.quantity, one.at, one.values) for one in found] == [
+        (one.quantity, "k* = 6.44", one.values) for one in alone
+    ]
 
 
 def test_intervals_of_table_1_hold_its_finest_mesh() -> None:
