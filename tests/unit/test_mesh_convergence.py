@@ -37,7 +37,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     own_factors,
 )
 from equisection.paper.printed_values import PAPER_ONSET
-from equisection.results.netcdf import read_attributes
+from equisection.results.netcdf import read_attributes, read_dataset
 from equisection.store.kept import Kept
 
 DENSE = [0.0, 1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 10.0]
@@ -141,6 +141,20 @@ def test_plate_is_compared_at_one_k_star_whatever_else_is_kept() -> None:
     assert [(one.quantity, one.at, one.values) for one in found] == [
         (one.quantity, "k* = 6.44", one.values) for one in alone
     ]
+
+
+def test_longer_release_of_the_plate_is_compared_over_30_chords() -> None:
+    kept = [one for one in mesh_releases(ROOT / "results" / "reference") if one.model == "3d"]
+    long = next(one for one in kept if one.case.k_star == 6.44 and one.end > 50.0)
+    with_four = replace(long, iterations=4)
+    later = np.where(long.tip.time > 30.0, 2.0, 1.0)  # what follows is twice as far out
+    other = replace(with_four, tip=replace(long.tip, twist=later * long.tip.twist))
+    twist, _ = iteration_series([long, other])
+    assert twist.values[0].value == pytest.approx(1.0)
+    torsion, _ = modal_series([with_four])
+    means = read_dataset(long.path)["torsion_amplitude"].sel(time=slice(10.0, 30.0)).mean("time")
+    first, *others = np.abs(means.values)
+    assert torsion.values[0].value == pytest.approx(first / max(others))
 
 
 def test_intervals_of_table_1_hold_its_finest_mesh() -> None:

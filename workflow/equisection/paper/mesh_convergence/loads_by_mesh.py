@@ -12,7 +12,7 @@ from equisection.analysis.grid_convergence import cell_size
 from equisection.analysis.grid_limit import GridLimit, grid_limit
 from equisection.paper.mesh_convergence.kept_releases import MeshLoads, MeshRelease
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
-from equisection.paper.mesh_convergence.onset_by_mesh import LEARNT_AT, PLATE_ITERATIONS
+from equisection.paper.mesh_convergence.onset_by_mesh import EARLY, LEARNT_AT, PLATE_ITERATIONS
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.openfoam.mesh.presets import PRESETS
@@ -100,13 +100,13 @@ def ratio_series(
 def modal_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the mean of the plate's first mode of each kind over that of the next, by the mesh.
 
-    The releases are those with four iterations at k* = 6.44; the mean is that from 10 c/V on.
+    The releases are those with four iterations at k* = 6.44; the mean is from 10 to 30 c/V.
     """
     own = [one for one in _of_plate(releases) if one.iterations == PLATE_ITERATIONS]
     for kind in ("torsion", "bending"):
         values = []
         for one in own:
-            part = read_dataset(one.path).sel(time=slice(AFTER_RELEASE, None))
+            part = read_dataset(one.path).sel(time=slice(AFTER_RELEASE, EARLY))
             means = np.abs(part[f"{kind}_amplitude"].mean("time").values)
             values.append(MeshValue(one.mesh, one.cells, float(means[0] / means[1:].max())))
         if values:
@@ -126,7 +126,7 @@ def iteration_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
         for (mesh, iterations), four in own.items():
             two = own.get((mesh, PLATE_ITERATIONS // 2))
             if two is not None and iterations == PLATE_ITERATIONS:
-                end = min(two.end, four.end)
+                end = min(EARLY, two.end, four.end)
                 quotient = _mean_of_tip(two, name, end) / _mean_of_tip(four, name, end)
                 values.append(MeshValue(mesh, four.cells, quotient))
         if values:

@@ -60,8 +60,8 @@ DAMPING = (0.0, 0.005, 0.01, 0.02)
 #: k* at which models predict, of sections and of the plate.
 _SECTIONS_AT = np.geomspace(3.9, 11.0, 16)
 _BEAMS_AT = np.geomspace(4.0, 20.0, 13)
-#: End (c/V) of the shortest releases of the plate.
-_EARLY = 30.0
+#: End (c/V) of the shortest releases of the plate, up to which its meshes are compared.
+EARLY = 30.0
 #: Iterations of a time step of the plate that are enough.
 PLATE_ITERATIONS = 4
 
@@ -96,7 +96,7 @@ def early_growth_of_plate(releases: Sequence[MeshRelease]) -> MeshSeries:
         is_compared = one.case.k_star == LEARNT_AT and one.iterations == PLATE_ITERATIONS
         if one.model != "3d" or not is_compared:
             continue
-        two, three = (one.growth(AFTER_RELEASE, min(_EARLY, one.end), waves) for waves in (2, 3))
+        two, three = (one.growth(AFTER_RELEASE, min(EARLY, one.end), waves) for waves in (2, 3))
         low, high = three.interval
         half = 0.5 * (high - low)
         values.append(
