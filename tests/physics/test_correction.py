@@ -320,6 +320,13 @@ def test_own_ratio_of_lift_is_less_than_that_of_other_cells() -> None:
     assert own.moment_factor(at) < mixed.moment_factor(at)
 
 
+def test_section_of_the_pair_without_drag_is_refused() -> None:
+    own = PAIR.section
+    section = Polar(own.incidence, np.zeros_like(own.drag), own.lift, own.moment, "bare")
+    with pytest.raises(ReductionError, match=r"no drag at -10 deg.*steady\.beam_polar_section"):
+        beam_carried_over(PAIR.section, CorrectionFactors(section, PAIR.beam))
+
+
 def test_pair_with_too_few_incidences_in_common_is_refused() -> None:
     high = Polar(np.radians([5.0, 8, 9, 12]), np.ones(4), np.ones(4), np.ones(4), "high")
     low = Polar(np.radians([0.5, 1, 2, 6]), np.ones(4), np.ones(4), np.ones(4), "low")

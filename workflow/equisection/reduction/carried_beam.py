@@ -42,7 +42,7 @@ def beam_carried_over(section: Polar, pair: CorrectionFactors) -> Polar:
     Raises
     ------
     ReductionError
-        Fewer than four incidences are left.
+        Fewer than four incidences are left, or the pair's section has no drag at one.
     """
     three = (section.continued, pair.section.continued, pair.beam.continued)
     low = max(polar.incidence_range[0] for polar in three)
@@ -60,8 +60,14 @@ def beam_carried_over(section: Polar, pair: CorrectionFactors) -> Polar:
         )
     incidence, lift, moment = incidence[there], lift[there], moment[there]
     own, of_section, of_beam = three
-    drag = own.drag_coefficient(incidence) * of_beam.drag_coefficient(incidence)
-    drag = drag / of_section.drag_coefficient(incidence)
+    drag_of_section = of_section.drag_coefficient(incidence)
+    if not np.all(drag_of_section > 0.0):
+        at = np.degrees(incidence[drag_of_section <= 0.0][0])
+        raise ReductionError(
+            f"section {pair.section.label!r} has no drag at {at:.4g} deg, by which that of the "
+            "beam is carried over; give steady.beam_polar_section its drag"
+        )
+    drag = own.drag_coefficient(incidence) * of_beam.drag_coefficient(incidence) / drag_of_section
     return Polar(
         incidence,
         drag,
