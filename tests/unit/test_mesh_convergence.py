@@ -32,6 +32,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
     ONSET,
+    _onset_on,
     damped,
     early_growth_of_plate,
     own_factors,
@@ -182,6 +183,23 @@ SERIES = [
 
 def test_limit_is_converged_only_where_its_interval_is_narrow() -> None:
     assert [is_converged(one) for one in SERIES] == [True, True, True, False, False, False]
+
+
+def test_interval_without_an_end_is_no_interval_of_nothing() -> None:
+    """An onset that is known on one side alone, and one of a band that leaves the k* asked for."""
+    values = [
+        MeshValue("coarse", 100, 8.0, 7.9, 8.1),
+        MeshValue("medium", 400, 7.0, 6.9, 7.1),
+        _onset_on("fine", 1600, (6.5, math.nan, 6.6)),
+    ]
+    for shared in (True, False):
+        found = MeshSeries(ONSET, "2d", "", BY_MODEL, 2, tuple(values), common_error=shared)
+        assert math.isinf(found.limit.half_width)
+        assert not is_converged(found)
+        line = next(row for row in page([found], "").splitlines() if row.startswith("| 2d |"))
+        assert "| 6.50 (interval unknown) |" in line
+        assert line.endswith("| none | no |")
+        draw([found], PAPER_ONSET).draw_without_rendering()
 
 
 def test_page_says_which_limits_are_converged() -> None:

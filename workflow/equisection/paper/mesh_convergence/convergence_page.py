@@ -269,6 +269,8 @@ def _of_mesh(values: Iterable[MeshValue], mesh: str, form: str) -> str:
         if value.mesh == mesh:
             half = value.half_width
             text = format(value.value, form)
+            if math.isinf(half):
+                return f"{text} (interval unknown)"
             return f"{text} ± {format(half, form.lstrip('+'))}" if half else text
     return ""
 

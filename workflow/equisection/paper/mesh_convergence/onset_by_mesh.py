@@ -133,7 +133,8 @@ def _of_section(releases: Sequence[MeshRelease]) -> list[MeshValue]:
     for mesh, runs in _by_mesh(releases).items():
         found = onset_by_growth(growth_table(runs), K_STAR)
         if math.isfinite(found.value):
-            values.append(MeshValue(mesh, runs[0].cells, found.value, found.low, found.high))
+            ends = found.low, found.high
+            values.append(_onset_on(mesh, runs[0].cells, (found.value, *ends)))
             curve = runs
         elif curve:
             values += _shifted(curve, runs, values[-1])
@@ -168,14 +169,17 @@ def _moved(
     moved, half = shift
     value, low, high = (onset_of(k_star, rates + by) for by in (moved, moved - half, moved + half))
     own = base.half_width
-    return MeshValue(
-        run.mesh,
-        run.cells,
-        value,
-        value - math.hypot(value - low, own),
-        value + math.hypot(high - value, own),
-        note,
-    )
+    low, high = value - math.hypot(value - low, own), value + math.hypot(high - value, own)
+    return _onset_on(run.mesh, run.cells, (value, low, high), note)
+
+
+def _onset_on(
+    mesh: str, cells: int, onset: tuple[float, float, float], note: str = ""
+) -> MeshValue:
+    """Return an onset and its interval on a mesh; an end out of reach (NaN) is infinitely far."""
+    value, low, high = onset
+    low, high = -math.inf if math.isnan(low) else low, math.inf if math.isnan(high) else high
+    return MeshValue(mesh, cells, value, low, high, note)
 
 
 def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> list[MeshValue]:
@@ -187,7 +191,7 @@ def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> li
         return []
     least, most = min(one.zigzag for one in coarse), max(one.zigzag for one in coarse)
     note = f"two iterations a step: loads zigzag by {100 * least:.2g} to {100 * most:.2g} %"
-    base = MeshValue("coarse", coarse[0].cells, found.value, found.low, found.high, note)
+    base = _onset_on("coarse", coarse[0].cells, (found.value, found.low, found.high), note)
     early = early_growth_of_plate(releases).values
     if len(early) < 2:
         return [base]
@@ -275,7 +279,7 @@ class LearntSectionModels:
         """Yield the onset of each model over the meshes, without damping and with it."""
         for kind, zeta in dict.fromkeys((model, zeta) for model, _, zeta in self.onsets):
             values = [
-                MeshValue(mesh, cells, found.k_star, found.low, found.high, note)
+                _onset_on(mesh, cells, (found.k_star, found.low, found.high), note)
                 for (model, mesh, damping), (found, cells, note) in self.onsets.items()
                 if (model, damping) == (kind, zeta)
             ]
@@ -338,7 +342,7 @@ def plates_by_model(
         values = []
         for mesh, (model, run) in models.items():
             found = _onset_of_beam(model, run, zeta)
-            values.append(MeshValue(mesh, run.cells, found.k_star, found.low, found.high))
+            values.append(_onset_on(mesh, run.cells, (found.k_star, found.low, found.high)))
         yield MeshSeries(ONSET, "3d", damped(zeta), BY_MODEL, 3, tuple(values), True)
 
 
