@@ -224,7 +224,7 @@ def missing() -> Iterator[str]:
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.near_wall")
-    parser.add_argument("--run", nargs="*", metavar="NAME")
+    parser.add_argument("--run", nargs="*", metavar="NAME", choices=[*CHANGES])
     chosen = parser.parse_args()
     if chosen.run is not None:
         for each in chosen.run or missing():

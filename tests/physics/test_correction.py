@@ -320,6 +320,29 @@ def test_own_ratio_of_lift_is_less_than_that_of_other_cells() -> None:
     assert own.moment_factor(at) < mixed.moment_factor(at)
 
 
+def test_pair_that_differs_in_sign_gives_no_factor_there() -> None:
+    """The plate's moment is gone at 5 deg, the section's at 7 deg: none is made up in between."""
+    at = np.radians([0.0, 2, 4, 6, 8, 10, 12])
+    moments = (
+        [0, 0.05, 0.05, 0.03, -0.02, -0.05, -0.06],
+        [0, 0.04, 0.03, -0.01, -0.03, -0.05, -0.06],
+    )
+    section, beam = (Polar(at, 0.05 + 0 * at, at, np.array(one), "either") for one in moments)
+    pair = CorrectionFactors(section, beam)
+    carried = beam_carried_over(section, pair)
+    assert carried.moment_cubic(at) == pytest.approx(beam.moment_cubic(at))
+    alpha = np.radians([2.0, 4.0, 5.5, 6.0, 6.5, 8.0, 10.0])
+    factors = CorrectionFactors(section, carried).moment_factor(alpha)
+    assert list(np.isnan(factors)) == [False, False, True, True, True, False, False]
+
+
+def test_section_of_the_pair_without_drag_is_refused() -> None:
+    own = PAIR.section
+    section = Polar(own.incidence, np.zeros_like(own.drag), own.lift, own.moment, "bare")
+    with pytest.raises(ReductionError, match=r"no drag at -10 deg.*steady\.beam_polar_section"):
+        beam_carried_over(PAIR.section, CorrectionFactors(section, PAIR.beam))
+
+
 def test_pair_with_too_few_incidences_in_common_is_refused() -> None:
     high = Polar(np.radians([5.0, 8, 9, 12]), np.ones(4), np.ones(4), np.ones(4), "high")
     low = Polar(np.radians([0.5, 1, 2, 6]), np.ones(4), np.ones(4), np.ones(4), "low")

@@ -1,17 +1,29 @@
 """What is made of kept results on several meshes: polars, quotients, limits, and the page."""
 
+import json
 import math
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.workflow.project import ROOT
 
+from equisection.paper.mesh_convergence import kept_releases
 from equisection.paper.mesh_convergence.convergence_figure import draw
 from equisection.paper.mesh_convergence.convergence_page import is_converged, page
-from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS, MeshLoads, polars_of
+from equisection.paper.mesh_convergence.kept_releases import (
+    OWN_RATIOS,
+    MeshLoads,
+    mesh_releases,
+    polars_of,
+    rigid_loads,
+)
 from equisection.paper.mesh_convergence.loads_by_mesh import (
     EQUAL_CELLS,
+    iteration_series,
     load_series,
+    modal_series,
     printed_limit,
     ratio_series,
 )
@@ -20,10 +32,14 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
     ONSET,
+    _onset_on,
     damped,
+    early_growth_of_plate,
     own_factors,
 )
 from equisection.paper.printed_values import PAPER_ONSET
+from equisection.results.netcdf import read_attributes, read_dataset
+from equisection.store.kept import Kept
 
 DENSE = [0.0, 1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 10.0]
 SPARSE = [0.0, 2.5, 5.0, 10.0]
@@ -87,6 +103,61 @@ def test_loads_are_taken_at_the_incidences_of_table_1_on_similar_meshes(tmp_path
     assert [one.quantity for one in found if one.at == "0 deg"] == ["c_d"]  # the rest is nil
 
 
+@pytest.mark.parametrize(
+    ("settings", "is_taken"),
+    [
+        ({}, True),
+        ({"mesh": "five-layers"}, False),
+        ({"mesh": "finest"}, False),
+        ({"turbulence_intensity": 0.05}, False),
+    ],
+)
+def test_results_on_other_meshes_or_in_another_stream_have_no_place_in_a_series(
+    settings: dict[str, object], is_taken: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    run = ROOT / "results" / "reference" / "paper-plate-openfoam"
+    changed = []
+    for path in (run / "steady/2d/coarse_a2.5.nc", run / "unsteady/2d/k14.nc"):
+        attributes = read_attributes(path)
+        case = json.loads(attributes["case"])
+        case["solver"]["settings"] |= settings
+        changed.append(Kept(path, attributes | {"case": json.dumps(case)}))
+    monkeypatch.setattr(kept_releases, "kept_results", lambda _: changed)
+    assert len(rigid_loads(run, "2d")) == is_taken
+    assert len(mesh_releases(run)) == is_taken
+
+
+def test_plate_is_compared_at_one_k_star_whatever_else_is_kept() -> None:
+    """A release at another k*, or with more iterations, is no further mesh."""
+    kept = [one for one in mesh_releases(ROOT / "results" / "reference") if one.model == "3d"]
+    four = next(one for one in kept if one.mesh == "coarse" and one.iterations == 4)
+    more = [
+        replace(four, case=four.case.model_copy(update={"k_star": 5.0})),
+        replace(four, iterations=8),
+    ]
+    alone = [early_growth_of_plate(kept), *modal_series(kept), *iteration_series(kept)]
+    beside = [*more, *kept]
+    found = [early_growth_of_plate(beside), *modal_series(beside), *iteration_series(beside)]
+    assert len(alone) == 5
+    assert [(one.quantity, one.at, one.values) for one in found] == [
+        (one.quantity, "k* = 6.44", one.values) for one in alone
+    ]
+
+
+def test_longer_release_of_the_plate_is_compared_over_30_chords() -> None:
+    kept = [one for one in mesh_releases(ROOT / "results" / "reference") if one.model == "3d"]
+    long = next(one for one in kept if one.case.k_star == 6.44 and one.end > 50.0)
+    with_four = replace(long, iterations=4)
+    later = np.where(long.tip.time > 30.0, 2.0, 1.0)  # what follows is twice as far out
+    other = replace(with_four, tip=replace(long.tip, twist=later * long.tip.twist))
+    twist, _ = iteration_series([long, other])
+    assert twist.values[0].value == pytest.approx(1.0)
+    torsion, _ = modal_series([with_four])
+    means = read_dataset(long.path)["torsion_amplitude"].sel(time=slice(10.0, 30.0)).mean("time")
+    first, *others = np.abs(means.values)
+    assert torsion.values[0].value == pytest.approx(first / max(others))
+
+
 def test_intervals_of_table_1_hold_its_finest_mesh() -> None:
     for name, angle, finest in (("C_L", 2.5, 0.2613), ("C_M", 5.0, 0.0697), ("C_D", 10.0, 0.1535)):
         found = printed_limit(name, angle)
@@ -112,6 +183,23 @@ SERIES = [
 
 def test_limit_is_converged_only_where_its_interval_is_narrow() -> None:
     assert [is_converged(one) for one in SERIES] == [True, True, True, False, False, False]
+
+
+def test_interval_without_an_end_is_no_interval_of_nothing() -> None:
+    """An onset that is known on one side alone, and one of a band that leaves the k* asked for."""
+    values = [
+        MeshValue("coarse", 100, 8.0, 7.9, 8.1),
+        MeshValue("medium", 400, 7.0, 6.9, 7.1),
+        _onset_on("fine", 1600, (6.5, math.nan, 6.6)),
+    ]
+    for shared in (True, False):
+        found = MeshSeries(ONSET, "2d", "", BY_MODEL, 2, tuple(values), common_error=shared)
+        assert math.isinf(found.limit.half_width)
+        assert not is_converged(found)
+        line = next(row for row in page([found], "").splitlines() if row.startswith("| 2d |"))
+        assert "| 6.50 (interval unknown) |" in line
+        assert line.endswith("| none | no |")
+        draw([found], PAPER_ONSET).draw_without_rendering()
 
 
 def test_page_says_which_limits_are_converged() -> None:

@@ -324,6 +324,15 @@ def test_growth_of_section_and_plate_is_compared_with_its_errors(
     assert response.growing_inside(changed).verdict is verdict
 
 
+def test_decay_without_an_error_of_the_mesh_is_not_judged() -> None:
+    whole = complete()
+    none = whole.convergence[~whole.convergence["quantity"].str.startswith("growth")]
+    found = response.decay_at_high_stiffness(replace(whole, convergence=none))
+    assert found.verdict is ClaimVerdict.NOT_CONVERGED
+    assert "± an unknown error by the mesh" in found.here
+    assert "nan" not in found.here
+
+
 def test_decay_is_not_judged_on_runs_at_low_stiffness() -> None:
     slow = [run for run in BEAM if run[0] < 10.0]
     some = replace(complete(), summary=summary(m2d=SECTION, m2d_corrected=CORRECTED, m3d=slow))

@@ -71,9 +71,10 @@ def grid_limit(
     """
     count = len(values)
     own = [0.0] * count if errors is None else list(errors)
-    if count < 2:
-        value = values[0] if count else math.nan
-        return GridLimit(value=value, meshes=count, basis="one mesh, no interval")
+    if not count:
+        return GridLimit()
+    if count == 1:
+        return GridLimit(value=values[0], meshes=1, basis="one mesh, no interval")
     if count == 2:
         words = f"two meshes: order {FORMAL_ORDER:g} assumed, factor of safety {SAFETY_OF_TWO:g}"
         limit, half = _extrapolated(values, sizes, own, FORMAL_ORDER, SAFETY_OF_TWO)

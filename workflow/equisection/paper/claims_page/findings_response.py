@@ -253,7 +253,6 @@ def onset(evidence: Evidence) -> Finding:
 
 def _with_damping(evidence: Evidence) -> str:
     """Say what structural damping, of which the paper says nothing, makes of the onset."""
-    table = evidence.convergence
     parts = []
     for model in (_CORRECTED, OWN_RATIOS, _BEAM):
         found = []
@@ -265,7 +264,7 @@ def _with_damping(evidence: Evidence) -> str:
                 mesh = rows["mesh"].iloc[-1]
         if found:
             parts.append(f"{_TITLES.get(model, model)} ({mesh}) {', '.join(found)}")
-    if table.empty or not parts:
+    if not parts:
         return ""
     return (
         "The paper gives no structural damping; with some, of critical in both motions, the onset "
@@ -380,8 +379,9 @@ def decay_at_high_stiffness(evidence: Evidence) -> Finding:
         run = stiff.iloc[-1]
         rate, half = float(run["growth_rate"]), mesh[model]
         verdicts.append(Known(rate, rate - half, rate + half).is_below(0.0))
+        by_mesh = f"± {half:.4f}" if math.isfinite(half) else "± an unknown error"
         parts.append(
-            f"{model} at k* = {run['k_star']:g}: {_in_words(run)}, ± {half:.4f} by the mesh: "
+            f"{model} at k* = {run['k_star']:g}: {_in_words(run)}, {by_mesh} by the mesh: "
             f"{verdicts[-1]}"
         )
     if all(part.endswith("on") for part in parts):

@@ -14,7 +14,7 @@ from equisection.figures.origin import add_provenance
 from equisection.figures.panels import letter
 from equisection.figures.style import GREEN, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
-from equisection.paper.mesh_convergence.mesh_series import MeshSeries
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
@@ -98,10 +98,7 @@ def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:
     aside = _ASIDE * (_MODELS.index(one.model) - 1.5) + 0.4 * _ASIDE * learnt
     sizes = [size / one.sizes[0] + aside for size in one.sizes]
     values = [value.value for value in one.values]
-    errors = [
-        [value.value - value.low for value in one.values],
-        [value.high - value.value for value in one.values],
-    ]
+    errors = _errors(one.values)
     style: dict[str, Any] = {
         "color": look.colour,
         "marker": look.marker,
@@ -115,6 +112,12 @@ def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:
     limit = one.limit
     if math.isfinite(limit.half_width):
         axes.errorbar([at_limit], [limit.value], [limit.half_width], linestyle="none", **style)
+
+
+def _errors(values: Sequence[MeshValue]) -> list[list[float]]:
+    """Return the distances of the ends of intervals; NaN, which is not drawn, without an end."""
+    distances = [[one.value - one.low for one in values], [one.high - one.value for one in values]]
+    return [[each if math.isfinite(each) else math.nan for each in side] for side in distances]
 
 
 def _over_damping(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
@@ -132,10 +135,7 @@ def _over_damping(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
         axes.errorbar(
             [100.0 * zeta for zeta, _ in shown],
             [value.value for value in finest],
-            [
-                [value.value - value.low for value in finest],
-                [value.high - value.value for value in finest],
-            ],
+            _errors(finest),
             color=look.colour,
             marker=look.marker,
             markersize=4.0,

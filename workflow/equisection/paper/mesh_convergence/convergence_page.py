@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
+from equisection.paper.mesh_convergence.kept_releases import MESHES, OWN_RATIOS
 from equisection.paper.mesh_convergence.loads_by_mesh import (
     EQUAL_CELLS,
     FIRST_MODE,
@@ -23,7 +23,6 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
 )
 from equisection.paper.printed_values import COEFFICIENTS, PAPER_ONSET
 
-MESHES = ("coarse", "medium", "fine")
 #: Kinds of the beam's modes.
 KINDS = ("torsion", "bending")
 #: Half-width of an interval, as a part of the value, up to which a value counts as converged.
@@ -270,6 +269,8 @@ def _of_mesh(values: Iterable[MeshValue], mesh: str, form: str) -> str:
         if value.mesh == mesh:
             half = value.half_width
             text = format(value.value, form)
+            if math.isinf(half):
+                return f"{text} (interval unknown)"
             return f"{text} ± {format(half, form.lstrip('+'))}" if half else text
     return ""
 

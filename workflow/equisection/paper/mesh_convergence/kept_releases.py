@@ -15,6 +15,7 @@ from equisection.aerodynamics.filled_polar import filled, missing_angles
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.cases import FREE, STEADY, UnsteadyCase
+from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
 from equisection.results.loads_zigzag import loads_zigzag
 from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import Regime
@@ -26,6 +27,8 @@ from equisection.verdict.growth import MOST_PERIODS, Growth, growth_of
 #: Time (c/V) up to which releases are compared, and from which on growth is read: over the first
 #: 20 c/V the release itself shows.
 UNTIL, BEHIND_RELEASE = 100.0, 20.0
+#: Meshes that are similar, coarsest first; others have no place in a series.
+MESHES = ("coarse", "medium", "fine")
 #: Time step (c/V) of the releases that are compared, by dimension.
 STEPS = {"2d": 0.02, "3d": 0.04}
 #: Iterations of a time step of the section's releases: at most, until the residuals are small.
@@ -37,6 +40,8 @@ SEEN = (0.0, math.radians(5.0))
 OWN_RATIOS, _OWN_FOLDER = "2d-corrected, own ratios", "own-ratios"
 _MODELS = ("2d", "2d-corrected", "3d")
 _OF_MESH = "mesh"
+#: Settings that the compared results differ in at most.
+_USUAL = {_OF_MESH, "outer_correctors", "velocity_relaxation"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,8 +142,7 @@ def _is_compared(kept: Kept) -> bool:
     if case.get("kind") != FREE.folder or "outline" in case["geometry"] or "start" in case:
         return False
     settings = case["solver"]["settings"]
-    unusual = {"mesh_motion", "mesher"} & settings.keys()
-    if unusual or str(settings.get(_OF_MESH, "")).startswith("plate"):
+    if settings.keys() - _USUAL or settings.get(_OF_MESH) not in MESHES:
         return False
     if case["time_step"] != STEPS[case["dimension"]]:
         return False
@@ -199,20 +203,21 @@ class MeshLoads:
 def rigid_loads(reference: Path, dimension: str) -> list[MeshLoads]:
     """Return the kept steady results of the paper's section (``2d``) or plate (``3d``).
 
-    Those with settings of their own, beside mesh and iterations, are left out.
+    They are on similar meshes, of the section also on the plate's cells. Those with settings of
+    their own, beside mesh and iterations, are left out.
     """
-    usual = {_OF_MESH, "outer_correctors", "velocity_relaxation"}
     found = {}
     for kept in kept_results(reference):
         case = kept.case
         if case.get("kind") != STEADY.folder or case.get("dimension") != dimension:
             continue
         settings = case["solver"]["settings"]
-        if "outline" in case["geometry"] or set(settings) - usual:
+        mesh, angle = str(settings.get(_OF_MESH)), float(case["incidence_deg"])
+        is_similar = mesh.removeprefix(ON_CELLS_OF_PLATE) in MESHES
+        if "outline" in case["geometry"] or settings.keys() - _USUAL or not is_similar:
             continue
         data = read_dataset(kept.path)
         loads = {name: float(data[name]) for name in ("cd", "cl", "cm")}
-        mesh, angle = str(settings[_OF_MESH]), float(case["incidence_deg"])
         found[mesh, angle] = MeshLoads(mesh, _cells_of(kept), angle, loads, kept.path)
     return sorted(found.values(), key=lambda one: (one.cells, one.incidence_deg))
 

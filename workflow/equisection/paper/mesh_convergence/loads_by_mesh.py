@@ -12,7 +12,7 @@ from equisection.analysis.grid_convergence import cell_size
 from equisection.analysis.grid_limit import GridLimit, grid_limit
 from equisection.paper.mesh_convergence.kept_releases import MeshLoads, MeshRelease
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
-from equisection.paper.mesh_convergence.onset_by_mesh import PLATE_ITERATIONS
+from equisection.paper.mesh_convergence.onset_by_mesh import EARLY, LEARNT_AT, PLATE_ITERATIONS
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.openfoam.mesh.presets import PRESETS
@@ -100,17 +100,17 @@ def ratio_series(
 def modal_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the mean of the plate's first mode of each kind over that of the next, by the mesh.
 
-    The releases are those with four iterations; the mean is that from 10 c/V on.
+    The releases are those with four iterations at k* = 6.44; the mean is from 10 to 30 c/V.
     """
-    own = [one for one in releases if one.model == "3d" and one.iterations >= PLATE_ITERATIONS]
+    own = [one for one in _of_plate(releases) if one.iterations == PLATE_ITERATIONS]
     for kind in ("torsion", "bending"):
         values = []
         for one in own:
-            part = read_dataset(one.path).sel(time=slice(AFTER_RELEASE, None))
+            part = read_dataset(one.path).sel(time=slice(AFTER_RELEASE, EARLY))
             means = np.abs(part[f"{kind}_amplitude"].mean("time").values)
             values.append(MeshValue(one.mesh, one.cells, float(means[0] / means[1:].max())))
         if values:
-            at = f"k* = {own[0].case.k_star:g}"
+            at = f"k* = {LEARNT_AT:g}"
             quantity = FIRST_MODE.format(kind)
             yield MeshSeries(quantity, "3d", at, "releases, 10 to 30 c/V", 3, tuple(values))
 
@@ -118,21 +118,25 @@ def modal_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
 def iteration_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the plate's means with two iterations of a time step over those with four, by mesh.
 
-    They are means over the first 30 c/V, from 10 c/V on, of releases that have both.
+    They are means over the first 30 c/V, from 10 c/V on, at k* = 6.44, of meshes that have both.
     """
-    own = [one for one in releases if one.model == "3d"]
+    own = {(one.mesh, one.iterations): one for one in _of_plate(releases)}
     for name in MEANS_OF_TIP:
         values = []
-        for four in own:
-            for two in own:
-                alike = (two.mesh, two.case.k_star) == (four.mesh, four.case.k_star)
-                if alike and two.iterations < PLATE_ITERATIONS <= four.iterations:
-                    end = min(two.end, four.end)
-                    quotient = _mean_of_tip(two, name, end) / _mean_of_tip(four, name, end)
-                    values.append(MeshValue(four.mesh, four.cells, quotient))
-                    at = f"k* = {four.case.k_star:g}"
+        for (mesh, iterations), four in own.items():
+            two = own.get((mesh, PLATE_ITERATIONS // 2))
+            if two is not None and iterations == PLATE_ITERATIONS:
+                end = min(EARLY, two.end, four.end)
+                quotient = _mean_of_tip(two, name, end) / _mean_of_tip(four, name, end)
+                values.append(MeshValue(mesh, four.cells, quotient))
         if values:
+            at = f"k* = {LEARNT_AT:g}"
             yield MeshSeries(name, TWO_OVER_FOUR, at, "releases, 10 to 30 c/V", 3, tuple(values))
+
+
+def _of_plate(releases: Sequence[MeshRelease]) -> list[MeshRelease]:
+    """Return the releases of the plate at the k* at which its meshes are compared."""
+    return [one for one in releases if one.model == "3d" and one.case.k_star == LEARNT_AT]
 
 
 def _mean_of_tip(release: MeshRelease, name: str, end: float) -> float:

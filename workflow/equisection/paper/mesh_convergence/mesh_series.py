@@ -42,7 +42,7 @@ class MeshValue:
     value
         The value.
     low, high
-        Its interval, apart from the mesh; NaN where there is none.
+        Its interval, apart from the mesh; NaN where there is none, infinite where it has no end.
     note
         Remark.
     """
@@ -58,7 +58,7 @@ class MeshValue:
     def half_width(self) -> float:
         """Half of the interval, 0 where there is none."""
         half = 0.5 * (self.high - self.low)
-        return half if math.isfinite(half) else 0.0
+        return 0.0 if math.isnan(half) else half
 
 
 @dataclass(frozen=True)
