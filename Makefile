@@ -79,9 +79,10 @@ verify: $(ENV)/run
 FIRST_HALF := tests/workflow/test_[a-k]*.py
 test: $(ENV)/test
 	@logs=$$(mktemp -d); ids=; trap 'kill $$ids; rm -r $$logs; exit 130' INT TERM; \
-		$(BIN)/python -m pytest -p no:cacheprovider tests/openfoam >$$logs/openfoam 2>&1 & ids="$$ids $$!"; \
+		$(BIN)/python -m pytest -p no:cacheprovider tests/openfoam tests/slurm >$$logs/openfoam 2>&1 & ids="$$ids $$!"; \
 		$(BIN)/python -m pytest -p no:cacheprovider $(FIRST_HALF) >$$logs/workflow 2>&1 & ids="$$ids $$!"; \
-		$(BIN)/python -m pytest --ignore=tests/openfoam --ignore-glob='$(FIRST_HALF)'; failed=$$?; \
+		$(BIN)/python -m pytest --ignore=tests/openfoam --ignore=tests/slurm \
+			--ignore-glob='$(FIRST_HALF)'; failed=$$?; \
 		for id in $$ids; do wait $$id || failed=1; done; \
 		for part in openfoam workflow; do echo "$$part, which ran beside:"; cat $$logs/$$part; done; \
 		rm -r $$logs; exit $$failed
