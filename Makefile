@@ -74,7 +74,7 @@ status: $(ENV)/run
 verify: $(ENV)/run
 	$(BIN)/equisection verify
 
-# Three parts side by side: tests that run OpenFOAM, the first half of those that start Snakemake, and
+# Three parts side by side: tests that run OpenFOAM or SLURM, the first half of those that start Snakemake, and
 # the others, which are seen while they run.
 FIRST_HALF := tests/workflow/test_[a-k]*.py
 test: $(ENV)/test
