@@ -182,6 +182,17 @@ def test_missing_records_are_named_and_the_others_go_on(
     [
         ({"given": {**RUN["given"], "histories": ""}}, r"given\.histories: '': allowed"),
         ({"given": {**RUN["given"], "histories": "{run}.csv"}}, r"given\.histories"),
+        (
+            {"given": {**RUN["given"], "histories": "{model}.csv"}},
+            r"given\.histories: '\{model\}\.csv': .* \{k_star\} in it",
+        ),
+        (
+            {
+                "given": {**RUN["given"], "histories": "{k_star}.csv"},
+                "sweep": {**RUN["sweep"], "models": ["2d", "2d-paper"], "incidence_deg": [1, 3]},
+            },
+            r"allowed is a path with \{model\}, \{incidence_deg\} in it",
+        ),
         ({"given": {**RUN["given"], "polars": {}}}, r"steady\.resolution: 'coarse'"),
         ({"given": {**RUN["given"], "signs": {"twist": 0}}}, r"given\.signs\.twist: 0"),
         ({"sweep": {**RUN["sweep"], "onset": "refine"}}, r"sweep\.onset: 'refine'.* no file has"),

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import glob
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
 
 from equisection.config.groups.solver_keys import SolverKeys
+from equisection.config.groups.sweep import Range
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
 from equisection.keys.values import EMPTY, NULLABLE, NUMBER, WHOLE, Name, Number, Positive, Truth
@@ -161,8 +162,37 @@ def _is_path(path: str, placeholders: tuple[str, ...]) -> bool:
     return bool(path) and not wrong and not {"{", "}"} & set(PLACEHOLDER.sub("", path))
 
 
-def _in_braces(placeholders: tuple[str, ...]) -> str:
+def _in_braces(placeholders: Iterable[str]) -> str:
     return ", ".join(f"{{{name}}}" for name in placeholders)
+
+
+@check(
+    "given.histories",
+    "solver",
+    "sweep.models",
+    "sweep.k_star",
+    "sweep.speed",
+    "sweep.incidence_deg",
+)
+def _history_of_each(
+    histories: str, solver: str, models: tuple[str, ...], *axes: tuple[float, ...] | Range | None
+) -> Iterator[Problem]:
+    """Refuse a path that names one file for several releases."""
+    if solver != "given" or not histories:
+        return
+    there = set(PLACEHOLDER.findall(histories))
+    lacks = [] if len(models) == 1 or "model" in there else ["model"]
+    for name, values in zip(PLACEHOLDERS[2:], axes, strict=True):
+        several = isinstance(values, Range) or len(values or ()) > 1
+        if several and not there & {"case", name}:
+            lacks.append(name)
+    if lacks:
+        yield Problem(
+            "given.histories",
+            histories,
+            f"allowed is a path with {_in_braces(lacks)} in it, of which this study has several, "
+            "such as data/{model}/{case}.csv: each release has a file of its own",
+        )
 
 
 @check("given.polars", "steady.resolution", "steady.study", "solver")
