@@ -22,7 +22,6 @@ from equisection.analysis.recorded_beam import on_strips, read_recorded_beam
 from equisection.analysis.reduced_beam import (
     growth_of_pitch,
     learnt_beam,
-    limit_cycles_of_beams,
     predicted_beams,
 )
 from equisection.analysis.reduced_model import (
@@ -226,17 +225,16 @@ def _cycles_of_beams(polar: Polar) -> Iterator[Row]:
         name=f"3d/k{k_star[learnt]:g}",
         source="embedded solver",
     )
-    for large in (True, False):
-        loads = learn_strips(release, polars, large=large)
-        found = limit_cycles_of_beams(loads, on_strips(beams, polars.strips))
-        words = "terms of large amplitudes" if large else "those of small ones alone"
-        for place in others:
-            size = float(found["twist_amplitude_deg"].iloc[place])
-            yield Row(
-                f"embedded beam at k* {k_star[place]:g}: limit cycle, learnt from "
-                f"{LEARNT_CYCLE:g} c/V at {k_star[learnt]:g}, {words}",
-                f"{size:.2f} deg, {sizes[place]:.2f} in the release",
-            )
+    parameters = on_strips(beams, polars.strips)
+    swings = LearntBeams(parameters, learn_strips(release, polars)).released(UNTIL_CYCLE)
+    twist = swings.torsion[swings.time > UNTIL_CYCLE - 20.0] @ parameters.torsion_at_tip
+    for place in others:
+        size = 0.5 * math.degrees(float(np.ptp(twist[:, place])))
+        yield Row(
+            f"embedded beam at k* {k_star[place]:g}: limit cycle, learnt from "
+            f"{LEARNT_CYCLE:g} c/V at {k_star[learnt]:g}",
+            f"{size:.2f} deg, {sizes[place]:.2f} in the release",
+        )
 
 
 def _stiffer(beam: BeamModes, factor: float) -> BeamModes:

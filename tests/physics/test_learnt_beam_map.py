@@ -10,7 +10,7 @@ from tests.physics.test_learnt_beam import KNOWN, POLARS, SECTION, SHARE, STRIPS
 from equisection.aerodynamics.learnt_strips import LearntStrips
 from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.analysis.learnt_bodies import LearntBeamBodies
-from equisection.analysis.reduced_beam import learnt_beam, limit_cycles_of_beams, predicted_beams
+from equisection.analysis.reduced_beam import learnt_beam, predicted_beams
 from equisection.errors import ArgumentError
 from equisection.motion.beam_lesson import learn_strips
 from equisection.motion.learnt_beams import LearntBeams
@@ -119,26 +119,6 @@ def test_loads_are_learnt_wherever_the_axis_is():
     np.testing.assert_allclose(found.moment[:3], KNOWN.moment[:3], rtol=0.2)
     assert found.residual_moment < 0.02
     assert found.residual_lift < 0.03
-
-
-def test_limit_cycle_is_learnt_from_all_of_a_release_that_grows():
-    """Of known loads, whose large amplitudes are damped, another beam's cycle is found."""
-    cubic = np.array([-0.6, 0.0, 0.7, 15.0, 0.0, -8.0, -250.0, 0.0, 0.0])
-    lift = np.array([-1.0, 0.0, -2.0, 10.0, 0.0, 0.0, 60.0, 0.0, 0.0])
-    straight = replace(
-        POLARS,
-        lift=7.0 * np.outer(SECTION.incidence, SHARE),
-        moment=1.7 * np.outer(SECTION.incidence, SHARE),
-    )
-    loads = at_incidence(2.0, polars=straight, moment=cubic, lift=lift)
-    release = recorded(beams([5.0]), loads, 110.0)
-    found = learn_strips(release, straight, large=True)
-    k_star = [5.0, 6.5]
-    true, model = (limit_cycles_of_beams(one, beams(k_star), 250.0) for one in (loads, found))
-    size = true["twist_amplitude_deg"].to_numpy()
-    assert size[0] > size[1] > 3.0
-    np.testing.assert_allclose(model["twist_amplitude_deg"], size, rtol=0.03)
-    assert not model["extrapolated"].any()
 
 
 def test_bodies_of_the_map_move_as_the_beams():

@@ -205,6 +205,15 @@ def test_limit_cycle_is_learnt_from_the_farthest_release_that_can_be(tmp_path, m
     assert "no limit cycle is learnt from k4: a record of 20 c/V" in caplog.text
 
 
+def test_limit_cycle_of_a_beam_is_unknown(tmp_path, monkeypatch):
+    """Its model has too few terms for large amplitudes, whatever release grew."""
+    index = index_of(tmp_path, "3d", {"k4": "growing", "k9": "settled"})
+    monkeypatch.setattr(Lessons, "_grid", ([4.0, 9.0], [None, None]))
+    found = Lessons(config_of(), "3d", {}, [index]).limit_cycles()
+    assert found.words == ""
+    assert found.table["limit_cycle_deg"].isna().all()
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

@@ -63,7 +63,7 @@ def test_finished_sweep_of_the_beam_can_be_learnt_from(
     assert set(lessons.config.sweep.values()) <= set(data["k_star"].values)
     assert data.attrs["learnt_from"] == f"3d/{lessons.last_release.point.name}"
     assert list(onsets_of([data])["model"]) == ["3d"]
-    assert lessons.limit_cycles().table["limit_cycle_deg"].size == data.sizes["k_star"]
+    assert not lessons.limit_cycles().words  # too few terms for large amplitudes
     # its map has two kinds of modes, and the speed of the model
     given = AsGiven(nominal_k_star(lessons.data["equivalent"]), lessons.config.flow.speed)
     line = LearntLine(lessons, data, given, np.geomspace(20.0, 60.0, 9))

@@ -22,8 +22,8 @@ corrects the slope of the steady loads, which a polar of few incidences leaves o
 unless it is asked for. The strips share the coefficients and have their own lags.
 
 A beam has fewer terms than a section (:mod:`..aerodynamics.learnt_loads`): what is learnt from are
-the loads of two modes, which mix the incidences of all strips. Where all of a release with large
-amplitudes is learnt from, the others of a section follow, h^2, a^2 h, a h^2 and h^3.
+the loads of two modes, which mix the incidences of all strips. They are too few for large
+amplitudes.
 """
 
 from __future__ import annotations
@@ -41,8 +41,6 @@ Floats = NDArray[np.float64]
 #: Place of three quarters of the chord, chords behind mid-chord.
 REAR_POINT = 0.25
 STRIP_TERMS = ("theta'", "a theta'", "h", "a h", "a")
-#: Further terms of large amplitudes.
-LARGE_TERMS = ("h^2", "a^2 h", "a h^2", "h^3")
 #: Place of the term that does not vanish at rest.
 SLOPE_TERM = 4
 #: Half-width (rad) of the difference that the slope of what an offset axis adds is taken over.
@@ -62,7 +60,7 @@ class LearntStrips:
     rate
         g, rate of the lags (V/c).
     moment, lift
-        B_m and B_l, shape (5,), or (9,) with the terms of large amplitudes.
+        B_m and B_l, shape (5,).
     residual_moment, residual_lift
         Standard deviation of what the model leaves of the loads of the first torsion and the first
         bending mode, over that of what polars and apparent mass leave (-).
@@ -91,7 +89,7 @@ class LearntStrips:
             alpha - theta_0 (rad), theta' and x (rad), shape (..., S).
         """
         lift, moment = self.polars.loads(self.incidence_rad + a)
-        terms = strip_terms(a, twist_rate, a - lag, self.lift.size)
+        terms = strip_terms(a, twist_rate, a - lag)
         return lift + np.tensordot(self.lift, terms, 1), moment + np.tensordot(
             self.moment, terms, 1
         )
@@ -116,8 +114,6 @@ class LearntStrips:
             self.polars.slopes(self.incidence_rad + a), (self.lift, self.moment), strict=True
         ):
             by_lag = b[2] + a * b[3]
-            if b.size > len(STRIP_TERMS):
-                by_lag = by_lag + a * a * b[len(STRIP_TERMS) + 1]
             corrected = steady + b[SLOPE_TERM]
             found.append(np.stack([corrected + by_lag, b[0] + a * b[1], -by_lag]))
         lift, moment = found
@@ -133,13 +129,6 @@ class LearntStrips:
         return (ends[1] - ends[0]) / (2.0 * _HALF_WIDTH)
 
 
-def strip_terms(a: Floats, twist_rate: Floats, h: Floats, count: int = len(STRIP_TERMS)) -> Floats:
-    """Return T of incidence a (rad), theta' and h (rad).
-
-    Its shape is (5, ...), or (9, ...) with the terms of large amplitudes.
-    """
-    ah = a * h
-    found = [twist_rate, a * twist_rate, h, ah, a]
-    if count > len(STRIP_TERMS):
-        found += [h * h, a * ah, ah * h, h * h * h]
-    return np.stack(found)
+def strip_terms(a: Floats, twist_rate: Floats, h: Floats) -> Floats:
+    """Return T, shape (5, ...), of incidence a (rad), theta' and h (rad)."""
+    return np.stack([twist_rate, a * twist_rate, h, a * h, a])

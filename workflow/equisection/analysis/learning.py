@@ -25,7 +25,6 @@ from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.analysis.learnt_cycles import (
     LimitCycles,
     cycles_of,
-    cycles_of_beams,
     no_cycles,
     with_cycles,
 )
@@ -223,17 +222,17 @@ class Lessons:
     def limit_cycles(self) -> LimitCycles:
         """Return the limit cycles of the sweep, by the release that grows farthest.
 
-        One that cannot be learnt from, since it left too soon, gives way to the next.
+        One that cannot be learnt from, since it left too soon, gives way to the next. Those of a
+        beam are not known.
         """
+        cases = self._grid[1]
+        if self._is_beam:
+            return no_cycles(len(cases))
         indices = (*self.releases, *self.confirming)
         runs = [run for index in indices for run in self._runs(index)]
         growing = [run for run in runs if run.unstable]
-        cases = self._grid[1]
         for run in sorted(growing, key=lambda each: -np.nan_to_num(each.amplitude_deg)):
             try:
-                if self._is_beam:
-                    release, polars = self._release(run), self.strip_polars
-                    return cycles_of_beams(cases, release, polars, self._start)
                 return cycles_of(cases, self._history(run), self.polar, self._start)
             except EquisectionError as error:
                 _LOG.warning("no limit cycle is learnt from %s: %s", run.point.name, error)

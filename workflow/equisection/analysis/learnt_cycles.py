@@ -1,7 +1,8 @@
 """Limit cycles over the sweep, by a model that is learnt from all of a release that grows.
 
 A model knows the amplitudes that it was learnt from, so that the first 45 c/V of a release, which
-give the onset, do not give the limit cycle (:func:`..reduced_model.limit_cycles`).
+give the onset, do not give the limit cycle (:func:`..reduced_model.limit_cycles`). That of a beam
+has too few terms for large amplitudes, and gives none.
 """
 
 from __future__ import annotations
@@ -13,25 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 import xarray as xr
-from numpy.typing import NDArray
 
 from equisection.aerodynamics.learnt_loads import learn
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
-from equisection.aerodynamics.strip_polars import StripPolars
-from equisection.analysis.recorded_beam import on_strips
-from equisection.analysis.reduced_beam import limit_cycles_of_beams
 from equisection.analysis.reduced_model import limit_cycles
 from equisection.cases import UnsteadyCase
-from equisection.motion.beam_lesson import BeamRelease, learn_strips
 from equisection.study.axes import Axis
-
-Floats = NDArray[np.float64]
 
 #: Columns of the predicted limit cycles.
 AMPLITUDE, EXTRAPOLATED = "limit_cycle_deg", "limit_cycle_extrapolated"
-#: What is known of the error of a beam's limit cycle (``python -m tests.benchmarks learnt``).
-ERROR_OF_BEAMS = "of a beam a guess: on embedded beams it was off by a factor of up to 4"
 
 
 @dataclass(frozen=True)
@@ -44,7 +36,7 @@ class LimitCycles:
         ``limit_cycle_deg``, amplitude of the tip's twist (deg), and ``limit_cycle_extrapolated``,
         by rising k*.
     words
-        What the model was learnt from; empty where no release grows.
+        What the model was learnt from; empty where none is known.
     """
 
     table: pd.DataFrame
@@ -52,7 +44,7 @@ class LimitCycles:
 
 
 def no_cycles(count: int) -> LimitCycles:
-    """Return the limit cycles of a sweep of which no release grows."""
+    """Return the limit cycles of a sweep of which none is known."""
     table = pd.DataFrame({AMPLITUDE: math.nan, EXTRAPOLATED: False}, index=range(count))
     return LimitCycles(table, "")
 
@@ -82,50 +74,20 @@ def cycles_of(
         The release cannot be learnt from.
     """
     sections = [case.section for case in cases if case.section is not None]
+    found = no_cycles(len(cases))
     if not sections:
-        return no_cycles(len(cases))
-    found = limit_cycles(learn(grown, polar), sections, start=start)
-    factor = np.array([section.twist_recovery for section in sections])
+        return found
+    table = found.table
     there = [case.section is not None for case in cases]
-    return _of_tips(there, found, factor, grown)
-
-
-def cycles_of_beams(
-    cases: Sequence[UnsteadyCase],
-    grown: BeamRelease,
-    polars: StripPolars,
-    start: tuple[float, float] = (0.0, 0.0),
-) -> LimitCycles:
-    """Return the limit cycles of the beams of cases, as :func:`cycles_of` those of sections.
-
-    ``polars`` are the steady loads along the span.
-    """
-    beams = [case.beam for case in cases if case.beam is not None]
-    if not beams:
-        return no_cycles(len(cases))
-    loads = learn_strips(grown, polars, large=True)
-    found = limit_cycles_of_beams(loads, on_strips(beams, loads.polars.strips), start=start)
-    there = [case.beam is not None for case in cases]
-    return _of_tips(there, found, np.ones(len(beams)), grown)
-
-
-def _of_tips(
-    there: Sequence[bool],
-    found: pd.DataFrame,
-    twist_recovery: Floats,
-    grown: ReferenceHistory | BeamRelease,
-) -> LimitCycles:
-    """Return limit cycles with a line for each case, by those of the cases that have one."""
-    table = no_cycles(len(there)).table
-    table.loc[there, AMPLITUDE] = found["twist_amplitude_deg"].to_numpy() / twist_recovery
-    table.loc[there, EXTRAPOLATED] = found["extrapolated"].to_numpy()
-    words = (
+    of_sections = limit_cycles(learn(grown, polar), sections, start=start)
+    factor = np.array([section.twist_recovery for section in sections])
+    table.loc[there, AMPLITUDE] = of_sections["twist_amplitude_deg"].to_numpy() / factor
+    table.loc[there, EXTRAPOLATED] = of_sections["extrapolated"].to_numpy()
+    return LimitCycles(
+        table,
         f"limit cycle by a model learnt from all {float(grown.time[-1]):.3g} c/V of the release "
-        f"at k* = {grown.k_star:g}"
+        f"at k* = {grown.k_star:g}",
     )
-    if isinstance(grown, BeamRelease):
-        words += f", {ERROR_OF_BEAMS}"
-    return LimitCycles(table, words)
 
 
 def with_cycles(dataset: xr.Dataset, cycles: LimitCycles, axis: Axis) -> xr.Dataset:

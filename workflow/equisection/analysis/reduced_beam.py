@@ -21,7 +21,6 @@ from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.analysis.reduced_model import (
     PredictedReleases,
     ends_of_records,
-    ends_of_swings,
     prediction_of,
     windows_of,
     with_growth,
@@ -35,8 +34,6 @@ from equisection.motion.learnt_beams import LearntBeams
 #: growth at k* 10 to 14 by so much (rms, ``python -m tests.benchmarks learnt``). It was raised from
 #: 0.004 after these misses, on the plates that the form was chosen on: no independent test.
 SMALLEST_BAND_OF_BEAM = 0.005
-#: Duration (c/V) after which a release of a beam, which grows slowly, has come to its limit cycle.
-LONG_OF_BEAM = 1200.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,37 +156,6 @@ def released_beams(
     records = np.concatenate([swings.torsion[:, :, :1], bending], axis=2).transpose(2, 1, 0)
     twist = swings.torsion @ parameters.torsion_at_tip
     return with_growth(swings, records, twist, natural, spans)
-
-
-def limit_cycles_of_beams(
-    loads: LearntStrips,
-    parameters: BeamParameters,
-    duration: float = LONG_OF_BEAM,
-    start: tuple[float, float] = (0.0, 0.0),
-) -> pd.DataFrame:
-    """Return the amplitude that a release comes to in the end, of each beam.
-
-    Parameters
-    ----------
-    loads
-        Loads that were learnt from the whole of a release that grows
-        (:func:`equisection.motion.beam_lesson.learn_strips`), with terms of large amplitudes.
-    parameters
-        Modes of the N beams at the strips of the loads.
-    duration
-        Time after which the amplitude is read (c/V).
-    start
-        Twist (rad) and heave rate (over V) of the tip from which they are released.
-
-    Returns
-    -------
-    pd.DataFrame
-        :func:`..reduced_model.ends_of_swings`, of the twist of the tip.
-    """
-    beams = LearntBeams(parameters, loads)
-    swings = beams.released(duration, start=start)
-    twist = swings.torsion @ parameters.torsion_at_tip
-    return ends_of_swings(swings, twist, beams.natural_frequencies[:, 0], loads.seen)
 
 
 def growth_of_pitch(beams: LearntBeams) -> list[float]:

@@ -349,42 +349,18 @@ def limit_cycles(
     Returns
     -------
     pd.DataFrame
-        :func:`ends_of_swings`.
-    """
-    histories = LearntSections(sections, loads).released(duration, start=start)
-    natural = np.array([section.uncoupled_frequencies[0] for section in sections])
-    return ends_of_swings(histories, histories.twist, natural, loads.seen)
-
-
-def ends_of_swings(
-    run: LearntHistories | LearntSwings, twist: Floats, natural: Floats, seen: tuple[float, float]
-) -> pd.DataFrame:
-    """Return the amplitude at the end of each of N releases with learnt loads.
-
-    Parameters
-    ----------
-    run
-        The releases.
-    twist
-        Twist of section or tip (rad), shape (n, N).
-    natural
-        Frequency f c/V of the pitch, shape (N,).
-    seen
-        Least and greatest incidence (rad) of what the loads were learnt from.
-
-    Returns
-    -------
-    pd.DataFrame
         ``twist_amplitude_deg``, half the range of the twist over its last two periods; NaN
         where the motion leaves the polar. ``extrapolated``: the incidence goes more than
         :data:`BEYOND` outside what the model has seen.
     """
-    least, most = run.farthest.T
+    histories = LearntSections(sections, loads).released(duration, start=start)
+    least, most = histories.farthest.T
     amplitudes = []
-    for lane, frequency in enumerate(natural):
-        late = run.time > run.time[-1] - 2.0 / frequency
-        amplitudes.append(0.5 * math.degrees(float(np.ptp(twist[late, lane]))))
-    low, high = seen
+    for lane, section in enumerate(sections):
+        late = histories.time > duration - 2.0 / section.uncoupled_frequencies[0]
+        swing = float(np.ptp(histories.twist[late, lane]))
+        amplitudes.append(0.5 * math.degrees(swing))
+    low, high = loads.seen
     margin = BEYOND * (high - low)
     return pd.DataFrame(
         {

@@ -35,7 +35,6 @@ from equisection.aerodynamics.learnt_loads import (
     require_swing,
 )
 from equisection.aerodynamics.learnt_strips import (
-    LARGE_TERMS,
     REAR_POINT,
     SLOPE_TERM,
     STRIP_TERMS,
@@ -102,13 +101,12 @@ class _Lesson:
     by_moment: Floats
     by_lift: Floats
     used: NDArray[np.bool_]
-    size: int
     terms: NDArray[np.intp]
     axis: float
 
     @classmethod
     def of(
-        cls, release: BeamRelease, polars: StripPolars, until: float, free_slope: bool, large: bool
+        cls, release: BeamRelease, polars: StripPolars, until: float, free_slope: bool
     ) -> _Lesson:
         require_lesson(release.name, release.time)
         s, structure = release.time, release.parameters.structure
@@ -151,8 +149,7 @@ class _Lesson:
                 f"{np.degrees(polars.incidence_range)} deg; add angles to steady.incidence_deg"
             )
         require_swing(release.name, a[used])
-        size = len(STRIP_TERMS) + (len(LARGE_TERMS) if large else 0)
-        terms = np.arange(size)
+        terms = np.arange(len(STRIP_TERMS))
         return cls(
             step=float(s[1] - s[0]),
             a=a,
@@ -162,7 +159,6 @@ class _Lesson:
             by_moment=by_moment / by_moment.sum(),
             by_lift=by_lift / by_lift.sum(),
             used=used,
-            size=size,
             terms=terms if free_slope else terms[terms != SLOPE_TERM],
             axis=axis,
         )
@@ -170,12 +166,12 @@ class _Lesson:
     def fitted(self, rate: float) -> tuple[Floats, Floats, float, float]:
         """Return B_m, B_l and their residuals at a rate of the lags (V/c)."""
         h = self.a - lagged(self.a, self.step, rate)
-        terms = strip_terms(self.a, self.twist_rate, h, self.size)[self.terms][:, self.used]
+        terms = strip_terms(self.a, self.twist_rate, h)[self.terms][:, self.used]
         by_lift, left_lift = bound_fit((terms @ self.by_lift).T, self.lift[self.used])
         on_axis = (terms @ self.by_moment).T
         about_axis = self.moment[self.used] - self.axis * (on_axis @ by_lift)
         by_moment, left_moment = bound_fit(on_axis, about_axis)
-        moment, lift = np.zeros((2, self.size))
+        moment, lift = np.zeros((2, len(STRIP_TERMS)))
         moment[self.terms], lift[self.terms] = by_moment, by_lift
         return moment, lift, float(left_moment), float(left_lift)
 
@@ -186,7 +182,6 @@ def learn_strips(
     until: float = math.inf,
     *,
     free_slope: bool = False,
-    large: bool = False,
 ) -> LearntStrips:
     """Learn the loads of the strips of a beam from a release.
 
@@ -200,8 +195,6 @@ def learn_strips(
         Part of the record that is used, from the release on (c/V).
     free_slope
         True: the slope of the steady loads is corrected, too.
-    large
-        True: there are terms of large amplitudes.
 
     Raises
     ------
@@ -209,7 +202,7 @@ def learn_strips(
         The record is too short, has gaps, is too coarse in time, or has settled.
     """
     whole = polars.continued
-    lesson = _Lesson.of(release, whole, until, free_slope, large)
+    lesson = _Lesson.of(release, whole, until, free_slope)
     rate = rate_of_least(lesson.fitted)
     moment, lift, left_moment, left_lift = lesson.fitted(rate)
     seen = release.incidence_rad + lesson.a[lesson.used]
