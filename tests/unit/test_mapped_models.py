@@ -42,6 +42,7 @@ from equisection.errors import ConfigError
 from equisection.figures import catalogue
 from equisection.figures.style import drawing_style
 from equisection.motion.critical import critical_of
+from equisection.motion.map_dataset import maps_of_models
 from equisection.motion.stability import critical_speed
 from equisection.motion.stability_map import map_lines
 from equisection.motion.steady_states import least_stable
@@ -424,3 +425,17 @@ def test_figures_of_a_map_are_drawn(  # noqa: PLR0917 - fixtures
     assert [bool(axes.collections) for axes in figure.axes] == [True, True, True]
     bars = figure.axes[0].collections[1].get_segments()  # of 2.5 deg; of 5 nothing is known
     assert [bar[:, 1].tolist() for bar in bars] == [[20.0, 30.0]]
+
+
+def test_modes_of_maps_that_are_joined_stay_in_order() -> None:
+    """A section has two modes and a beam many, the tenth of which comes after the second."""
+    many = [f"bending {place}" for place in range(1, 13)] + ["torsion 1", "torsion 2"]
+
+    def mapped(modes: list[str]) -> xr.Dataset:
+        return xr.Dataset({"growth": ("mode", np.arange(len(modes)))}, {"mode": modes})
+
+    found = maps_of_models({"2d": mapped(["bending 1", "torsion 1"]), "3d": mapped(many)})
+    assert list(found["mode"].values) == many
+    assert found["growth"].sel(model="2d", mode="torsion 1") == 1
+    assert found["growth"].sel(model="3d").values.tolist() == list(range(14))
+    assert maps_of_models({"2d": mapped([]), "3d": mapped([])}).sizes["mode"] == 0

@@ -38,7 +38,7 @@ from equisection.analysis.reduced_model import SMALLEST_BAND
 from equisection.cases import UnsteadyCase
 from equisection.errors import EquisectionError
 from equisection.motion.learnt_beams import SWINGS_ALONG
-from equisection.motion.map_dataset import described
+from equisection.motion.map_dataset import described, maps_of_models
 from equisection.motion.mechanism import (
     Instabilities,
     Mechanism,
@@ -452,20 +452,11 @@ def map_of_learnt(lines: Sequence[LearntLine], table: pd.DataFrame, *, chord: fl
         reasons = "; ".join(dict.fromkeys(line.refusal for line in lines))
         raise EquisectionError(f"no model of the loads was learnt at any incidence ({reasons})")
     speeds = lines[0].speeds
-    models = list(dict.fromkeys(line.lessons.name for line in lines))
-    found = []
-    for model in models:
+    found = {}
+    for model in dict.fromkeys(line.lessons.name for line in lines):
         own = [line for line in lines if line.lessons.name == model]
-        found.append(_map_of_model(own, table[table["model"] == model], chord))
-    joined = xr.concat(
-        found,
-        pd.Index(models, name="model"),
-        data_vars="all",
-        coords="minimal",
-        join="outer",
-        compat="override",
-        combine_attrs="override",
-    )
+        found[model] = _map_of_model(own, table[table["model"] == model], chord)
+    joined = maps_of_models(found)
     joined["k_star"] = ("speed", np.asarray(lines[0].given.k_star_at(speeds)))
     further = {name: joined[name] for name in OF_MODEL}
     dataset = described(joined.drop_vars(list(OF_MODEL)))

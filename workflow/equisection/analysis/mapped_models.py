@@ -15,7 +15,7 @@ from equisection.config import Config
 from equisection.errors import EquisectionError
 from equisection.motion.body_in_flow import BodyInFlow, SpanCorrection
 from equisection.motion.critical import Critical, critical_of
-from equisection.motion.map_dataset import described, map_of_lines
+from equisection.motion.map_dataset import described, map_of_lines, maps_of_models
 from equisection.motion.stability_map import MapLine, map_lines
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.correction_dataset import factors_from_dataset
@@ -145,21 +145,12 @@ def _correction(factors: CorrectionFactors) -> SpanCorrection:
 
 def map_dataset(models: Sequence[MappedModel], speeds: Floats) -> xr.Dataset:
     """Return ``comparison/stability_map.nc`` over ``model``, ``incidence_deg`` and ``speed``."""
-    found = [(one.name, map_of_lines(one.lines, speeds)) for one in models if one.lines]
+    found = {one.name: map_of_lines(one.lines, speeds) for one in models if one.lines}
     if not found:
         reasons = "; ".join(f"{one.name}: {one.refusal}" for one in models)
         raise EquisectionError(f"no model of the sweep has a map of stability ({reasons})")
-    names = pd.Index([name for name, _ in found], name="model")
-    joined = xr.concat(
-        [dataset for _, dataset in found],
-        names,
-        data_vars="all",
-        coords="minimal",
-        join="outer",
-        compat="override",
-        combine_attrs="override",
-    )
-    joined["k_star"] = found[0][1]["k_star"]
+    joined = maps_of_models(found)
+    joined["k_star"] = next(iter(found.values()))["k_star"]
     return described(joined)
 
 

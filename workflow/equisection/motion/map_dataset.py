@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import xarray as xr
 from numpy.typing import NDArray
 
@@ -125,6 +127,25 @@ def _motions(lines: Sequence[MapLine]) -> dict[str, Any]:
         for part in ("real", "imag")
     }
     return {**parts, "strip_place": ("strip", structure.middles)}
+
+
+def maps_of_models(maps: Mapping[str, xr.Dataset]) -> xr.Dataset:
+    """Return the maps of some models, by their names, as one over ``model``, not yet described.
+
+    Modes that not all of them have are NaN in the others. A join sorts names, 10 before 2: the
+    modes stay in the order of the model that has most of them.
+    """
+    modes = [data["mode"].values for data in maps.values()]
+    order = dict.fromkeys(itertools.chain(*sorted(modes, key=len, reverse=True)))
+    return xr.concat(
+        list(maps.values()),
+        pd.Index(list(maps), name="model"),
+        data_vars="all",
+        coords="minimal",
+        join="outer",
+        compat="override",
+        combine_attrs="override",
+    ).sel(mode=list(order))
 
 
 def described(dataset: xr.Dataset) -> xr.Dataset:
