@@ -2,6 +2,7 @@
 
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -90,3 +91,11 @@ def test_expansion_fills_the_length(length: float, cells: int, first: float) -> 
 def test_incidence_that_does_not_fit_is_refused() -> None:
     with pytest.raises(SolverError, match=r"turned to 60 deg, does not fit into a channel of 4 c"):
         mesh(60.0).points()
+
+
+def test_section_that_is_too_low_is_said_to_be_below() -> None:
+    low = ChannelBox(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0, section_height=-1.4)
+    with pytest.raises(SolverError, match=r"to 15 c with the section 1\.4 c below its middle; "):
+        Mesh(low, math.radians(60.0), 1.0).points()
+    assert "0.3 c above its middle" in replace(low, section_height=0.3).words
+    assert not CHANNEL.words

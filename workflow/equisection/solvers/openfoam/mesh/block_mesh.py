@@ -107,7 +107,8 @@ class ChannelBox:
     def words(self) -> str:
         """Place of the section in words; empty in the middle of the channel."""
         height = self.section_height
-        return f" with the section {height:.3g} c above its middle" if height else ""
+        side = "above" if height > 0.0 else "below"
+        return f" with the section {abs(height):.3g} c {side} its middle" if height else ""
 
     @property
     def room(self) -> float:
