@@ -153,18 +153,13 @@ class LearntBeamBodies:
     @property
     def slowest(self) -> float:
         """Lowest frequency omega c/V in vacuum of the first of them."""
-        structure = self.parameters.structure
-        squares = (
-            (structure.torsion_stiffness / structure.torsion_inertia)[0].min(),
-            (structure.bending_stiffness / structure.bending_mass)[0].min(),
-        )
-        return float(np.sqrt(min(squares)))
+        return min(float(one[0].min()) for one in self.parameters.structure.natural_frequencies)
 
     @property
     def pitch(self) -> float:
         """Frequency omega c/V in vacuum of the first torsion of the first of them."""
-        structure = self.parameters.structure
-        return float(np.sqrt(structure.torsion_stiffness[0, 0] / structure.torsion_inertia[0, 0]))
+        torsion, _ = self.parameters.structure.natural_frequencies
+        return float(torsion[0, 0])
 
     @property
     def _modes(self) -> tuple[int, int]:

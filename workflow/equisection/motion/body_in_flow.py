@@ -151,26 +151,20 @@ class BodyInFlow:
     @property
     def slowest(self) -> float:
         """Lowest angular frequency in vacuum (rad/s) of its modes without imbalance."""
-        structure = self.structure
-        squares = [
-            (structure.torsion_stiffness / structure.torsion_inertia).min(),
-            (structure.bending_stiffness / structure.bending_mass).min(),
-        ]
-        return math.sqrt(float(min(squares))) * self.speed / self.chord
+        slowest = min(float(one.min()) for one in self.structure.natural_frequencies)
+        return slowest * self.speed / self.chord
 
     @property
     def pitch_frequency(self) -> float:
         """Frequency (Hz) of the first torsion mode in vacuum, without imbalance."""
-        structure = self.structure
-        square = float(structure.torsion_stiffness[0, 0] / structure.torsion_inertia[0, 0])
-        return math.sqrt(square) * self.speed / (math.tau * self.chord)
+        torsion, _ = self.structure.natural_frequencies
+        return float(torsion[0, 0]) * self.speed / (math.tau * self.chord)
 
     @property
     def bending_frequencies(self) -> Floats:
         """Frequencies (Hz) of the bending modes in vacuum, without imbalance, ascending."""
-        structure = self.structure
-        squares = structure.bending_stiffness[0] / structure.bending_mass[0]
-        return np.asarray(np.sqrt(squares) * self.speed / (math.tau * self.chord))
+        _, bending = self.structure.natural_frequencies
+        return np.asarray(bending[0] * self.speed / (math.tau * self.chord))
 
     def tip(self, states: NDArray[Any]) -> tuple[Any, Any]:
         """Return twist (rad) and deflection (chords) of the tip in states Y of shape (..., n)."""

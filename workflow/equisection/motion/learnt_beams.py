@@ -106,8 +106,8 @@ class LearntBeams:
 
         These are the first one and those up to :data:`SWINGS_ALONG` of the torsion's frequency.
         """
-        _, bending = np.split(self._natural[0], [self._torsion_modes])
-        along = bending <= SWINGS_ALONG * self._natural[0, 0]
+        torsion, bending = self.parameters.structure.natural_frequencies
+        along = bending[0] <= SWINGS_ALONG * torsion[0, 0]
         along[0] = True
         return np.flatnonzero(along)
 
@@ -117,18 +117,9 @@ class LearntBeams:
 
         They have the shape (N, 1 + bending modes).
         """
-        places = np.concatenate([[0], self._torsion_modes + self.swings_along])
-        return np.asarray(self._natural[:, places] / (2.0 * math.pi))
-
-    @property
-    def _natural(self) -> Floats:
-        """Frequencies omega c/V of the modes without imbalance, shape (N, m)."""
-        structure = self.parameters.structure
-        squares = (
-            structure.torsion_stiffness / structure.torsion_inertia,
-            structure.bending_stiffness / structure.bending_mass,
-        )
-        return np.sqrt(np.concatenate(squares, axis=1))
+        torsion, bending = self.parameters.structure.natural_frequencies
+        found = np.concatenate([torsion[:, :1], bending[:, self.swings_along]], axis=1)
+        return np.asarray(found / (2.0 * math.pi))
 
     def rates(self, state: Floats) -> Floats:
         """Return the rates of the states (q, q', x), shape (N, n), with q = (Theta, W)."""

@@ -138,6 +138,17 @@ class StripStructure:
         return int(self.weights.size)
 
     @property
+    def natural_frequencies(self) -> tuple[Floats, Floats]:
+        """Frequencies omega c/V of torsion and bending modes in vacuum, without imbalance.
+
+        They have the shapes (N, n_t) and (N, n_b).
+        """
+        return (
+            np.sqrt(self.torsion_stiffness / self.torsion_inertia),
+            np.sqrt(self.bending_stiffness / self.bending_mass),
+        )
+
+    @property
     def middles(self) -> Floats:
         """Middles z/L of the strips, shape (S,)."""
         return np.asarray(np.cumsum(self.weights) - 0.5 * self.weights)
