@@ -59,10 +59,9 @@ UNTIL = 100.0
 PARTS_OF_LONG = ((10.0, 60.0), (20.0, 60.0), (35.0, 80.0), (50.0, 100.0), (65.0, 100.0))
 #: k* of the kept beams that a model is learnt from.
 LEARNT_BEAMS = (5.5, 6.44, 8.0, 10.0)
-#: k* of embedded beams with a limit cycle, the first of which is learnt from; part of its release
-#: (c/V) that is, and time (c/V) after which the others have come to theirs.
-CYCLES_OF_BEAMS = (5.7, 5.8, 5.9)
-LEARNT_CYCLE, UNTIL_CYCLE = 1600.0, 1600.0
+#: k* of embedded beams with a limit cycle, the first of which is learnt from, and time (c/V) after
+#: which all have come to theirs.
+CYCLES_OF_BEAMS, UNTIL_CYCLE = (5.7, 5.8, 5.9), 1600.0
 
 
 def rows() -> Iterator[Row]:
@@ -214,11 +213,10 @@ def _cycles_of_beams(polar: Polar) -> Iterator[Row]:
         "embedded",
     )
     learnt, others = 0, (1, 2)
-    record = run.time <= LEARNT_CYCLE
     release = BeamRelease(
-        run.time[record],
-        run.torsion_amplitudes[record, learnt].T,
-        run.bending_amplitudes[record, learnt].T,
+        run.time,
+        run.torsion_amplitudes[:, learnt].T,
+        run.bending_amplitudes[:, learnt].T,
         on_strips(beams[:1], polars.strips),
         angle,
         k_star=float(k_star[learnt]),
@@ -232,7 +230,7 @@ def _cycles_of_beams(polar: Polar) -> Iterator[Row]:
         size = 0.5 * math.degrees(float(np.ptp(twist[:, place])))
         yield Row(
             f"embedded beam at k* {k_star[place]:g}: limit cycle, learnt from "
-            f"{LEARNT_CYCLE:g} c/V at {k_star[learnt]:g}",
+            f"{UNTIL_CYCLE:g} c/V at {k_star[learnt]:g}",
             f"{size:.2f} deg, {sizes[place]:.2f} in the release",
         )
 
