@@ -102,14 +102,9 @@ class GeneralisedForces(LoadTable):
         return self.between_rows(omega)
 
     def shifted(self, number: int, times: float) -> GeneralisedForces:
-        """Table in which one quantity is moved by some of its standard deviations.
+        """Table in which one quantity is moved, as :class:`.LoadTable` has it.
 
-        Parameters
-        ----------
-        number
-            Its number, below :attr:`quantities`.
-        times
-            How many.
+        They are numbered force by force, along the rows of Q: the real part, then the imaginary.
         """
         values = self.values.copy()
         if self.spread is not None:
