@@ -287,6 +287,20 @@ def test_a_configuration_without_a_key_that_is_needed_is_named(
     assert "config.resolved.yaml: no key flow.sound_speed" in capsys.readouterr().err
 
 
+@pytest.mark.parametrize("value", ["fast", None, [9.0]], ids=repr)
+def test_a_configuration_with_a_word_for_a_number_is_named(
+    run: Path, value: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    flow = {**CONFIGURATION["flow"], "sound_speed": value}
+    (copy / "config.resolved.yaml").write_text(yaml.safe_dump({**CONFIGURATION, "flow": flow}))
+    assert main(["export", str(copy), "--only", "openfast"]) == 1
+    assert (
+        f"config.resolved.yaml: flow.sound_speed: {value!r} is no number" in capsys.readouterr().err
+    )
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [

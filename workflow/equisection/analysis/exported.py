@@ -84,6 +84,23 @@ class _ExportedRun:
             value = value[name]
         return value
 
+    def number(self, *names: str) -> float:
+        """Return the number of a key, by its names from the outermost in.
+
+        Raises
+        ------
+        ResultFileError
+            The configuration has no such key, or what it has is no number.
+        """
+        value = self.value(*names)
+        try:
+            return float(value)
+        except (TypeError, ValueError):
+            raise ResultFileError(
+                f"{self.folder / CONFIGURATION}: {'.'.join(names)}: {value!r} is no number, as one "
+                "that was edited; run again"
+            ) from None
+
     @property
     def resolution(self) -> str:
         return str(self.value("steady", "resolution"))
@@ -91,22 +108,22 @@ class _ExportedRun:
     @property
     def speed(self) -> float:
         """V (m/s)."""
-        return float(self.value("flow", "speed"))
+        return self.number("flow", "speed")
 
     @property
     def density(self) -> float:
         """Density rho (kg/m^3)."""
-        return float(self.value("flow", "density"))
+        return self.number("flow", "density")
 
     @property
     def reynolds_number(self) -> float:
         """Reynolds number V c/nu of the run's flow."""
-        return self.speed * float(self.value("beam", "chord")) / self.kinematic_viscosity
+        return self.speed * self.number("beam", "chord") / self.kinematic_viscosity
 
     @property
     def kinematic_viscosity(self) -> float:
         """Kinematic viscosity nu = mu/rho (m^2/s)."""
-        return float(self.value("flow", "dynamic_viscosity")) / self.density
+        return self.number("flow", "dynamic_viscosity") / self.density
 
     def read(self, file: str) -> xr.Dataset | None:
         """Return a data set of the run; None where the run does not have it."""
@@ -342,15 +359,15 @@ def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
 
 def _driver_section(run: _ExportedRun, section: Section, polar: Polar) -> DriverSection:
     """Return the section with the start of the run; undeformed where it has no equilibrium."""
-    incidence_deg = float(run.value("flow", "incidence_deg"))
+    incidence_deg = run.number("flow", "incidence_deg")
     twist, deflection = 0.0, 0.0
     if run.value("unsteady", "start", "state") == "equilibrium":
         flowing = section.in_flow(run.density, run.speed)
         found = section_in_equilibrium(flowing, polar, math.radians(incidence_deg))
         twist, deflection = found or (twist, deflection)
     convective = section.chord / run.speed
-    pushed = math.radians(float(run.value("unsteady", "start", "twist_deg")))
-    rate = float(run.value("unsteady", "start", "heave_rate")) * run.speed
+    pushed = math.radians(run.number("unsteady", "start", "twist_deg"))
+    rate = run.number("unsteady", "start", "heave_rate") * run.speed
     return DriverSection(
         airfoil=_AIRFOIL,
         chord=section.chord,
@@ -364,10 +381,10 @@ def _driver_section(run: _ExportedRun, section: Section, polar: Polar) -> Driver
         heave_rate=rate * section.deflection_recovery,
         density=run.density,
         kinematic_viscosity=run.kinematic_viscosity,
-        sound_speed=float(run.value("flow", "sound_speed")),
+        sound_speed=run.number("flow", "sound_speed"),
         speed=run.speed,
-        duration=float(run.value("unsteady", "duration")) * convective,
-        time_step=float(run.value("unsteady", "time_step")) * convective,
+        duration=run.number("unsteady", "duration") * convective,
+        time_step=run.number("unsteady", "time_step") * convective,
     )
 
 
