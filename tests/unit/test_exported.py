@@ -172,6 +172,22 @@ def test_polar_of_too_few_incidences_says_so(
     )
 
 
+def test_file_of_an_earlier_export_in_the_place_of_one_that_is_left_out_is_named(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    assert main(["export", str(copy), "--only", "polars"]) == 0
+    before = Path(capsys.readouterr().out.strip())
+    few = read_dataset(copy / "steady" / "polar_2d.nc").isel(incidence_deg=slice(3))
+    write_dataset(copy / "steady" / "polar_2d.nc", few)
+    assert main(["export", str(copy), "--only", "polars"]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith(f"left out        {before}: ")
+    assert said.rstrip().endswith("; the file that is there is of an earlier export")
+    assert before.is_file()
+
+
 def test_start_of_the_driver_is_that_of_the_section(run: Path, tmp_path: Path) -> None:
     """The configuration's start is of the tip; times are convective, c/V = 0.08 s."""
     assert main(["export", str(run), "--to", str(tmp_path), "--only", "openfast"]) == 0

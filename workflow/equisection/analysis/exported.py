@@ -136,6 +136,12 @@ class _ExportedRun:
         write_text(path, text)
         return ExportedFile(kind, path, holds)
 
+    def left_out(self, kind: str, name: str, holds: str, error: ResultFileError) -> ExportedFile:
+        """Return why a file is not written, and that one of an earlier export is there."""
+        path = self.to / name
+        earlier = "; the file that is there is of an earlier export" if path.is_file() else ""
+        return ExportedFile(kind, path, holds, f"{error}{earlier}")
+
     def as_json(self, kind: str, name: str, content: Any, holds: str) -> ExportedFile:
         """Write a JSON file; numbers that are not finite become null."""
         text = json.dumps(_finite(content), indent=1, allow_nan=False) + "\n"
@@ -185,7 +191,7 @@ def _polars(run: _ExportedRun) -> Iterator[ExportedFile]:
             try:
                 yield run.wrote("polars", name, _table(run, data, resolution), holds)
             except ResultFileError as error:
-                yield ExportedFile("polars", run.to / name, holds, str(error))
+                yield run.left_out("polars", name, holds, error)
 
 
 def _table(
@@ -232,7 +238,7 @@ def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
                     polar = polar_at(polars, run.resolution)
                 export(data, polar, output)
             except ResultFileError as error:
-                yield ExportedFile("models", output, holds, str(error))
+                yield run.left_out("models", output.name, holds, error)
             else:
                 yield ExportedFile("models", output, holds)
 
@@ -345,7 +351,7 @@ def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
         data = run.read("steady/polar_2d.nc")
         table = _table(run, data, run.resolution, unsteady=True)
     except ResultFileError as error:
-        yield ExportedFile(kind, run.to / _AIRFOIL, holds, str(error))
+        yield run.left_out(kind, _AIRFOIL, holds, error)
         return
     yield run.wrote(kind, _AIRFOIL, table, holds)
     assert data is not None, "without it there is no table"
