@@ -154,6 +154,14 @@ def test_a_twist_from_the_stream_is_refused(folder: Path, tmp_path: Path) -> Non
     assert "the mean twist is 1.99 deg; wanted is 0" in result.failure
 
 
+def test_a_wrong_deflection_axis_moves_the_loads_of_the_pitch_alone(folder: Path) -> None:
+    """The documentation says by how much: nothing in a record tells about which point it turned."""
+    table, kept = table_of(changed(folder, deflection_axis=0.5)), derivatives_of_moved_plate()
+    heave, pitch = np.abs(table.loads / kept.loads - 1.0).max(axis=(0, 1))
+    assert heave < 1e-4
+    assert pitch == pytest.approx(0.40, abs=0.005)
+
+
 def test_path_of_a_harmonic_names_component_and_reduced_velocity(folder: Path) -> None:
     raw = changed(folder, {"motion": "harmonic"})
     raw["given"]["forced"] = "x/{component}-{reduced_velocity}-{incidence_deg}.csv"
