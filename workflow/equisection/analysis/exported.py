@@ -6,24 +6,19 @@ Each kind is one function, which writes what the run has of it; what the run has
 from __future__ import annotations
 
 import io
-import json
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
+from equisection.analysis.exported_run import ExportedFile, ExportedRun
 from equisection.analysis.learnt_file import export, is_of_strips, require_model
-from equisection.analysis.run_tree import CONFIGURATION, configuration_of
 from equisection.beam.section import QUANTITIES, Section
 from equisection.errors import ResultFileError
-from equisection.files import write_text
 from equisection.io.aerodyn_polar import aerodyn_text
 from equisection.io.ua_driver import DriverSection, ua_driver_text
 from equisection.motion.static_branch import section_in_equilibrium
@@ -31,121 +26,6 @@ from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import no_section, section_from_dataset
-
-
-@dataclass(frozen=True)
-class ExportedFile:
-    """File that was written, or the reason why one was not.
-
-    Attributes
-    ----------
-    kind
-        One of :data:`KINDS`.
-    path
-        The file.
-    holds
-        Contents in words.
-    left_out
-        Why there is no such file; empty where there is one.
-    """
-
-    kind: str
-    path: Path
-    holds: str
-    left_out: str = ""
-
-
-@dataclass(frozen=True)
-class _ExportedRun:
-    """Folder of a run, with its configuration and the files that every kind needs."""
-
-    folder: Path
-    to: Path
-
-    @cached_property
-    def configuration(self) -> dict[str, Any]:
-        return configuration_of(self.folder)
-
-    def value(self, *names: str) -> Any:
-        """Return the value of a key, by its names from the outermost in.
-
-        Raises
-        ------
-        ResultFileError
-            The configuration has no such key.
-        """
-        value: Any = self.configuration
-        for name in names:
-            if not isinstance(value, dict) or name not in value:
-                raise ResultFileError(
-                    f"{self.folder / CONFIGURATION}: no key {'.'.join(names)}, as one of another "
-                    "version or one that was edited; run again"
-                )
-            value = value[name]
-        return value
-
-    def number(self, *names: str) -> float:
-        """Return the number of a key, by its names from the outermost in.
-
-        Raises
-        ------
-        ResultFileError
-            The configuration has no such key, or what it has is no number.
-        """
-        value = self.value(*names)
-        try:
-            return float(value)
-        except (TypeError, ValueError):
-            raise ResultFileError(
-                f"{self.folder / CONFIGURATION}: {'.'.join(names)}: {value!r} is no number, as one "
-                "that was edited; run again"
-            ) from None
-
-    @property
-    def resolution(self) -> str:
-        return str(self.value("steady", "resolution"))
-
-    @property
-    def speed(self) -> float:
-        """V (m/s)."""
-        return self.number("flow", "speed")
-
-    @property
-    def density(self) -> float:
-        """Density rho (kg/m^3)."""
-        return self.number("flow", "density")
-
-    @property
-    def reynolds_number(self) -> float:
-        """Reynolds number V c/nu of the run's flow."""
-        return self.speed * self.number("beam", "chord") / self.kinematic_viscosity
-
-    @property
-    def kinematic_viscosity(self) -> float:
-        """Kinematic viscosity nu = mu/rho (m^2/s)."""
-        return self.number("flow", "dynamic_viscosity") / self.density
-
-    def read(self, file: str) -> xr.Dataset | None:
-        """Return a data set of the run; None where the run does not have it."""
-        path = self.folder / file
-        return read_dataset(path) if path.is_file() else None
-
-    def wrote(self, kind: str, name: str, text: str, holds: str) -> ExportedFile:
-        """Write a text file to the folder of the export."""
-        path = self.to / name
-        write_text(path, text)
-        return ExportedFile(kind, path, holds)
-
-    def left_out(self, kind: str, name: str, holds: str, error: ResultFileError) -> ExportedFile:
-        """Return why a file is not written, and that one of an earlier export is there."""
-        path = self.to / name
-        earlier = "; the file that is there is of an earlier export" if path.is_file() else ""
-        return ExportedFile(kind, path, holds, f"{error}{earlier}")
-
-    def as_json(self, kind: str, name: str, content: Any, holds: str) -> ExportedFile:
-        """Write a JSON file; numbers that are not finite become null."""
-        text = json.dumps(_finite(content), indent=1, allow_nan=False) + "\n"
-        return self.wrote(kind, name, text, holds)
 
 
 def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFile]:
@@ -166,7 +46,7 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
         The folder is no run, a file in it is broken, the folder ``to`` cannot be written to, or
         the run has nothing of these kinds yet.
     """
-    opened = _ExportedRun(run, to)
+    opened = ExportedRun(run, to)
     _ = opened.configuration
     try:
         files = [file for kind in kinds or KINDS for file in KINDS[kind](opened)]
@@ -181,7 +61,7 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
     return files
 
 
-def _polars(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _polars(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write each steady polar as an airfoil table of AeroDyn."""
     for dimension, whose in (("2d", "section"), ("3d", "beam")):
         data = run.read(f"steady/polar_{dimension}.nc")
@@ -195,7 +75,7 @@ def _polars(run: _ExportedRun) -> Iterator[ExportedFile]:
 
 
 def _table(
-    run: _ExportedRun, data: xr.Dataset | None, resolution: str, *, unsteady: bool = False
+    run: ExportedRun, data: xr.Dataset | None, resolution: str, *, unsteady: bool = False
 ) -> str:
     """Return an airfoil table; the half polar of a symmetric section gets its other half.
 
@@ -219,7 +99,7 @@ def _table(
     return aerodyn_text(points.tolist(), run.reynolds_number, comments, unsteady=unsteady)
 
 
-def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _models(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write each learnt model as JSON, and its prediction as CSV."""
     found = sorted((run.folder / "rom").glob("*/model*.nc"))
     polars = run.read("steady/polar_2d.nc") if found else None
@@ -243,7 +123,7 @@ def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
                 yield ExportedFile("models", output, holds)
 
 
-def _derivatives(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _derivatives(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write tables of derivatives as they are, and as JSON with their convention."""
     for dimension, holds in (
         ("2d", "flutter derivatives of the section"),
@@ -267,7 +147,7 @@ def _derivatives(run: _ExportedRun) -> Iterator[ExportedFile]:
         yield run.as_json("derivatives", f"{name}.json", content, holds)
 
 
-def _modes(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _modes(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write the modes of the beam: frequencies and shapes."""
     data = run.read("structure/modes.nc")
     if data is None:
@@ -298,7 +178,7 @@ def _modes(run: _ExportedRun) -> Iterator[ExportedFile]:
     yield run.as_json("modes", "modes.json", content, "frequencies (Hz) and shapes over z/L")
 
 
-def _sections(run: _ExportedRun) -> dict[str, Section]:
+def _sections(run: ExportedRun) -> dict[str, Section]:
     """Return the equivalent section of each reduction that has one."""
     data = run.read("structure/equivalent.nc")
     if data is None:
@@ -309,7 +189,7 @@ def _sections(run: _ExportedRun) -> dict[str, Section]:
     }
 
 
-def _section(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _section(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write the equivalent section of each reduction, SI per metre of span."""
     sections = _sections(run)
     if not sections:
@@ -341,7 +221,7 @@ def _section(run: _ExportedRun) -> Iterator[ExportedFile]:
 _AIRFOIL = "ua_airfoil.dat"
 
 
-def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _openfast(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write the section as input of OpenFAST's unsteady-aerodynamics driver, with its airfoil."""
     sections = _sections(run)
     if not sections:
@@ -363,7 +243,7 @@ def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
         yield run.wrote(kind, f"ua_{reduction}.dvr", text, holds)
 
 
-def _driver_section(run: _ExportedRun, section: Section, polar: Polar) -> DriverSection:
+def _driver_section(run: ExportedRun, section: Section, polar: Polar) -> DriverSection:
     """Return the section with the start of the run; undeformed where it has no equilibrium."""
     incidence_deg = run.number("flow", "incidence_deg")
     twist, deflection = 0.0, 0.0
@@ -398,19 +278,8 @@ def _csv(table: pd.DataFrame) -> str:
     return str(table.to_csv(index=False, float_format="%.10g"))
 
 
-def _finite(content: Any) -> Any:
-    """Return plain numbers, lists and dicts; None in the place of what is not finite."""
-    if isinstance(content, dict):
-        return {name: _finite(value) for name, value in content.items()}
-    if isinstance(content, list | tuple):
-        return [_finite(value) for value in content]
-    if isinstance(content, float) and not math.isfinite(content):
-        return None
-    return content
-
-
 #: Kinds of exports, in the order in which they are written.
-KINDS: dict[str, Callable[[_ExportedRun], Iterator[ExportedFile]]] = {
+KINDS: dict[str, Callable[[ExportedRun], Iterator[ExportedFile]]] = {
     "polars": _polars,
     "models": _models,
     "derivatives": _derivatives,
