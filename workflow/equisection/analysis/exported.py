@@ -49,7 +49,7 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
     opened = ExportedRun(run, to)
     _ = opened.configuration
     try:
-        files = [file for kind in kinds or KINDS for file in KINDS[kind](opened)]
+        files = [file for kind in dict.fromkeys(kinds or KINDS) for file in KINDS[kind](opened)]
     except OSError as error:
         raise ResultFileError(f"{to}: cannot be written to ({error})") from None
     if not files:
