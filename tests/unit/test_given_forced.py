@@ -28,7 +28,6 @@ from equisection.study.forced_cases import forced_case
 from equisection.validation.outline_values import derivatives_of_moved_plate
 
 RUN: dict[str, Any] = yaml.safe_load((ROOT / "docs/examples/other_program_forced.yaml").read_text())
-KEPT = ROOT / "results/reference/thin-plate-forced/forced/2d"
 
 
 @pytest.fixture(scope="module")
