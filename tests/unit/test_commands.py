@@ -223,6 +223,14 @@ class TestInit:
         assert main(["init", "mine.yaml", "--like", "plate"]) == 0
         assert yaml.safe_load(Path("mine.yaml").read_text())["run"] == "mine"
 
+    @pytest.mark.parametrize("name", ["2024", "2024-01-01", "0x1F", "1.5", "true", "on", "null"])
+    def test_a_name_that_yaml_would_read_as_something_else_is_in_quotes(
+        self, name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.chdir(tmp_path)
+        assert main(["init", name, "--like", "panel"]) == 0
+        assert main(["check", f"{name}.yaml"]) == 0
+
     @pytest.mark.parametrize("value", ["-1", "0", "nan", "inf"])
     def test_a_dimension_that_none_has_is_refused(
         self,

@@ -172,6 +172,22 @@ def test_polar_of_too_few_incidences_says_so(
     )
 
 
+def test_file_of_an_earlier_export_in_the_place_of_one_that_is_left_out_is_named(
+    run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    assert main(["export", str(copy), "--only", "polars"]) == 0
+    before = Path(capsys.readouterr().out.strip())
+    few = read_dataset(copy / "steady" / "polar_2d.nc").isel(incidence_deg=slice(3))
+    write_dataset(copy / "steady" / "polar_2d.nc", few)
+    assert main(["export", str(copy), "--only", "polars"]) == 0
+    said = capsys.readouterr().out
+    assert said.startswith(f"left out        {before}: ")
+    assert said.rstrip().endswith("; the file that is there is of an earlier export")
+    assert before.is_file()
+
+
 def test_start_of_the_driver_is_that_of_the_section(run: Path, tmp_path: Path) -> None:
     """The configuration's start is of the tip; times are convective, c/V = 0.08 s."""
     assert main(["export", str(run), "--to", str(tmp_path), "--only", "openfast"]) == 0
@@ -222,10 +238,10 @@ def test_runs_of_one_name_are_not_written_over_each_other(
 
 
 def test_for_machines(run: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    wanted = ["--only", "section", "--only", "modes", "--json"]
+    wanted = ["--only", "section", "--only", "modes", "--only", "modes", "--json"]
     assert main(["export", str(run), "--to", str(tmp_path), *wanted]) == 0
     files = json.load(io.StringIO(capsys.readouterr().out))
-    assert {file["kind"] for file in files} == {"section", "modes"}
+    assert [file["kind"] for file in files] == [*["section"] * 2, *["modes"] * 3]
     assert all(Path(file["path"]).is_file() and not file["left_out"] for file in files)
 
 
@@ -285,6 +301,20 @@ def test_a_configuration_without_a_key_that_is_needed_is_named(
     (copy / "config.resolved.yaml").write_text(yaml.safe_dump({**CONFIGURATION, "flow": flow}))
     assert main(["export", str(copy), "--only", "openfast"]) == 1
     assert "config.resolved.yaml: no key flow.sound_speed" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("value", ["fast", None, [9.0]], ids=repr)
+def test_a_configuration_with_a_word_for_a_number_is_named(
+    run: Path, value: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    copy = tmp_path / "run"
+    shutil.copytree(run, copy)
+    flow = {**CONFIGURATION["flow"], "sound_speed": value}
+    (copy / "config.resolved.yaml").write_text(yaml.safe_dump({**CONFIGURATION, "flow": flow}))
+    assert main(["export", str(copy), "--only", "openfast"]) == 1
+    assert (
+        f"config.resolved.yaml: flow.sound_speed: {value!r} is no number" in capsys.readouterr().err
+    )
 
 
 @pytest.mark.parametrize(

@@ -28,7 +28,6 @@ from equisection.study.forced_cases import forced_case
 from equisection.validation.outline_values import derivatives_of_moved_plate
 
 RUN: dict[str, Any] = yaml.safe_load((ROOT / "docs/examples/other_program_forced.yaml").read_text())
-KEPT = ROOT / "results/reference/thin-plate-forced/forced/2d"
 
 
 @pytest.fixture(scope="module")
@@ -152,6 +151,14 @@ def test_a_twist_from_the_stream_is_refused(folder: Path, tmp_path: Path) -> Non
     (tmp_path / "pitch.dat").write_text(text + rows.to_csv(sep=" ", index=False, header=False))
     _, result = result_of(changed(tmp_path), "pitch")
     assert "the mean twist is 1.99 deg; wanted is 0" in result.failure
+
+
+def test_a_wrong_deflection_axis_moves_the_loads_of_the_pitch_alone(folder: Path) -> None:
+    """The documentation says by how much: nothing in a record tells about which point it turned."""
+    table, kept = table_of(changed(folder, deflection_axis=0.5)), derivatives_of_moved_plate()
+    heave, pitch = np.abs(table.loads / kept.loads - 1.0).max(axis=(0, 1))
+    assert heave < 1e-4
+    assert pitch == pytest.approx(0.40, abs=0.005)
 
 
 def test_path_of_a_harmonic_names_component_and_reduced_velocity(folder: Path) -> None:

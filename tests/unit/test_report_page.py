@@ -21,6 +21,7 @@ from tests.unit.test_commands import HEADER
 
 import equisection as eq
 from equisection.report.captions import CaptionError, caption_html
+from equisection.report.csv_tables import table_shown
 from equisection.report.embedded_files import EmbeddingError
 from equisection.report.interactive_map import interactive_map
 from equisection.report.report_page import MapFiles, ReportError, Shown, write_report
@@ -207,6 +208,13 @@ def test_what_cannot_be_read_or_written_is_named(tmp_path: Path) -> None:
     (tmp_path / "a-file").touch()
     with pytest.raises(ReportError, match="cannot be written there"):
         write_report(tmp_path / "a-file" / "a.html", run.folder, figures=[], **parts)
+
+
+def test_words_of_several_lines_stay_in_their_cell(tmp_path: Path) -> None:
+    path = tmp_path / "missing.csv"
+    reason = "no state\nof it \u2028, two ranks"
+    pd.DataFrame({"case": ["k6"], "reason": [reason]}).to_csv(path, index=False)
+    assert table_shown(path).lines == (("k6", reason),)
 
 
 @pytest.mark.parametrize("text", ["", "a,b\n1,2\n", "model,incidence_deg\n2d,two\n"])

@@ -6,24 +6,19 @@ Each kind is one function, which writes what the run has of it; what the run has
 from __future__ import annotations
 
 import io
-import json
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pandas as pd
 import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
+from equisection.analysis.exported_run import ExportedFile, ExportedRun
 from equisection.analysis.learnt_file import export, is_of_strips, require_model
-from equisection.analysis.run_tree import CONFIGURATION, configuration_of
 from equisection.beam.section import QUANTITIES, Section
 from equisection.errors import ResultFileError
-from equisection.files import write_text
 from equisection.io.aerodyn_polar import aerodyn_text
 from equisection.io.ua_driver import DriverSection, ua_driver_text
 from equisection.motion.static_branch import section_in_equilibrium
@@ -31,98 +26,6 @@ from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import no_section, section_from_dataset
-
-
-@dataclass(frozen=True)
-class ExportedFile:
-    """File that was written, or the reason why one was not.
-
-    Attributes
-    ----------
-    kind
-        One of :data:`KINDS`.
-    path
-        The file.
-    holds
-        Contents in words.
-    left_out
-        Why there is no such file; empty where there is one.
-    """
-
-    kind: str
-    path: Path
-    holds: str
-    left_out: str = ""
-
-
-@dataclass(frozen=True)
-class _ExportedRun:
-    """Folder of a run, with its configuration and the files that every kind needs."""
-
-    folder: Path
-    to: Path
-
-    @cached_property
-    def configuration(self) -> dict[str, Any]:
-        return configuration_of(self.folder)
-
-    def value(self, *names: str) -> Any:
-        """Return the value of a key, by its names from the outermost in.
-
-        Raises
-        ------
-        ResultFileError
-            The configuration has no such key.
-        """
-        value: Any = self.configuration
-        for name in names:
-            if not isinstance(value, dict) or name not in value:
-                raise ResultFileError(
-                    f"{self.folder / CONFIGURATION}: no key {'.'.join(names)}, as one of another "
-                    "version or one that was edited; run again"
-                )
-            value = value[name]
-        return value
-
-    @property
-    def resolution(self) -> str:
-        return str(self.value("steady", "resolution"))
-
-    @property
-    def speed(self) -> float:
-        """V (m/s)."""
-        return float(self.value("flow", "speed"))
-
-    @property
-    def density(self) -> float:
-        """Density rho (kg/m^3)."""
-        return float(self.value("flow", "density"))
-
-    @property
-    def reynolds_number(self) -> float:
-        """Reynolds number V c/nu of the run's flow."""
-        return self.speed * float(self.value("beam", "chord")) / self.kinematic_viscosity
-
-    @property
-    def kinematic_viscosity(self) -> float:
-        """Kinematic viscosity nu = mu/rho (m^2/s)."""
-        return float(self.value("flow", "dynamic_viscosity")) / self.density
-
-    def read(self, file: str) -> xr.Dataset | None:
-        """Return a data set of the run; None where the run does not have it."""
-        path = self.folder / file
-        return read_dataset(path) if path.is_file() else None
-
-    def wrote(self, kind: str, name: str, text: str, holds: str) -> ExportedFile:
-        """Write a text file to the folder of the export."""
-        path = self.to / name
-        write_text(path, text)
-        return ExportedFile(kind, path, holds)
-
-    def as_json(self, kind: str, name: str, content: Any, holds: str) -> ExportedFile:
-        """Write a JSON file; numbers that are not finite become null."""
-        text = json.dumps(_finite(content), indent=1, allow_nan=False) + "\n"
-        return self.wrote(kind, name, text, holds)
 
 
 def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFile]:
@@ -143,10 +46,10 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
         The folder is no run, a file in it is broken, the folder ``to`` cannot be written to, or
         the run has nothing of these kinds yet.
     """
-    opened = _ExportedRun(run, to)
+    opened = ExportedRun(run, to)
     _ = opened.configuration
     try:
-        files = [file for kind in kinds or KINDS for file in KINDS[kind](opened)]
+        files = [file for kind in dict.fromkeys(kinds or KINDS) for file in KINDS[kind](opened)]
     except OSError as error:
         raise ResultFileError(f"{to}: cannot be written to ({error})") from None
     if not files:
@@ -158,7 +61,7 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
     return files
 
 
-def _polars(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _polars(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write each steady polar as an airfoil table of AeroDyn."""
     for dimension, whose in (("2d", "section"), ("3d", "beam")):
         data = run.read(f"steady/polar_{dimension}.nc")
@@ -168,11 +71,11 @@ def _polars(run: _ExportedRun) -> Iterator[ExportedFile]:
             try:
                 yield run.wrote("polars", name, _table(run, data, resolution), holds)
             except ResultFileError as error:
-                yield ExportedFile("polars", run.to / name, holds, str(error))
+                yield run.left_out("polars", name, holds, error)
 
 
 def _table(
-    run: _ExportedRun, data: xr.Dataset | None, resolution: str, *, unsteady: bool = False
+    run: ExportedRun, data: xr.Dataset | None, resolution: str, *, unsteady: bool = False
 ) -> str:
     """Return an airfoil table; the half polar of a symmetric section gets its other half.
 
@@ -196,7 +99,7 @@ def _table(
     return aerodyn_text(points.tolist(), run.reynolds_number, comments, unsteady=unsteady)
 
 
-def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _models(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write each learnt model as JSON, and its prediction as CSV."""
     found = sorted((run.folder / "rom").glob("*/model*.nc"))
     polars = run.read("steady/polar_2d.nc") if found else None
@@ -215,12 +118,12 @@ def _models(run: _ExportedRun) -> Iterator[ExportedFile]:
                     polar = polar_at(polars, run.resolution)
                 export(data, polar, output)
             except ResultFileError as error:
-                yield ExportedFile("models", output, holds, str(error))
+                yield run.left_out("models", output.name, holds, error)
             else:
                 yield ExportedFile("models", output, holds)
 
 
-def _derivatives(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _derivatives(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write tables of derivatives as they are, and as JSON with their convention."""
     for dimension, holds in (
         ("2d", "flutter derivatives of the section"),
@@ -244,7 +147,7 @@ def _derivatives(run: _ExportedRun) -> Iterator[ExportedFile]:
         yield run.as_json("derivatives", f"{name}.json", content, holds)
 
 
-def _modes(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _modes(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write the modes of the beam: frequencies and shapes."""
     data = run.read("structure/modes.nc")
     if data is None:
@@ -275,7 +178,7 @@ def _modes(run: _ExportedRun) -> Iterator[ExportedFile]:
     yield run.as_json("modes", "modes.json", content, "frequencies (Hz) and shapes over z/L")
 
 
-def _sections(run: _ExportedRun) -> dict[str, Section]:
+def _sections(run: ExportedRun) -> dict[str, Section]:
     """Return the equivalent section of each reduction that has one."""
     data = run.read("structure/equivalent.nc")
     if data is None:
@@ -286,7 +189,7 @@ def _sections(run: _ExportedRun) -> dict[str, Section]:
     }
 
 
-def _section(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _section(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write the equivalent section of each reduction, SI per metre of span."""
     sections = _sections(run)
     if not sections:
@@ -318,7 +221,7 @@ def _section(run: _ExportedRun) -> Iterator[ExportedFile]:
 _AIRFOIL = "ua_airfoil.dat"
 
 
-def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
+def _openfast(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write the section as input of OpenFAST's unsteady-aerodynamics driver, with its airfoil."""
     sections = _sections(run)
     if not sections:
@@ -328,7 +231,7 @@ def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
         data = run.read("steady/polar_2d.nc")
         table = _table(run, data, run.resolution, unsteady=True)
     except ResultFileError as error:
-        yield ExportedFile(kind, run.to / _AIRFOIL, holds, str(error))
+        yield run.left_out(kind, _AIRFOIL, holds, error)
         return
     yield run.wrote(kind, _AIRFOIL, table, holds)
     assert data is not None, "without it there is no table"
@@ -340,17 +243,17 @@ def _openfast(run: _ExportedRun) -> Iterator[ExportedFile]:
         yield run.wrote(kind, f"ua_{reduction}.dvr", text, holds)
 
 
-def _driver_section(run: _ExportedRun, section: Section, polar: Polar) -> DriverSection:
+def _driver_section(run: ExportedRun, section: Section, polar: Polar) -> DriverSection:
     """Return the section with the start of the run; undeformed where it has no equilibrium."""
-    incidence_deg = float(run.value("flow", "incidence_deg"))
+    incidence_deg = run.number("flow", "incidence_deg")
     twist, deflection = 0.0, 0.0
     if run.value("unsteady", "start", "state") == "equilibrium":
         flowing = section.in_flow(run.density, run.speed)
         found = section_in_equilibrium(flowing, polar, math.radians(incidence_deg))
         twist, deflection = found or (twist, deflection)
     convective = section.chord / run.speed
-    pushed = math.radians(float(run.value("unsteady", "start", "twist_deg")))
-    rate = float(run.value("unsteady", "start", "heave_rate")) * run.speed
+    pushed = math.radians(run.number("unsteady", "start", "twist_deg"))
+    rate = run.number("unsteady", "start", "heave_rate") * run.speed
     return DriverSection(
         airfoil=_AIRFOIL,
         chord=section.chord,
@@ -364,10 +267,10 @@ def _driver_section(run: _ExportedRun, section: Section, polar: Polar) -> Driver
         heave_rate=rate * section.deflection_recovery,
         density=run.density,
         kinematic_viscosity=run.kinematic_viscosity,
-        sound_speed=float(run.value("flow", "sound_speed")),
+        sound_speed=run.number("flow", "sound_speed"),
         speed=run.speed,
-        duration=float(run.value("unsteady", "duration")) * convective,
-        time_step=float(run.value("unsteady", "time_step")) * convective,
+        duration=run.number("unsteady", "duration") * convective,
+        time_step=run.number("unsteady", "time_step") * convective,
     )
 
 
@@ -375,19 +278,8 @@ def _csv(table: pd.DataFrame) -> str:
     return str(table.to_csv(index=False, float_format="%.10g"))
 
 
-def _finite(content: Any) -> Any:
-    """Return plain numbers, lists and dicts; None in the place of what is not finite."""
-    if isinstance(content, dict):
-        return {name: _finite(value) for name, value in content.items()}
-    if isinstance(content, list | tuple):
-        return [_finite(value) for value in content]
-    if isinstance(content, float) and not math.isfinite(content):
-        return None
-    return content
-
-
 #: Kinds of exports, in the order in which they are written.
-KINDS: dict[str, Callable[[_ExportedRun], Iterator[ExportedFile]]] = {
+KINDS: dict[str, Callable[[ExportedRun], Iterator[ExportedFile]]] = {
     "polars": _polars,
     "models": _models,
     "derivatives": _derivatives,

@@ -117,6 +117,12 @@ class HistoryTable:
     moment: Floats
     drag: Floats
 
+    def sampled(self, interval: float, end: float = math.inf) -> HistoryTable:
+        """Return the history at uniform times, up to its last one or an end."""
+        last = float(self.time[-1])
+        number = math.floor(min(last, end) / interval * (1 + 1e-9)) + 1
+        return self.at(np.minimum(np.arange(number) * interval, last))
+
     def at(self, time: Floats) -> HistoryTable:
         """Return the history at other times, by cubic splines through the samples."""
         from scipy.interpolate import CubicSpline  # noqa: PLC0415, costly for a reader alone

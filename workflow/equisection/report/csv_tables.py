@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -52,7 +53,7 @@ def table_shown(path: Path) -> TableShown:
     """
     try:
         content = path.read_bytes()
-        rows = list(csv.reader(content.decode("utf-8").splitlines()))
+        rows = list(csv.reader(io.StringIO(content.decode("utf-8"), newline="")))
     except (OSError, ValueError, csv.Error) as error:
         raise EmbeddingError(f"{path}: cannot be read as a table ({error}); run again") from None
     if not rows:

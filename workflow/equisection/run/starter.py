@@ -109,7 +109,7 @@ def starter(like: str, name: str, file: Path, examples: Path, values: Mapping[st
     head = f"# Begun from the example {EXAMPLES[like]}: what comments say of numbers is of that."
     text = f"{head}\n{text}"
     text = text.replace(f"results/{old.group(1)}/", f"results/{name}/")
-    text = re.sub(r"^run: *[^ #\n]+", f"run: {name}", text, count=1, flags=re.MULTILINE)
+    text = re.sub(r"^run: *[^ #\n]+", f"run: {_as_yaml(name)}", text, count=1, flags=re.MULTILINE)
     for section, key, _, unit in QUESTIONS:
         if key in values:
             text = _with_value(text, section, key, f"{values[key]:.12g} # {unit}")
@@ -129,6 +129,14 @@ def _require_name(name: str) -> None:
         names.validate_python(name)
     except ValidationError:
         raise StarterError(f"name {name!r}: allowed is {allowed(names.json_schema())}") from None
+
+
+def _as_yaml(name: str) -> str:
+    """Return a name as YAML has it, in quotes where it would be a number, a date or a truth."""
+    # Imported here, so that the command's --help comes at once.
+    import yaml  # noqa: PLC0415
+
+    return str(yaml.safe_dump(name)).splitlines()[0]
 
 
 def _with_value(text: str, section: str, key: str, value: str) -> str:

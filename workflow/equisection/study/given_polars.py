@@ -17,6 +17,11 @@ from equisection.keys.shown import shown
 
 #: Relative difference up to which a polar of the rigid beam is that of another one too.
 _SAME_BEAM = 0.01
+#: Keys of ``steady`` with polars of the rigid beam: what is allowed, and what a file is of.
+_OF_BEAM = {
+    "beam_polar": ('the polar of this beam, or "", with which the solver runs it', "a beam"),
+    "beam_polar_section": ("the polar of this beam's section", "a section"),
+}
 #: How many times the h/c of a polar's section another may have that it serves for.
 _LIKE_THICKNESS = 1.25
 #: The same of Reynolds numbers, either way, that nothing is said.
@@ -49,10 +54,9 @@ def check_polars(config: Config, directory: Path | None = None) -> None:
     problems: list[Problem] = []
     for polars in _polars_of(config):
         problems += _of_section(config, polars, directory)
-    if config.steady.beam_polar:
-        problems += _of_beam(config, directory)
-    if config.steady.beam_polar_section:
-        problems += _of_its_section(config, directory)
+    for name, words in _OF_BEAM.items():
+        if polar := getattr(config.steady, name):
+            problems += _of_beam(config, f"steady.{name}", polar, directory, words)
     if problems:
         raise ConfigError("\n".join(problem.line for problem in problems))
 
@@ -140,32 +144,13 @@ def _of_another_section(
         )
 
 
-def _of_beam(config: Config, directory: Path) -> Iterator[Problem]:
-    """Refuse a polar of another rigid beam. What bends the beam is free: material and ends."""
-    yield from _of_these(
-        config,
-        "steady.beam_polar",
-        config.steady.beam_polar,
-        directory,
-        ('the polar of this beam, or "", with which the solver runs it', "a beam"),
-    )
-
-
-def _of_its_section(config: Config, directory: Path) -> Iterator[Problem]:
-    """Refuse a polar of another section than that of the rigid beam's polar."""
-    yield from _of_these(
-        config,
-        "steady.beam_polar_section",
-        config.steady.beam_polar_section,
-        directory,
-        ("the polar of this beam's section", "a section"),
-    )
-
-
-def _of_these(
+def _of_beam(
     config: Config, key: str, polar: str, directory: Path, words: tuple[str, str]
 ) -> Iterator[Problem]:
-    """Refuse a polar about another axis, or of another beam or flow; words: what, and of what."""
+    """Refuse a polar about another axis, or of another rigid beam or flow than that of the run.
+
+    What bends the beam is free: material and ends. ``words`` are those of :data:`_OF_BEAM`.
+    """
     try:
         points = read_rows(directory / polar, symmetric=False)
         points.axis_of(directory / polar, MID_CHORD)

@@ -27,14 +27,14 @@ from equisection.aerodynamics.unsteady_loads import ForcedMotion
 from equisection.cases import ForcedCase
 from equisection.errors import ArgumentError, HistoryFileError
 from equisection.io.history_file import HistoryColumns, HistoryScales, HistoryTable, read_table
+from equisection.io.polar_rows import MID_CHORD
 from equisection.results.forced_result import ForcedResult, signal_of
-from equisection.solvers.given.recorded_release import RecordAxes
+from equisection.solvers.given.recorded_release import RecordAxes, deflection_of, moment_about
 
 Floats = NDArray[np.float64]
 
 logger = logging.getLogger(__name__)
 
-_MID_CHORD = 0.5
 #: Difference of an amplitude from what the case asks for (-); a mistaken unit makes more.
 _OFF = 0.1
 #: Part of the motion at other frequencies than those of the case (-).
@@ -56,9 +56,7 @@ def recorded_motion(
 ) -> ForcedResult:
     """Read a forced motion and compare it with its case.
 
-    A moment about a point x becomes that about mid-chord by adding
-    (1/2 - x) (c_l cos alpha + c_d sin alpha); the point x of the section is at the height
-    w - (x - 1/2) (sin alpha - sin theta_0).
+    Deflection and moment become those of mid-chord as in :mod:`.recorded_release`.
 
     Parameters
     ----------
@@ -79,14 +77,20 @@ def recorded_motion(
     """
     raw = read_table(path, columns, scales)
     _require_samples(path, raw, scales, columns, case)
-    end = min(float(raw.time[-1]), case.duration)
-    number = math.floor(end / case.output_interval * (1 + 1e-9)) + 1
-    table = raw.at(np.minimum(np.arange(number) * case.output_interval, raw.time[-1]))
-    about = _MID_CHORD if axes.moment is None else axes.moment
-    found = _about_mid_chord(table, about, axes.deflection, math.radians(case.incidence_deg))
+    table = raw.sampled(case.output_interval, case.duration)
+    rigid = math.radians(case.incidence_deg)
+    assert axes.moment is not None, "given"
+    assert axes.deflection is not None, "given"
+    found = ForcedResult(
+        table.time,
+        table.twist,
+        deflection_of(MID_CHORD, table, axes.deflection, rigid),
+        table.lift,
+        moment_about(MID_CHORD, table, axes.moment, rigid),
+    )
     late = found.time >= case.settling - 1e-9
     _require_motion(path, _part(found, late), case)
-    _require_loads(path, found, late, case=case, polar=polar, about=about)
+    _require_loads(path, found, late, case=case, polar=polar, about=axes.moment)
     return found
 
 
@@ -115,20 +119,6 @@ def _require_samples(
             f"the next; allowed is {most / of_unit:.2g} {unit}, {FEWEST_SAMPLES} samples of the "
             "shortest period: write it more often, or leave out the lowest forced.reduced_velocity"
         )
-
-
-def _about_mid_chord(
-    table: HistoryTable, about: float, deflected: float | None, rigid: float
-) -> ForcedResult:
-    """Return the motion and the moments about mid-chord."""
-    incidence = rigid + table.twist
-    behind = (_MID_CHORD if deflected is None else deflected) - _MID_CHORD
-    deflection = table.deflection + behind * (np.sin(incidence) - math.sin(rigid))
-    normal = table.lift * np.cos(incidence)
-    if table.drag.size:
-        normal = normal + table.drag * np.sin(incidence)
-    moment = table.moment + (_MID_CHORD - about) * normal
-    return ForcedResult(table.time, table.twist, deflection, table.lift, moment)
 
 
 def _part(found: ForcedResult, kept: NDArray[np.bool_]) -> ForcedResult:

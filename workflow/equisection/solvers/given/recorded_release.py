@@ -24,10 +24,10 @@ from equisection.io.history_file import (
     HistoryTable,
     read_table,
 )
+from equisection.io.polar_rows import MID_CHORD
 
 Floats = NDArray[np.float64]
 
-_MID_CHORD = 0.5
 #: Units of a file that says nothing else.
 _UNITS = {
     "time": "s",
@@ -126,9 +126,7 @@ def recorded_release(
             "speed or chord another?)"
         )
     step = interval or min(float(np.median(np.diff(raw.time))), most)
-    number = math.floor(float(raw.time[-1]) / step * (1 + 1e-9)) + 1
-    table = raw.at(np.minimum(np.arange(number) * step, raw.time[-1]))
-    history, axis_moment = _about_own_axes(table, axes, section, incidence_rad)
+    history, axis_moment = _about_own_axes(raw.sampled(step), axes, section, incidence_rad)
     name = f"{path.parent.name}/{path.stem}"
     history = replace(history, k_star=k_star, name=name)
     moving = replace(history, lift_coefficient=load_factors[0] * history.lift_coefficient)
@@ -143,27 +141,41 @@ def _about_own_axes(
     table: HistoryTable, axes: RecordAxes, section: Section, incidence_rad: float
 ) -> tuple[ReferenceHistory, Floats]:
     """Return the history of the elastic axis, and c_m about it."""
-    incidence = incidence_rad + table.twist
     axis = section.elastic_axis
-    behind = (axis if axes.deflection is None else axes.deflection) - axis
-    deflection = table.deflection + behind * (np.sin(incidence) - math.sin(incidence_rad))
-    normal = table.lift * np.cos(incidence)
-    if table.drag.size:
-        normal = normal + table.drag * np.sin(incidence)
+    deflected = axis if axes.deflection is None else axes.deflection
     about = axis if axes.moment is None else axes.moment
     history = ReferenceHistory(
         table.time,
         table.twist,
-        deflection,
+        deflection_of(axis, table, deflected, incidence_rad),
         table.lift,
-        table.moment + (_MID_CHORD - about) * normal,
+        moment_about(MID_CHORD, table, about, incidence_rad),
         incidence_rad,
         k_star=math.nan,
         section=section,
         name="",
         source="given",
     )
-    return history, table.moment + (axis - about) * normal
+    return history, moment_about(axis, table, about, incidence_rad)
+
+
+def deflection_of(
+    point: float, table: HistoryTable, recorded: float, incidence_rad: float
+) -> Floats:
+    """Return the deflection of a point of the section from that of the recorded one (x/c)."""
+    risen = np.sin(incidence_rad + table.twist) - math.sin(incidence_rad)
+    return table.deflection + (recorded - point) * risen
+
+
+def moment_about(
+    point: float, table: HistoryTable, recorded: float, incidence_rad: float
+) -> Floats:
+    """Return c_m about a point of the section from that about the recorded one (x/c)."""
+    incidence = incidence_rad + table.twist
+    normal = table.lift * np.cos(incidence)
+    if table.drag.size:
+        normal = normal + table.drag * np.sin(incidence)
+    return table.moment + (point - recorded) * normal
 
 
 def read_history(
