@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -135,6 +135,20 @@ def mesh_releases(reference: Path) -> list[MeshRelease]:
     return sorted(
         chosen.values(), key=lambda one: (one.model, one.case.k_star, one.cells, one.iterations)
     )
+
+
+def alike_sections(
+    releases: Sequence[MeshRelease],
+) -> Iterator[tuple[float, list[MeshRelease], float]]:
+    """Yield each k* that the section has a release at on two meshes, with these and their end.
+
+    The end (c/V) is that of the shortest, up to which they are compared.
+    """
+    sections = [one for one in releases if one.model == "2d"]
+    for k_star in sorted({one.case.k_star for one in sections}):
+        alike = [one for one in sections if one.case.k_star == k_star]
+        if len(alike) > 1:
+            yield k_star, alike, min(one.end for one in alike)
 
 
 def _is_compared(kept: Kept) -> bool:

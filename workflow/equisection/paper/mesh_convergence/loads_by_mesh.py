@@ -10,7 +10,11 @@ import pandas as pd
 
 from equisection.analysis.grid_convergence import cell_size
 from equisection.analysis.grid_limit import GridLimit, grid_limit
-from equisection.paper.mesh_convergence.kept_releases import MeshLoads, MeshRelease
+from equisection.paper.mesh_convergence.kept_releases import (
+    MeshLoads,
+    MeshRelease,
+    alike_sections,
+)
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_mesh import EARLY, LEARNT_AT, PLATE_ITERATIONS
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1
@@ -39,12 +43,7 @@ _UNFINISHED_MESH, _UNFINISHED_DEG, _TO_AND_FRO_FROM = "fine", 2.5, 400
 
 def mean_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the means and the frequency of the section at each k* that two meshes have."""
-    sections = [one for one in releases if one.model == "2d"]
-    for k_star in sorted({one.case.k_star for one in sections}):
-        alike = [one for one in sections if one.case.k_star == k_star]
-        if len(alike) < 2:
-            continue
-        end = min(one.end for one in alike)
+    for k_star, alike, end in alike_sections(releases):
         verdicts = [judge(one.case, one.tip.until(end)) for one in alike]
         for name, quantity in MEANS.items():
             values = tuple(

@@ -34,6 +34,7 @@ from equisection.paper.mesh_convergence.kept_releases import (
     OWN_RATIOS,
     MeshLoads,
     MeshRelease,
+    alike_sections,
     growth_table,
     polars_of,
     strip_polars_of,
@@ -68,12 +69,7 @@ PLATE_ITERATIONS = 4
 
 def growth_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the growth rates of the section at each k* that two meshes have, over one window."""
-    sections = [one for one in releases if one.model == "2d"]
-    for k_star in sorted({one.case.k_star for one in sections}):
-        alike = [one for one in sections if one.case.k_star == k_star]
-        if len(alike) < 2:
-            continue
-        end = min(one.end for one in alike)
+    for k_star, alike, end in alike_sections(releases):
         values = []
         for one in alike:
             growth = one.behind_release(end)
