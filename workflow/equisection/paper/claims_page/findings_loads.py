@@ -19,7 +19,7 @@ from equisection.paper.claims_page.findings import (
     percent,
     together,
 )
-from equisection.paper.claims_page.kept_runs import cells_of
+from equisection.paper.mesh_convergence.kept_releases import cells_of
 from equisection.paper.mesh_convergence.loads_by_mesh import RIGID, printed_limit
 from equisection.paper.printed_values import (
     ABOUT,

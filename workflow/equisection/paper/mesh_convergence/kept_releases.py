@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -171,9 +172,14 @@ def _model_of(path: Path) -> str:
     return OWN_RATIOS if path.parents[2].name.endswith(_OWN_FOLDER) else path.parent.name
 
 
+def cells_of(description: str) -> float:
+    """Return the number of cells that a solver's description names; NaN if it names none."""
+    found = re.search(r"(\d+) cells", description)
+    return float(found[1]) if found else math.nan
+
+
 def _cells_of(kept: Kept) -> int:
-    words = str(kept.attributes["solver_description"]).split()
-    return int(words[words.index("cells") - 1])
+    return int(cells_of(str(kept.attributes["solver_description"])))
 
 
 def growth_table(releases: Sequence[MeshRelease]) -> pd.DataFrame:
