@@ -44,7 +44,7 @@ from equisection.reduction.corrected_section import corrected_section
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.recorded_history import read_reference_history
 from equisection.study.axes import K_STAR
-from equisection.verdict.growth import AFTER_RELEASE
+from equisection.verdict.growth import AFTER_RELEASE, Growth
 
 #: Names of the quantities.
 ONSET, GROWTH, GROWTH_EARLY = (
@@ -84,36 +84,49 @@ def early_growth_of_plate(releases: Sequence[MeshRelease]) -> MeshSeries:
     """Return the growth of the plate over 30 c/V at k* = 6.44 on each mesh, with four iterations.
 
     It is no growth rate of the plate: over so short a time the release shows, and fits with one and
-    with two bending modes differ by more than their errors. Half of that difference is in the
-    interval, and the difference of two meshes over the same window is what it is for.
+    with two bending modes differ by more than their errors. That is in the notes and not in the
+    intervals: the difference of two meshes over the same window is what the values are for.
     """
     values = []
-    for one in releases:
-        is_compared = one.case.k_star == LEARNT_AT and one.iterations == PLATE_ITERATIONS
-        if one.model != "3d" or not is_compared:
-            continue
-        two, three = (one.growth(AFTER_RELEASE, min(EARLY, one.end), waves) for waves in (2, 3))
-        low, high = three.interval
-        half = 0.5 * (high - low)
+    for run, growth, without in _early_growths(releases):
+        half = _half_width(growth)
         values.append(
             MeshValue(
-                one.mesh,
-                one.cells,
-                three.rate,
-                three.rate - half,
-                three.rate + half,
-                f"{two.rate:+.4f} without the second bending mode",
+                run.mesh,
+                run.cells,
+                growth.rate,
+                growth.rate - half,
+                growth.rate + half,
+                f"{without.rate:+.4f} without the second bending mode",
             )
         )
     at = f"k* = {LEARNT_AT:g}"
     return MeshSeries(GROWTH_EARLY, "3d", at, "releases, 10 to 30 c/V", 3, tuple(values))
 
 
+def _early_growths(
+    releases: Sequence[MeshRelease],
+) -> Iterator[tuple[MeshRelease, Growth, Growth]]:
+    """Yield the plate's releases that are compared, with their growth over 30 c/V.
+
+    It is fitted with two bending modes, and with the first alone.
+    """
+    for one in releases:
+        is_compared = one.case.k_star == LEARNT_AT and one.iterations == PLATE_ITERATIONS
+        if one.model == "3d" and is_compared:
+            first, both = (one.growth(AFTER_RELEASE, min(EARLY, one.end), n) for n in (2, 3))
+            yield one, both, first
+
+
+def _half_width(growth: Growth) -> float:
+    return 0.5 * float(np.ptp(growth.interval))
+
+
 def onsets_by_releases(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the onset of each model over the meshes, from releases."""
     for model, dimensions in (("2d", 2), ("2d-corrected", 2), (OWN_RATIOS, 2), ("3d", 3)):
         own = [one for one in releases if one.model == model]
-        values = _of_plate(own, releases) if model == "3d" else _of_section(own)
+        values = _of_plate(own) if model == "3d" else _of_section(own)
         if values:
             yield MeshSeries(ONSET, model, "", BY_RELEASES, dimensions, tuple(values))
 
@@ -147,7 +160,7 @@ def _shifted(
             if known.case.k_star == run.case.k_star:
                 end = min(known.end, run.end)
                 here, there = run.behind_release(end), known.behind_release(end)
-                half = math.hypot(*(0.5 * np.ptp(one.interval) for one in (here, there)))
+                half = math.hypot(*map(_half_width, (here, there)))
                 found.append((run, known, here.rate - there.rate, half))
     if not found:
         return []
@@ -178,8 +191,8 @@ def _onset_on(
     return MeshValue(mesh, cells, value, low, high, note)
 
 
-def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> list[MeshValue]:
-    """Return the onset of the plate on coarse, and on medium as far as 30 c/V tell."""
+def _of_plate(own: Sequence[MeshRelease]) -> list[MeshValue]:
+    """Return the onset of the plate on coarse, and on finer meshes as far as 30 c/V tell."""
     coarse = [one for one in own if one.mesh == "coarse" and one.iterations < PLATE_ITERATIONS]
     table = growth_table(coarse)
     found = onset_by_growth(table, K_STAR)
@@ -188,16 +201,18 @@ def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> li
     least, most = min(one.zigzag for one in coarse), max(one.zigzag for one in coarse)
     note = f"two iterations a step: loads zigzag by {100 * least:.2g} to {100 * most:.2g} %"
     base = _onset_on("coarse", coarse[0].cells, (found.value, found.low, found.high), note)
-    early = early_growth_of_plate(releases).values
-    if len(early) < 2:
+    early = {one[0].mesh: one for one in _early_growths(own)}
+    if "coarse" not in early:
         return [base]
-    shift = early[-1].value - early[0].value
-    without = [float(value.note.split()[0]) for value in (early[0], early[-1])]
-    spread = abs(without[1] - without[0] - shift)
-    half = math.hypot(*(value.half_width for value in early[:: len(early) - 1]), spread)
-    run = next(one for one in own if one.mesh == early[-1].mesh)
-    words = f"growth of coarse {shift:+.4f} +- {half:.4f} V/c, the difference over 30 c/V"
-    return [base, _moved(table, (shift, half), base, run, words)]
+    _, there, there_without = early.pop("coarse")
+    values = [base]
+    for run, here, without in early.values():
+        shift = here.rate - there.rate
+        spread = without.rate - there_without.rate - shift
+        half = math.hypot(*map(_half_width, (here, there)), spread)
+        words = f"growth of coarse {shift:+.4f} +- {half:.4f} V/c, the difference over 30 c/V"
+        values.append(_moved(table, (shift, half), base, run, words))
+    return values
 
 
 @dataclass(frozen=True, eq=False)
