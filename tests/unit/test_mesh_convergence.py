@@ -37,6 +37,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     early_growth_of_plate,
     onsets_by_releases,
     own_factors,
+    plates_by_model,
 )
 from equisection.paper.printed_values import PAPER_ONSET
 from equisection.results.netcdf import read_attributes, read_dataset
@@ -143,6 +144,11 @@ def test_plate_is_compared_at_one_k_star_whatever_else_is_kept() -> None:
     assert [(one.quantity, one.at, one.values) for one in found] == [
         (one.quantity, "k* = 6.44", one.values) for one in alone
     ]
+
+
+def test_plate_without_a_polar_on_its_mesh_is_not_learnt_from() -> None:
+    kept = mesh_releases(ROOT / "results" / "reference")
+    assert not list(plates_by_model(kept, []))
 
 
 def test_longer_release_of_the_plate_is_compared_over_30_chords() -> None:

@@ -242,6 +242,11 @@ def rigid_loads(reference: Path, dimension: str) -> list[MeshLoads]:
     return sorted(found.values(), key=lambda one: (one.cells, one.incidence_deg))
 
 
+def is_on_cells_of_plate(loads: MeshLoads) -> bool:
+    """Tell whether loads are of the section on the cells that its plate has in the plane."""
+    return loads.mesh.startswith(ON_CELLS_OF_PLATE)
+
+
 def polars_of(loads: list[MeshLoads]) -> dict[str, Polar]:
     """Return the polar of each mesh with four incidences or more, coarsest first.
 

@@ -9,8 +9,7 @@ difference of both there; and from the model that is learnt from one release
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +28,7 @@ from equisection.analysis.reduced_model import (
 )
 from equisection.beam.section import Section
 from equisection.cases import BeamModes
+from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
 from equisection.errors import ResultFileError
 from equisection.paper.mesh_convergence.kept_releases import (
     OWN_RATIOS,
@@ -36,6 +36,7 @@ from equisection.paper.mesh_convergence.kept_releases import (
     MeshRelease,
     alike_sections,
     growth_table,
+    is_on_cells_of_plate,
     polars_of,
     strip_polars_of,
 )
@@ -215,86 +216,53 @@ def _of_plate(own: Sequence[MeshRelease]) -> list[MeshValue]:
     return values
 
 
-@dataclass(frozen=True, eq=False)
-class LearntSectionModels:
-    """Onsets of the sections by models learnt on each mesh.
+def sections_by_model(
+    releases: Sequence[MeshRelease],
+    section_loads: Sequence[MeshLoads],
+    plate: Polar,
+    own: CorrectionFactors | None,
+) -> Iterator[MeshSeries]:
+    """Yield the onset of the sections by a model learnt on each mesh, without damping and with it.
 
-    Attributes
+    Parameters
     ----------
-    onsets
-        Onset by model and mesh, with the cells of the mesh and a note.
+    releases
+        Kept releases.
+    section_loads
+        Rigid section on its meshes; one is learnt from where it has a release and a polar.
+    plate
+        Polar of the rigid plate of the paper's Table 1.
+    own
+        Factors of this project's section and plate on equal cells; None where they are not kept.
     """
-
-    onsets: Mapping[tuple[str, str, float], tuple[PredictedOnset, int, str]]
-
-    @classmethod
-    def learnt(
-        cls,
-        releases: Sequence[MeshRelease],
-        section_loads: Sequence[MeshLoads],
-        plate: Polar,
-        own: CorrectionFactors | None,
-    ) -> LearntSectionModels:
-        """Learn a model on each mesh that has a release and a polar.
-
-        Parameters
-        ----------
-        releases
-            Kept releases.
-        section_loads
-            Rigid section on its meshes.
-        plate
-            Polar of the rigid plate of the paper's Table 1.
-        own
-            Factors of this project's section and plate on equal cells; None where they are not
-            kept.
-        """
-        polars = polars_of([one for one in section_loads if not one.mesh.startswith("plate")])
-        onsets = {}
-        chosen = [
-            one
-            for one in releases
-            if one.model == "2d" and one.case.k_star == LEARNT_AT and one.mesh in polars
-        ]
-        for run in chosen:
-            polar = polars[run.mesh]
-            model = learnt_model(read_reference_history(run.path), polar)
-            base = run.case.section
-            assert base is not None, "a case of a section"
-            kinds: dict[str, CorrectionFactors | None] = {
-                "2d": None,
-                "2d-corrected": CorrectionFactors(polar, plate),
-            }
-            if own is not None:
-                kinds[OWN_RATIOS] = own
-            places = [(kind, zeta) for kind in kinds for zeta in DAMPING]
-            lanes = [
-                (float(k), section)
-                for kind, zeta in places
-                for k, section in _sections(base, kinds[kind], zeta, run)
-            ]
-            table = predicted(model, [k for k, _ in lanes], [section for _, section in lanes])
-            note = "" if not model.missing_angles else "the polar lacks angles"
-            label = polar.label if polar.label != run.mesh else ""
-            for number, place in enumerate(places):
-                count = _SECTIONS_AT.size
-                part = table.iloc[number * count : (number + 1) * count]
-                onsets[place[0], run.mesh, place[1]] = (
-                    predicted_onset(part),
-                    run.cells,
-                    "; ".join(filter(None, (note, f"polar of {label}" if label else ""))),
-                )
-        return cls(onsets)
-
-    def over_meshes(self) -> Iterator[MeshSeries]:
-        """Yield the onset of each model over the meshes, without damping and with it."""
-        for kind, zeta in dict.fromkeys((model, zeta) for model, _, zeta in self.onsets):
-            values = [
-                _onset_on(mesh, cells, (found.k_star, found.low, found.high), note)
-                for (model, mesh, damping), (found, cells, note) in self.onsets.items()
-                if (model, damping) == (kind, zeta)
-            ]
-            yield MeshSeries(ONSET, kind, damped(zeta), BY_MODEL, 2, tuple(values), True)
+    polars = polars_of([one for one in section_loads if not is_on_cells_of_plate(one)])
+    onsets: dict[tuple[str, float], list[MeshValue]] = {}
+    for run in releases:
+        if run.model != "2d" or run.case.k_star != LEARNT_AT or run.mesh not in polars:
+            continue
+        polar = polars[run.mesh]
+        model = learnt_model(read_reference_history(run.path), polar)
+        base = run.case.section
+        assert base is not None, "a case of a section"
+        kinds: dict[str, CorrectionFactors | None] = {
+            "2d": None,
+            "2d-corrected": CorrectionFactors(polar, plate),
+        }
+        if own is not None:
+            kinds[OWN_RATIOS] = own
+        places = [(kind, zeta) for kind in kinds for zeta in DAMPING]
+        lanes = [lane for kind, zeta in places for lane in _sections(base, kinds[kind], zeta, run)]
+        table = predicted(model, [k for k, _ in lanes], [section for _, section in lanes])
+        lacking = "the polar lacks angles" if model.missing_angles else ""
+        filled_in = f"polar of {polar.label}" if polar.label != run.mesh else ""
+        note = "; ".join(filter(None, (lacking, filled_in)))
+        count = _SECTIONS_AT.size
+        for number, place in enumerate(places):
+            found = predicted_onset(table.iloc[number * count : (number + 1) * count])
+            ends = found.k_star, found.low, found.high
+            onsets.setdefault(place, []).append(_onset_on(run.mesh, run.cells, ends, note))
+    for (kind, zeta), values in onsets.items():
+        yield MeshSeries(ONSET, kind, damped(zeta), BY_MODEL, 2, tuple(values), True)
 
 
 def damped(zeta: float) -> str:
@@ -323,11 +291,12 @@ def own_factors(
 
     The finest mesh of the plate of which both are kept is taken.
     """
-    on_cells = polars_of([one for one in section_loads if one.mesh.startswith("plate-")])
+    on_cells = polars_of([one for one in section_loads if is_on_cells_of_plate(one)])
     plates = polars_of(list(plate_loads))
     for mesh in reversed(plates):
-        if f"plate-{mesh}" in on_cells:
-            return CorrectionFactors(on_cells[f"plate-{mesh}"], plates[mesh]), mesh
+        in_plane = ON_CELLS_OF_PLATE + mesh
+        if in_plane in on_cells:
+            return CorrectionFactors(on_cells[in_plane], plates[mesh]), mesh
     return None, ""
 
 
@@ -336,12 +305,14 @@ def plates_by_model(
 ) -> Iterator[MeshSeries]:
     """Yield the onset of the plate by a model learnt from its release on each mesh, and damped.
 
-    A release that is too short, or whose loads zigzag beyond the coarse mesh, where that does
-    little harm, is not learnt from.
+    A release that is too short, or on a mesh without a polar, or whose loads zigzag beyond the
+    coarse mesh, where that does little harm, is not learnt from.
     """
     models: dict[str, tuple[ReducedBeam, MeshRelease]] = {}
+    with_polar = polars_of(list(plate_loads))
     for one in releases:
-        usable = one.iterations >= PLATE_ITERATIONS or one.mesh == "coarse"
+        is_converged = one.iterations >= PLATE_ITERATIONS or one.mesh == "coarse"
+        usable = is_converged and one.mesh in with_polar
         if one.model == "3d" and one.case.k_star == LEARNT_AT and usable:
             polars = strip_polars_of(list(plate_loads), one.mesh)
             try:
