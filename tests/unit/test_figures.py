@@ -265,6 +265,7 @@ def sweep(folder: Path, runs: dict[str, dict[float, str]]):
         brackets.append((model, min(stable, default=math.nan), max(growing, default=math.nan)))
     columns = "model k_star regime mean_twist_deg mean_deflection_chords solver resolution"
     summary = pd.DataFrame(rows, columns=[*columns.split(), "mean_known"])
+    summary = summary.assign(frequency_strouhal=0.15, growth_rate=0.0)
     onset = pd.DataFrame(brackets, columns=["model", "k_star_stable", "k_star_unstable"])
     return summary, onset, paths
 
@@ -624,6 +625,8 @@ def test_response_says_how_near_section_and_beam_are_and_where(tmp_path):
     beam = summary["model"] == "3d"
     summary.loc[beam, "mean_twist_deg"] *= 1.25
     summary.loc[beam & (summary["k_star"] == 8.0), "mean_deflection_chords"] *= 1.6
+    drawn = response.draw(response.read_response(summary, onset, paths, 6.7))
+    assert "$k^*$ = 4 to 8" in drawn.axes[0].get_title(loc="left")  # it grows at 4
     summary.loc[beam & (summary["k_star"] == 4.0), ["regime", "mean_twist_deg"]] = "undecided", 1e3
     figure = response.draw(response.read_response(summary, onset, paths, 6.7))
     titles = [axes.get_title(loc="left") for axes in figure.axes[:2]]

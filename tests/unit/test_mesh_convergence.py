@@ -35,7 +35,9 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     _onset_on,
     damped,
     early_growth_of_plate,
+    onsets_by_releases,
     own_factors,
+    plates_by_model,
 )
 from equisection.paper.printed_values import PAPER_ONSET
 from equisection.results.netcdf import read_attributes, read_dataset
@@ -144,6 +146,11 @@ def test_plate_is_compared_at_one_k_star_whatever_else_is_kept() -> None:
     ]
 
 
+def test_plate_without_a_polar_on_its_mesh_is_not_learnt_from() -> None:
+    kept = mesh_releases(ROOT / "results" / "reference")
+    assert not list(plates_by_model(kept, []))
+
+
 def test_longer_release_of_the_plate_is_compared_over_30_chords() -> None:
     kept = [one for one in mesh_releases(ROOT / "results" / "reference") if one.model == "3d"]
     long = next(one for one in kept if one.case.k_star == 6.44 and one.end > 50.0)
@@ -156,6 +163,22 @@ def test_longer_release_of_the_plate_is_compared_over_30_chords() -> None:
     means = read_dataset(long.path)["torsion_amplitude"].sel(time=slice(10.0, 30.0)).mean("time")
     first, *others = np.abs(means.values)
     assert torsion.values[0].value == pytest.approx(first / max(others))
+
+
+def test_onset_of_a_plate_on_a_finer_mesh_is_by_its_difference_from_coarse() -> None:
+    """The growth curve that is moved is that of coarse, whatever other meshes there are."""
+    kept = [one for one in mesh_releases(ROOT / "results" / "reference") if one.model == "3d"]
+    medium = next(one for one in kept if one.mesh == "medium" and one.iterations == 4)
+    solver = medium.case.solver
+    named = solver.model_copy(update={"settings": solver.settings | {"mesh": "fine"}})
+    case = medium.case.model_copy(update={"solver": named})
+    fine = replace(medium, case=case, cells=3 * medium.cells)
+    (found,) = onsets_by_releases([*kept, fine])
+    assert [value.mesh for value in found.values] == ["coarse", "medium", "fine"]
+    assert found.values[1].value == found.values[2].value < found.values[0].value
+    without = [one for one in kept if (one.mesh, one.iterations) != ("coarse", 4)]
+    (alone,) = onsets_by_releases([*without, fine])
+    assert [value.mesh for value in alone.values] == ["coarse"]
 
 
 def test_intervals_of_table_1_hold_its_finest_mesh() -> None:

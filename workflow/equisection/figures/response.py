@@ -16,6 +16,7 @@ from matplotlib.patches import Patch
 from matplotlib.patheffects import withStroke
 from matplotlib.ticker import MaxNLocator
 
+from equisection.analysis.deviations import deviations
 from equisection.figures.cases_shown import (
     BEAM_LETTERS,
     SECTION_LETTERS,
@@ -54,7 +55,8 @@ _QUANTITIES = {
     "mean_twist_deg": r"mean twist {}  $\overline{\theta}$ (deg)",
     "mean_deflection_chords": r"mean deflection {}  $\overline{w}/c$",
 }
-
+#: Names of the same in a table of deviations.
+_DEVIATIONS = {"mean_twist_deg": "twist", "mean_deflection_chords": "deflection"}
 
 #: Look of both sides of the bracket of an onset.
 _EDGE: dict[str, Any] = {"linewidth": 1.0, "linestyle": (0, (4, 2)), "zorder": 1}
@@ -264,24 +266,21 @@ def _means(axes: Axes, response: Response, name: str) -> None:
 
 
 def _agreement(summary: pd.DataFrame, section: str | None, beam: str | None, name: str) -> str:
-    """Say how far a mean of the section is from the beam's, and where both are known.
+    """Say how far a mean of the section is from the beam's, and where both have one.
 
-    Undecided runs have no mean to be compared.
+    Means that are not settled (open markers) count as they are; undecided runs have none.
     """
     if section is None or beam is None:
         return ""
     along = onset_axis_among(summary.columns)
-    decided = summary[~summary["regime"].isin([Regime.FAILED, Regime.UNDECIDED])]
-    of_section, of_beam = (
-        decided[decided["model"] == model].set_index(along.name)[name].dropna()
-        for model in (section, beam)
-    )
-    quotient = (of_section / of_beam).replace([np.inf, -np.inf], np.nan).dropna()
-    if quotient.size < 2:
+    table = deviations(summary)
+    of_section = table[table["model"] == section].set_index(along.name)[_DEVIATIONS[name]]
+    deviation = of_section[np.isfinite(of_section)]
+    if deviation.size < 2:
         return ""
-    farthest = 100.0 * float((quotient - 1.0).abs().max())
+    farthest = 100.0 * float(deviation.abs().max())
     labels = [LOOKS[model].label for model in (section, beam)]
-    low, high = float(quotient.index.min()), float(quotient.index.max())
+    low, high = float(deviation.index.min()), float(deviation.index.max())
     where = f"{along.typeset(low)} to {high:g}"
     return f"{labels[0]} within {farthest:.0f} % of {labels[1]}, {where}"
 

@@ -16,6 +16,7 @@ import pandas as pd
 import xarray as xr
 
 from equisection.analysis.grid_convergence import cell_size, grid_convergence
+from equisection.analysis.grid_limit import GridLimit, grid_limit
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1, TABLE_2, TABLE_2_KINDS
 
 
@@ -102,6 +103,17 @@ def _element_sizes(meshes: Sequence[str]) -> list[float]:
     counts = np.array([[int(number) for number in mesh.split(" x ")] for mesh in meshes])
     refined = max(1, int((counts != counts[-1]).any(axis=0).sum()))
     return [cell_size(int(number), refined) for number in counts.prod(axis=1)]
+
+
+def limits_of_table_2(table: pd.DataFrame) -> list[GridLimit]:
+    """Return the limit of each constant of :func:`table_2` over the meshes of its study.
+
+    Of meshes of one size the last counts.
+    """
+    meshes = [column.removeprefix("mesh ") for column in table if column.startswith("mesh ")]
+    sizes = dict(zip(meshes, _element_sizes(meshes), strict=True)) if meshes else {}
+    finer = {size: f"mesh {mesh}" for mesh, size in sizes.items()}
+    return [grid_limit(row, list(finer)) for row in table[list(finer.values())].values.tolist()]
 
 
 def _convergence(values: Sequence[float], sizes: Sequence[float]) -> dict[str, object]:

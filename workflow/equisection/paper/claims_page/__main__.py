@@ -24,7 +24,8 @@ from equisection.paper.claims_page.evidence import Evidence, read_evidence
 from equisection.paper.claims_page.findings import Finding
 from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
 from equisection.paper.mesh_convergence.__main__ import TABLE
-from equisection.paper.printed_values import PUBLISHED
+from equisection.paper.mesh_convergence.convergence_page import CONVERGED
+from equisection.paper.printed_values import ABOUT, PUBLISHED
 from equisection.verdict.zigzag import LARGEST_ZIGZAG
 
 PAGE = Path("docs/side-by-side.md")
@@ -37,15 +38,15 @@ yet is said to be so; the page is written anew when results are added.
 
 | verdict | means |
 | --- | --- |
-| **agrees** | the interval of the value here meets the paper's |
-| **differs** | it does not, and the mesh is converged |
-| **not converged** | its own uncertainty is larger than the difference, or not known |
+| **agrees** | the value here is converged, and its interval meets the paper's |
+| **differs** | it is converged, and its interval does not meet the paper's |
+| **not converged** | its interval is too wide for either, or not known |
 | **partly** | a part of the claim agrees |
 
 A value here is the limit over the meshes with its interval ([how](mesh-convergence.md)). It is
-converged where that interval is ± 10 % or less, or lies on one side of a bound. Of the paper's
-values the interval is that of its three meshes by the same rule (Table 1), ± 10 % of a value that
-it calls approximate, and half a digit of any other.
+converged where that interval is ± {100 * CONVERGED:g} % or less; against a bound, where all of it
+lies on one side. Of the paper's values the interval is that of its three meshes by the same rule
+(Table 1), ± {100 * ABOUT:g} % of a value that it calls approximate, and half a digit of any other.
 """
 
 

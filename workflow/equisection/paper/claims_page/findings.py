@@ -16,9 +16,9 @@ from equisection.verdict.zigzag import LARGEST_ZIGZAG
 class ClaimVerdict(StrEnum):
     """Verdict on a claim of the paper, or on a part of it."""
 
-    AGREES = "agrees"  # the interval here meets the paper's
-    DIFFERS = "differs"  # it does not, and is narrow enough to tell
-    NOT_CONVERGED = "not converged"  # its own uncertainty is larger than what it is to tell
+    AGREES = "agrees"  # the interval here is narrow enough to tell, and meets the paper's
+    DIFFERS = "differs"  # it does not
+    NOT_CONVERGED = "not converged"  # it is too wide for either, or not known
     PARTLY = "partly"  # a part agrees
     OPEN = "not run yet"
 

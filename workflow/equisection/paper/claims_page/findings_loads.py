@@ -19,7 +19,7 @@ from equisection.paper.claims_page.findings import (
     percent,
     together,
 )
-from equisection.paper.claims_page.kept_runs import cells_of
+from equisection.paper.mesh_convergence.kept_releases import cells_of
 from equisection.paper.mesh_convergence.loads_by_mesh import RIGID, printed_limit
 from equisection.paper.printed_values import (
     ABOUT,
@@ -29,29 +29,28 @@ from equisection.paper.printed_values import (
     TABLE_1,
     TABLE_2,
 )
+from equisection.paper.tables import limits_of_table_2
 from equisection.results.correction_dataset import factor_at
 from equisection.results.section_mesh import share_below
 
-#: The finest mesh of Table 1, which is the one to judge by.
-_FINEST = "15e6 cells"
 #: Part of the chord by which a length of the paper's bubble may be off.
 _OF_CHORD = 0.05
 
 
 def natural_frequencies(evidence: Evidence) -> Finding:
-    """Judge Table 2: each of its meshes, by the limit of the mesh study here."""
-    table = evidence.table_2.dropna(subset=["extrapolated", "gci"])
-    if table.empty:
+    """Judge Table 2: each of its meshes, by the limits of the mesh study here."""
+    limits = limits_of_table_2(evidence.table_2)
+    rows = zip(limits, evidence.table_2.to_dict("records"), strict=True)
+    known = [(limit, row) for limit, row in rows if math.isfinite(limit.half_width)]
+    if not known:
         return open_finding("the modes of Table 2")
     verdicts, parts = [], []
     for mesh in TABLE_2:
         differences, of_mesh = [], []
-        for row in table.to_dict("records"):
+        for limit, row in known:
             printed = float(row[f"paper {mesh}"])
-            limit = float(row["extrapolated"])
-            half = float(row["gci"]) * abs(limit)
-            here = Known(limit, limit - half, limit + half)
-            differences.append(limit / printed - 1.0)
+            here = Known(limit.value, limit.low, limit.high)
+            differences.append(limit.value / printed - 1.0)
             of_mesh.append(here.meets(_printed(printed)))
         verdicts.append(together(of_mesh))
         agree = sum(one is ClaimVerdict.AGREES for one in of_mesh)
@@ -62,7 +61,7 @@ def natural_frequencies(evidence: Evidence) -> Finding:
     return Finding(
         together(verdicts),
         "; ".join(parts),
-        "solid elements, three meshes with observed order and index (`tables/table2.csv`)",
+        f"solid elements, limits over {known[0][0].meshes} meshes (`tables/table2.csv`)",
         "The paper's finer mesh has lower frequencies than its coarser one by up to 2.6 %; "
         "refinement here does not move them that way ([errata](errata.md)).",
     )
@@ -99,7 +98,7 @@ def property_ratios(evidence: Evidence) -> Finding:
 def rigid_plate(evidence: Evidence) -> Finding:
     """Judge Table 1, coefficient by coefficient: limits of the meshes here and of the paper's."""
     parts: dict[ClaimVerdict, list[str]] = {}
-    for angle in TABLE_1[_FINEST]:
+    for angle in next(iter(TABLE_1.values())):
         for name in COEFFICIENTS:
             here = evidence.limit(name, RIGID["3d"], f"{angle:g} deg")
             if math.isnan(here.value):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import re
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +11,7 @@ import pandas as pd
 
 from equisection.cases import FREE, UnsteadyCase
 from equisection.errors import ResultFileError
-from equisection.paper.mesh_convergence.kept_releases import growth_behind_release
+from equisection.paper.mesh_convergence.kept_releases import cells_of, growth_behind_release
 from equisection.results.loads_zigzag import loads_zigzag
 from equisection.results.netcdf import read_dataset
 from equisection.solvers.verdicts import judge
@@ -84,12 +83,6 @@ def _verdict(kept: Kept) -> dict[str, Any]:
         "growth_behind_low": low,
         "growth_behind_high": high,
     }
-
-
-def cells_of(description: str) -> float:
-    """Return the number of cells that a solver's description names; NaN if it names none."""
-    found = re.search(r"(\d+) cells", description)
-    return float(found[1]) if found else math.nan
 
 
 def base_of(ladder: pd.DataFrame) -> pd.Series | None:

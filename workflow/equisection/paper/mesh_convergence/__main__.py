@@ -31,13 +31,13 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
 )
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, as_table
 from equisection.paper.mesh_convergence.onset_by_mesh import (
-    LearntSectionModels,
     early_growth_of_plate,
     growth_series,
     onsets_by_releases,
     own_factors,
     plate_of_table_1,
     plates_by_model,
+    sections_by_model,
 )
 from equisection.paper.printed_values import PAPER_ONSET
 
@@ -54,10 +54,9 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
     releases = mesh_releases(reference)
     section, plate = (rigid_loads(reference, dimension) for dimension in ("2d", "3d"))
     own, own_mesh = own_factors(section, plate)
-    models = LearntSectionModels.learnt(releases, section, plate_of_table_1(ROOT), own)
     series = [
         *onsets_by_releases(releases),
-        *models.over_meshes(),
+        *sections_by_model(releases, section, plate_of_table_1(ROOT), own),
         *plates_by_model(releases, plate),
         *growth_series(releases),
         early_growth_of_plate(releases),

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import re
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -137,6 +138,20 @@ def mesh_releases(reference: Path) -> list[MeshRelease]:
     )
 
 
+def alike_sections(
+    releases: Sequence[MeshRelease],
+) -> Iterator[tuple[float, list[MeshRelease], float]]:
+    """Yield each k* that the section has a release at on two meshes, with these and their end.
+
+    The end (c/V) is that of the shortest, up to which they are compared.
+    """
+    sections = [one for one in releases if one.model == "2d"]
+    for k_star in sorted({one.case.k_star for one in sections}):
+        alike = [one for one in sections if one.case.k_star == k_star]
+        if len(alike) > 1:
+            yield k_star, alike, min(one.end for one in alike)
+
+
 def _is_compared(kept: Kept) -> bool:
     case = kept.case
     if case.get("kind") != FREE.folder or "outline" in case["geometry"] or "start" in case:
@@ -157,9 +172,14 @@ def _model_of(path: Path) -> str:
     return OWN_RATIOS if path.parents[2].name.endswith(_OWN_FOLDER) else path.parent.name
 
 
+def cells_of(description: str) -> float:
+    """Return the number of cells that a solver's description names; NaN if it names none."""
+    found = re.search(r"(\d+) cells", description)
+    return float(found[1]) if found else math.nan
+
+
 def _cells_of(kept: Kept) -> int:
-    words = str(kept.attributes["solver_description"]).split()
-    return int(words[words.index("cells") - 1])
+    return int(cells_of(str(kept.attributes["solver_description"])))
 
 
 def growth_table(releases: Sequence[MeshRelease]) -> pd.DataFrame:
@@ -220,6 +240,11 @@ def rigid_loads(reference: Path, dimension: str) -> list[MeshLoads]:
         loads = {name: float(data[name]) for name in ("cd", "cl", "cm")}
         found[mesh, angle] = MeshLoads(mesh, _cells_of(kept), angle, loads, kept.path)
     return sorted(found.values(), key=lambda one: (one.cells, one.incidence_deg))
+
+
+def is_on_cells_of_plate(loads: MeshLoads) -> bool:
+    """Tell whether loads are of the section on the cells that its plate has in the plane."""
+    return loads.mesh.startswith(ON_CELLS_OF_PLATE)
 
 
 def polars_of(loads: list[MeshLoads]) -> dict[str, Polar]:

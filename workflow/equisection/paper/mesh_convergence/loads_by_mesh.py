@@ -10,7 +10,13 @@ import pandas as pd
 
 from equisection.analysis.grid_convergence import cell_size
 from equisection.analysis.grid_limit import GridLimit, grid_limit
-from equisection.paper.mesh_convergence.kept_releases import MeshLoads, MeshRelease
+from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
+from equisection.paper.mesh_convergence.kept_releases import (
+    MeshLoads,
+    MeshRelease,
+    alike_sections,
+    is_on_cells_of_plate,
+)
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_mesh import EARLY, LEARNT_AT, PLATE_ITERATIONS
 from equisection.paper.printed_values import COEFFICIENTS, TABLE_1
@@ -39,12 +45,7 @@ _UNFINISHED_MESH, _UNFINISHED_DEG, _TO_AND_FRO_FROM = "fine", 2.5, 400
 
 def mean_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the means and the frequency of the section at each k* that two meshes have."""
-    sections = [one for one in releases if one.model == "2d"]
-    for k_star in sorted({one.case.k_star for one in sections}):
-        alike = [one for one in sections if one.case.k_star == k_star]
-        if len(alike) < 2:
-            continue
-        end = min(one.end for one in alike)
+    for k_star, alike, end in alike_sections(releases):
         verdicts = [judge(one.case, one.tip.until(end)) for one in alike]
         for name, quantity in MEANS.items():
             values = tuple(
@@ -59,7 +60,7 @@ def load_series(
     loads: Sequence[MeshLoads], dimension: str, reference: Path
 ) -> Iterator[MeshSeries]:
     """Yield the loads of the rigid section or plate at the incidences of Table 1."""
-    similar = [one for one in loads if not one.mesh.startswith("plate-")]
+    similar = [one for one in loads if not is_on_cells_of_plate(one)]
     for angle in next(iter(TABLE_1.values())):
         for name, short in COEFFICIENTS.items():
             if angle == 0.0 and name != "C_D":
@@ -88,7 +89,7 @@ def ratio_series(
                 MeshValue(plate.mesh, plate.cells, section.loads[short] / plate.loads[short])
                 for plate in plate_loads
                 for section in section_loads
-                if section.mesh == f"plate-{plate.mesh}"
+                if section.mesh == ON_CELLS_OF_PLATE + plate.mesh
                 and section.incidence_deg == plate.incidence_deg == angle > 0.0
             ]
             if values:

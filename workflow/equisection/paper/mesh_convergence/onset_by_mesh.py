@@ -9,8 +9,7 @@ difference of both there; and from the model that is learnt from one release
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -29,12 +28,15 @@ from equisection.analysis.reduced_model import (
 )
 from equisection.beam.section import Section
 from equisection.cases import BeamModes
+from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
 from equisection.errors import ResultFileError
 from equisection.paper.mesh_convergence.kept_releases import (
     OWN_RATIOS,
     MeshLoads,
     MeshRelease,
+    alike_sections,
     growth_table,
+    is_on_cells_of_plate,
     polars_of,
     strip_polars_of,
 )
@@ -43,7 +45,7 @@ from equisection.reduction.corrected_section import corrected_section
 from equisection.reduction.correction import CorrectionFactors
 from equisection.results.recorded_history import read_reference_history
 from equisection.study.axes import K_STAR
-from equisection.verdict.growth import AFTER_RELEASE
+from equisection.verdict.growth import AFTER_RELEASE, Growth
 
 #: Names of the quantities.
 ONSET, GROWTH, GROWTH_EARLY = (
@@ -68,12 +70,7 @@ PLATE_ITERATIONS = 4
 
 def growth_series(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the growth rates of the section at each k* that two meshes have, over one window."""
-    sections = [one for one in releases if one.model == "2d"]
-    for k_star in sorted({one.case.k_star for one in sections}):
-        alike = [one for one in sections if one.case.k_star == k_star]
-        if len(alike) < 2:
-            continue
-        end = min(one.end for one in alike)
+    for k_star, alike, end in alike_sections(releases):
         values = []
         for one in alike:
             growth = one.behind_release(end)
@@ -88,36 +85,49 @@ def early_growth_of_plate(releases: Sequence[MeshRelease]) -> MeshSeries:
     """Return the growth of the plate over 30 c/V at k* = 6.44 on each mesh, with four iterations.
 
     It is no growth rate of the plate: over so short a time the release shows, and fits with one and
-    with two bending modes differ by more than their errors. Half of that difference is in the
-    interval, and the difference of two meshes over the same window is what it is for.
+    with two bending modes differ by more than their errors. That is in the notes and not in the
+    intervals: the difference of two meshes over the same window is what the values are for.
     """
     values = []
-    for one in releases:
-        is_compared = one.case.k_star == LEARNT_AT and one.iterations == PLATE_ITERATIONS
-        if one.model != "3d" or not is_compared:
-            continue
-        two, three = (one.growth(AFTER_RELEASE, min(EARLY, one.end), waves) for waves in (2, 3))
-        low, high = three.interval
-        half = 0.5 * (high - low)
+    for run, growth, without in _early_growths(releases):
+        half = _half_width(growth)
         values.append(
             MeshValue(
-                one.mesh,
-                one.cells,
-                three.rate,
-                three.rate - half,
-                three.rate + half,
-                f"{two.rate:+.4f} without the second bending mode",
+                run.mesh,
+                run.cells,
+                growth.rate,
+                growth.rate - half,
+                growth.rate + half,
+                f"{without.rate:+.4f} without the second bending mode",
             )
         )
     at = f"k* = {LEARNT_AT:g}"
     return MeshSeries(GROWTH_EARLY, "3d", at, "releases, 10 to 30 c/V", 3, tuple(values))
 
 
+def _early_growths(
+    releases: Sequence[MeshRelease],
+) -> Iterator[tuple[MeshRelease, Growth, Growth]]:
+    """Yield the plate's releases that are compared, with their growth over 30 c/V.
+
+    It is fitted with two bending modes, and with the first alone.
+    """
+    for one in releases:
+        is_compared = one.case.k_star == LEARNT_AT and one.iterations == PLATE_ITERATIONS
+        if one.model == "3d" and is_compared:
+            first, both = (one.growth(AFTER_RELEASE, min(EARLY, one.end), n) for n in (2, 3))
+            yield one, both, first
+
+
+def _half_width(growth: Growth) -> float:
+    return 0.5 * float(np.ptp(growth.interval))
+
+
 def onsets_by_releases(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the onset of each model over the meshes, from releases."""
     for model, dimensions in (("2d", 2), ("2d-corrected", 2), (OWN_RATIOS, 2), ("3d", 3)):
         own = [one for one in releases if one.model == model]
-        values = _of_plate(own, releases) if model == "3d" else _of_section(own)
+        values = _of_plate(own) if model == "3d" else _of_section(own)
         if values:
             yield MeshSeries(ONSET, model, "", BY_RELEASES, dimensions, tuple(values))
 
@@ -151,7 +161,7 @@ def _shifted(
             if known.case.k_star == run.case.k_star:
                 end = min(known.end, run.end)
                 here, there = run.behind_release(end), known.behind_release(end)
-                half = math.hypot(*(0.5 * np.ptp(one.interval) for one in (here, there)))
+                half = math.hypot(*map(_half_width, (here, there)))
                 found.append((run, known, here.rate - there.rate, half))
     if not found:
         return []
@@ -182,8 +192,8 @@ def _onset_on(
     return MeshValue(mesh, cells, value, low, high, note)
 
 
-def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> list[MeshValue]:
-    """Return the onset of the plate on coarse, and on medium as far as 30 c/V tell."""
+def _of_plate(own: Sequence[MeshRelease]) -> list[MeshValue]:
+    """Return the onset of the plate on coarse, and on finer meshes as far as 30 c/V tell."""
     coarse = [one for one in own if one.mesh == "coarse" and one.iterations < PLATE_ITERATIONS]
     table = growth_table(coarse)
     found = onset_by_growth(table, K_STAR)
@@ -192,98 +202,67 @@ def _of_plate(own: Sequence[MeshRelease], releases: Sequence[MeshRelease]) -> li
     least, most = min(one.zigzag for one in coarse), max(one.zigzag for one in coarse)
     note = f"two iterations a step: loads zigzag by {100 * least:.2g} to {100 * most:.2g} %"
     base = _onset_on("coarse", coarse[0].cells, (found.value, found.low, found.high), note)
-    early = early_growth_of_plate(releases).values
-    if len(early) < 2:
+    early = {one[0].mesh: one for one in _early_growths(own)}
+    if "coarse" not in early:
         return [base]
-    shift = early[-1].value - early[0].value
-    without = [float(value.note.split()[0]) for value in (early[0], early[-1])]
-    spread = abs(without[1] - without[0] - shift)
-    half = math.hypot(*(value.half_width for value in early[:: len(early) - 1]), spread)
-    run = next(one for one in own if one.mesh == early[-1].mesh)
-    words = f"growth of coarse {shift:+.4f} +- {half:.4f} V/c, the difference over 30 c/V"
-    return [base, _moved(table, (shift, half), base, run, words)]
+    _, there, there_without = early.pop("coarse")
+    values = [base]
+    for run, here, without in early.values():
+        shift = here.rate - there.rate
+        spread = without.rate - there_without.rate - shift
+        half = math.hypot(*map(_half_width, (here, there)), spread)
+        words = f"growth of coarse {shift:+.4f} +- {half:.4f} V/c, the difference over 30 c/V"
+        values.append(_moved(table, (shift, half), base, run, words))
+    return values
 
 
-@dataclass(frozen=True, eq=False)
-class LearntSectionModels:
-    """Onsets of the sections by models learnt on each mesh.
+def sections_by_model(
+    releases: Sequence[MeshRelease],
+    section_loads: Sequence[MeshLoads],
+    plate: Polar,
+    own: CorrectionFactors | None,
+) -> Iterator[MeshSeries]:
+    """Yield the onset of the sections by a model learnt on each mesh, without damping and with it.
 
-    Attributes
+    Parameters
     ----------
-    onsets
-        Onset by model and mesh, with the cells of the mesh and a note.
+    releases
+        Kept releases.
+    section_loads
+        Rigid section on its meshes; one is learnt from where it has a release and a polar.
+    plate
+        Polar of the rigid plate of the paper's Table 1.
+    own
+        Factors of this project's section and plate on equal cells; None where they are not kept.
     """
-
-    onsets: Mapping[tuple[str, str, float], tuple[PredictedOnset, int, str]]
-
-    @classmethod
-    def learnt(
-        cls,
-        releases: Sequence[MeshRelease],
-        section_loads: Sequence[MeshLoads],
-        plate: Polar,
-        own: CorrectionFactors | None,
-    ) -> LearntSectionModels:
-        """Learn a model on each mesh that has a release and a polar.
-
-        Parameters
-        ----------
-        releases
-            Kept releases.
-        section_loads
-            Rigid section on its meshes.
-        plate
-            Polar of the rigid plate of the paper's Table 1.
-        own
-            Factors of this project's section and plate on equal cells; None where they are not
-            kept.
-        """
-        polars = polars_of([one for one in section_loads if not one.mesh.startswith("plate")])
-        onsets = {}
-        chosen = [
-            one
-            for one in releases
-            if one.model == "2d" and one.case.k_star == LEARNT_AT and one.mesh in polars
-        ]
-        for run in chosen:
-            polar = polars[run.mesh]
-            model = learnt_model(read_reference_history(run.path), polar)
-            base = run.case.section
-            assert base is not None, "a case of a section"
-            kinds: dict[str, CorrectionFactors | None] = {
-                "2d": None,
-                "2d-corrected": CorrectionFactors(polar, plate),
-            }
-            if own is not None:
-                kinds[OWN_RATIOS] = own
-            places = [(kind, zeta) for kind in kinds for zeta in DAMPING]
-            lanes = [
-                (float(k), section)
-                for kind, zeta in places
-                for k, section in _sections(base, kinds[kind], zeta, run)
-            ]
-            table = predicted(model, [k for k, _ in lanes], [section for _, section in lanes])
-            note = "" if not model.missing_angles else "the polar lacks angles"
-            label = polar.label if polar.label != run.mesh else ""
-            for number, place in enumerate(places):
-                count = _SECTIONS_AT.size
-                part = table.iloc[number * count : (number + 1) * count]
-                onsets[place[0], run.mesh, place[1]] = (
-                    predicted_onset(part),
-                    run.cells,
-                    "; ".join(filter(None, (note, f"polar of {label}" if label else ""))),
-                )
-        return cls(onsets)
-
-    def over_meshes(self) -> Iterator[MeshSeries]:
-        """Yield the onset of each model over the meshes, without damping and with it."""
-        for kind, zeta in dict.fromkeys((model, zeta) for model, _, zeta in self.onsets):
-            values = [
-                _onset_on(mesh, cells, (found.k_star, found.low, found.high), note)
-                for (model, mesh, damping), (found, cells, note) in self.onsets.items()
-                if (model, damping) == (kind, zeta)
-            ]
-            yield MeshSeries(ONSET, kind, damped(zeta), BY_MODEL, 2, tuple(values), True)
+    polars = polars_of([one for one in section_loads if not is_on_cells_of_plate(one)])
+    onsets: dict[tuple[str, float], list[MeshValue]] = {}
+    for run in releases:
+        if run.model != "2d" or run.case.k_star != LEARNT_AT or run.mesh not in polars:
+            continue
+        polar = polars[run.mesh]
+        model = learnt_model(read_reference_history(run.path), polar)
+        base = run.case.section
+        assert base is not None, "a case of a section"
+        kinds: dict[str, CorrectionFactors | None] = {
+            "2d": None,
+            "2d-corrected": CorrectionFactors(polar, plate),
+        }
+        if own is not None:
+            kinds[OWN_RATIOS] = own
+        places = [(kind, zeta) for kind in kinds for zeta in DAMPING]
+        lanes = [lane for kind, zeta in places for lane in _sections(base, kinds[kind], zeta, run)]
+        table = predicted(model, [k for k, _ in lanes], [section for _, section in lanes])
+        lacking = "the polar lacks angles" if model.missing_angles else ""
+        filled_in = f"polar of {polar.label}" if polar.label != run.mesh else ""
+        note = "; ".join(filter(None, (lacking, filled_in)))
+        count = _SECTIONS_AT.size
+        for number, place in enumerate(places):
+            found = predicted_onset(table.iloc[number * count : (number + 1) * count])
+            ends = found.k_star, found.low, found.high
+            onsets.setdefault(place, []).append(_onset_on(run.mesh, run.cells, ends, note))
+    for (kind, zeta), values in onsets.items():
+        yield MeshSeries(ONSET, kind, damped(zeta), BY_MODEL, 2, tuple(values), True)
 
 
 def damped(zeta: float) -> str:
@@ -312,11 +291,12 @@ def own_factors(
 
     The finest mesh of the plate of which both are kept is taken.
     """
-    on_cells = polars_of([one for one in section_loads if one.mesh.startswith("plate-")])
+    on_cells = polars_of([one for one in section_loads if is_on_cells_of_plate(one)])
     plates = polars_of(list(plate_loads))
     for mesh in reversed(plates):
-        if f"plate-{mesh}" in on_cells:
-            return CorrectionFactors(on_cells[f"plate-{mesh}"], plates[mesh]), mesh
+        in_plane = ON_CELLS_OF_PLATE + mesh
+        if in_plane in on_cells:
+            return CorrectionFactors(on_cells[in_plane], plates[mesh]), mesh
     return None, ""
 
 
@@ -325,12 +305,14 @@ def plates_by_model(
 ) -> Iterator[MeshSeries]:
     """Yield the onset of the plate by a model learnt from its release on each mesh, and damped.
 
-    A release that is too short, or whose loads zigzag beyond the coarse mesh, where that does
-    little harm, is not learnt from.
+    A release that is too short, or on a mesh without a polar, or whose loads zigzag beyond the
+    coarse mesh, where that does little harm, is not learnt from.
     """
     models: dict[str, tuple[ReducedBeam, MeshRelease]] = {}
+    with_polar = polars_of(list(plate_loads))
     for one in releases:
-        usable = one.iterations >= PLATE_ITERATIONS or one.mesh == "coarse"
+        is_converged = one.iterations >= PLATE_ITERATIONS or one.mesh == "coarse"
+        usable = is_converged and one.mesh in with_polar
         if one.model == "3d" and one.case.k_star == LEARNT_AT and usable:
             polars = strip_polars_of(list(plate_loads), one.mesh)
             try:
