@@ -246,9 +246,9 @@ def _laminar_morphs(turbulence: str, motion: str) -> Iterator[Problem]:
         )
 
 
-@check("solver", "beam.outline", "openfoam.mesher", "openfoam.meshes", "openfoam.mesh_motion")
+@check("solver", "beam.outline", "openfoam.mesher", "openfoam.meshes")
 def _has_a_mesh_of_outlines(
-    solver: str, outline: object, mesher: str, meshes: Mapping[str, str], motion: str
+    solver: str, outline: object, mesher: str, meshes: Mapping[str, str]
 ) -> Iterator[Problem]:
     """Refuse what the mesh of outlines does not have."""
     if solver != "openfoam" or (outline is None and mesher == BLOCKS):
@@ -259,13 +259,6 @@ def _has_a_mesh_of_outlines(
             yield Problem(
                 f"openfoam.meshes.{name}", mesh, f"allowed are {', '.join(OUTLINE_MESHES)} {why}"
             )
-    if motion == OVERSET:
-        yield Problem(
-            "openfoam.mesh_motion",
-            motion,
-            f"allowed is {MORPH} {why}, which is sound up to 10 deg and half a chord of motion: "
-            "the mesh that overset moves is that of a rectangle",
-        )
 
 
 @check("openfoam.mesh_motion", "openfoam.meshes")

@@ -31,7 +31,6 @@ from equisection.solvers.openfoam.case_folder import (
 )
 from equisection.solvers.openfoam.dictionaries import control, write_system
 from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
-from equisection.solvers.openfoam.mesh.block_mesh import Mesh
 from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.reading.loads import (
@@ -182,8 +181,7 @@ class SectionRun(FreeRun[SectionCells]):
             faults = f"a face is {quality.non_orthogonality_deg:.0f} deg oblique"
         if not faults:
             return ""
-        further = "; openfoam.mesh_motion: overset goes further"
-        return f"the mesh has tangled ({faults}){further if isinstance(self.mesh, Mesh) else ''}"
+        return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
 
     def _watch(self, start: float, tell: Tell) -> Watch:
         case, due, iterations = self.case, Every(LOOKS_EVERY, last_look(start)), IterationsCheck()
