@@ -397,7 +397,6 @@ def test_far_field_takes_the_place_of_the_channel() -> None:
             {"sweep": {"models": ["2d-corrected"]}, "flow": {"root_on_wall": False}},
             "flow.root_on_wall: false: allowed is true",
         ),
-        ({"openfoam": {"mesh_motion": "overset"}}, "allowed is morph with beam.outline"),
         ({"openfoam": {"meshes": {"coarse": "finest"}}}, "allowed are coarse, medium, fine"),
     ],
 )

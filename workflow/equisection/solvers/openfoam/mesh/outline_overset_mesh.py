@@ -74,7 +74,10 @@ class OutlineOversetMesh:
             return min(radius + _ASIDE, max(_ASIDE_PART * room, section.disc_radius))
 
         along = _lines(
-            (-channel.upstream, channel.downstream), (-radius - _AHEAD, radius + _BEHIND), size, growth
+            (-channel.upstream, channel.downstream),
+            (-radius - _AHEAD, radius + _BEHIND),
+            size,
+            growth,
         )
         across = _lines(
             (channel.floor, channel.ceiling),
