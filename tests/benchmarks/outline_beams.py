@@ -67,9 +67,10 @@ def made(beam: str, mesh: str) -> str:
         found = re.match(r"\d+", (folder / LOG).read_text().splitlines()[-1])
         assert found
         oblique = quality(folder / "log.checkMesh")["max_non_orthogonality_deg"]
+    seconds, megabytes = _spent()
     return (
-        f"sound, {int(found[0]):,} cells, {oblique:.0f} deg oblique at most; mesh {of_mesher[0]:.0f}"
-        f" processor s, with its check {_spent()[0]:.0f}; {_spent()[1]:.0f} MB"
+        f"sound, {int(found[0]):,} cells, {oblique:.0f} deg oblique at most; {of_mesher[0]:.0f} "
+        f"processor s, {seconds:.0f} with the check; {megabytes:.0f} MB"
     )
 
 
