@@ -34,6 +34,7 @@ from tests.benchmarks import (  # noqa: E402
     outline_beams,
     outlines,
     plate,
+    same_error,
     stability_map,
     starts,
 )
@@ -57,6 +58,7 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "outline-beams": outline_beams.rows,
     "outlines": outlines.rows,
     "plate": plate.rows,
+    "same-error": same_error.rows,
     "stability-map": stability_map.rows,
     "starts": starts.rows,
 }

@@ -28,7 +28,7 @@ MeshName = Literal[
 ]
 #: Before the name of a mesh: the section has the cells that its plate has in the plane.
 ON_CELLS_OF_PLATE = "plate-"
-#: Meshes that have one around the plate, for overset.
+#: Meshes that have one around the section, for overset.
 OVERSET_MESHES = ("coarse", "medium", "fine")
 
 #: A mesh that morphs around the section, and one above another that moves with it.
@@ -80,7 +80,7 @@ class OpenFoam(SolverKeys):
     mesh_motion: MeshMotion = Field(
         MORPH,
         description="How the mesh follows the free section: `morph` deforms it, `overset` moves a "
-        "mesh around the plate as it is above one of the channel, for large deflection and twist.",
+        "mesh around the section above one of channel or free air, for large deflection and twist.",
     )
     mesher: Mesher = Field(
         BLOCKS,
