@@ -2,7 +2,7 @@
 
     python -m tests.benchmarks outline-beams
 
-A wing, 6 c of NACA 0012 with a free tip, and a bridge's span, 20 c of an H section from wall to
+A wing, 6 c of NACA 0012 with a free tip, and a bay of a bridge, 6 c of an H section from wall to
 wall. Processor seconds and memory are those of the mesher and of ``checkMesh``, the largest of
 either; no flow is run. Beside them is the memory that a job of that mesh asks for.
 """
@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from equisection.errors import EquisectionError
+from equisection.run.cost import megabytes, read_cost_model
 from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.beam.rigid_beam import outline_beam_mesh_of
 from equisection.solvers.openfoam.dictionaries import control, write_system
@@ -26,12 +27,14 @@ from equisection.solvers.openfoam.mesh.outline_mesh import LOG
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.reading.meshed_section import quality
 from equisection.solvers.openfoam.section.rigid_section import check_mesh
+from equisection.solvers.work import Work
 from tests.benchmarks.measure import Row
 from tests.sample_cases import GEOMETRY, STEADY_PLATE
 from tests.sample_outlines import SHAPES
+from tests.workflow.project import ROOT
 
 #: Outline, span and gap beyond the tip (chords).
-BEAMS = {"wing": ("naca 0012", 6.0, 1.0), "bridge": ("h", 20.0, 0.0)}
+BEAMS = {"wing": ("naca 0012", 6.0, 1.0), "bridge": ("h", 6.0, 0.0)}
 MESHES = ("coarse", "medium", "fine")
 INCIDENCE_DEG = 2.0
 
@@ -67,10 +70,12 @@ def made(beam: str, mesh: str) -> str:
         found = re.match(r"\d+", (folder / LOG).read_text().splitlines()[-1])
         assert found
         oblique = quality(folder / "log.checkMesh")["max_non_orthogonality_deg"]
-    seconds, megabytes = _spent()
+    cells, (seconds, memory) = int(found[0]), _spent()
+    costs = read_cost_model(ROOT / "workflow/profiles/cost.yaml").of("openfoam", "3d")
+    asked = megabytes(Work(cells), costs, 1)
     return (
-        f"sound, {int(found[0]):,} cells, {oblique:.0f} deg oblique at most; {of_mesher[0]:.0f} "
-        f"processor s, {seconds:.0f} with the check; {megabytes:.0f} MB"
+        f"sound, {cells:,} cells, {oblique:.0f} deg oblique at most; {of_mesher[0]:.0f} processor "
+        f"s, {seconds:.0f} with the check; {memory:.0f} MB of the {asked} that a job asks for"
     )
 
 
