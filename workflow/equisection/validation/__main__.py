@@ -54,7 +54,7 @@ _WITHOUT = (
     ),
     (
         "rectangle of 5:1 (BARC; Bruno, Salvetti and Ricciardelli, 2014)",
-        "published drags by unsteady RANS spread from 0.965 to 1.295, as others quote them; not run",
+        "drags by unsteady RANS spread from 0.965 to 1.295, as others quote them; not run",
     ),
     (
         "Pazy wing, flutter",
