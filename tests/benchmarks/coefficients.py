@@ -1,0 +1,31 @@
+"""Loads of steady results, a line a file: c_l, c_m, c_d, how they were found, cells and cost.
+
+python -m tests.benchmarks.coefficients result.nc ...
+"""
+
+import argparse
+from pathlib import Path
+
+import pandas as pd
+
+from equisection.results.netcdf import read_dataset
+
+
+def line(path: Path) -> dict[str, object]:
+    """Return the line of a result."""
+    found = read_dataset(path)
+    return {
+        "result": f"{path.parents[2].name} {path.stem}",
+        **{name: float(found[name]) for name in ("cl", "cm", "cd")},
+        "y+, edges too": float(found["y_plus"].max()) if "y_plus" in found else float("nan"),
+        "seconds": f"{found.attrs['cpu_seconds']:.0f}",
+        "method": found.attrs["method"],
+        "solver": found.attrs["solver_description"],
+    }
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.coefficients")
+    parser.add_argument("results", nargs="+", type=Path, metavar="result.nc")
+    table = pd.DataFrame([line(path) for path in parser.parse_args().results])
+    print(table.to_string(index=False, float_format="%.4f"))
