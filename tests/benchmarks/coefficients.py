@@ -8,15 +8,21 @@ from pathlib import Path
 
 import pandas as pd
 
+from equisection.analysis.bubble import bubble_table
 from equisection.results.netcdf import read_dataset
 
 
 def line(path: Path) -> dict[str, object]:
     """Return the line of a result."""
     found = read_dataset(path)
+    surface = {}
+    if path.parent.name == "2d" and "y_plus" in found:
+        sides = bubble_table({("", float(found.attrs["incidence_deg"])): found}).iloc[0]
+        surface = {name: sides[name] for name in ("bubble", "y_plus_mean", "y_plus_largest")}
     return {
         "result": f"{path.parents[2].name} {path.stem}",
         **{name: float(found[name]) for name in ("cl", "cm", "cd")},
+        **surface,
         "y+, edges too": float(found["y_plus"].max()) if "y_plus" in found else float("nan"),
         "seconds": f"{found.attrs['cpu_seconds']:.0f}",
         "method": found.attrs["method"],
