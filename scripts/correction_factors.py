@@ -31,8 +31,9 @@ def main(
     """Divide the section's coefficients by the beam's, at the run's resolution.
 
     Where a run from kept results alone corrects no section, it may lack a polar: there are no
-    factors then. With modes the beam's coefficients are the loads on these (:mod:`.modal_load`). With the polar
-    of another section, that of the beam, their ratio is kept (:mod:`.carried_beam`).
+    factors then. With modes the beam's coefficients are the loads on these (:mod:`.modal_load`).
+    With the polar of another section, that of the beam, their ratio is kept
+    (:mod:`.carried_beam`).
     """
     weights = None if modes is None else modes_from_dataset(read_dataset(modes))
     try:

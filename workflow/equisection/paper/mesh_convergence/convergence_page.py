@@ -44,9 +44,8 @@ make paper                                          # or this step of it alone:
 python -m equisection.paper.mesh_convergence
 ```
 
-Both write this page, its figure and `results/paper-convergence/mesh_convergence.csv` from what is
-kept in `results/reference/`, with no flow solver: do not edit it. What is kept on a further mesh
-later is taken in.
+writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from what is
+kept in `results/reference/`, with no flow solver: do not edit it.
 
 A **limit** is the value at vanishing cell size. Its interval is
 
@@ -95,13 +94,11 @@ k\\* of the onset; above it a release decays. The paper has about {stated}.
 - *releases*: growth rates of the runs, zero between two k\\*. A mesh with one release has the
   growth curve of the next coarser mesh, shifted by the difference of both at that k\\*, which
   hardly depends on k\\* near the onset (table of growth, 6.44 to 8.5).
-- *learnt model*: learnt from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)). A
-  polar of few angles is filled in the shape of the next coarser one.
-- `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1, as
-  the sweep does. It mixes two programs' errors: its moment factor grows with the mesh, since Table
-  1 stays.
-- `{OWN_RATIOS}` has the ratio of this project's section to this project's plate, on equal cells in
-  the plane {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}.
+- *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)).
+- `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1: two
+  programs' errors, and a moment factor that grows with the mesh, since Table 1 stays.
+- `{OWN_RATIOS}` has the ratio of this project's section to its plate, on equal cells in the plane
+  {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}.
 """
     return text + _notes(chosen) + _of_the_plate(chosen)
 
@@ -113,9 +110,9 @@ def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
     limit = plate[0].limit
     return f"""
 **The plate's onset is not converged**: its limit has the interval {limit.low:.1f} to
-{limit.high:.1f}. On `medium` there are 30 c/V with four iterations, from which no growth rate can
-be read, but only the difference from `coarse` over the same time; the longer run with two
-iterations is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+{limit.high:.1f}. On `medium` 30 c/V with four iterations have no growth rate, but only the
+difference from `coarse` over the same time; the longer run with two iterations is
+[not converged in its time step](plate-sweep.md#on-the-medium-mesh).
 """
 
 
@@ -124,9 +121,8 @@ def _damping(series: Sequence[MeshSeries]) -> str:
     rows = [(one.model, one.at.removeprefix("zeta = ") or "0") for one in chosen]
     return f"""## Structural damping
 
-The paper gives no damping of the structure. A plastic plate has some, and so may the time
-integration of a structure. The onset by the learnt models with the same damping (of critical) in
-bending and torsion:
+The paper gives none; a plastic plate has some, and so may a time integration. The onset by the
+learnt models with the same damping (of critical) in bending and torsion:
 
 {_table(("model", "damping"), rows, chosen)}
 """
@@ -276,13 +272,15 @@ def _of_mesh(values: Iterable[MeshValue], mesh: str, form: str) -> str:
 
 
 def _notes(series: Iterable[MeshSeries]) -> str:
-    words = [
-        f"- {one.model}, {one.basis}, {value.mesh}: {_plain(value.note)}.\n"
-        for one in series
-        for value in one.values
-        if value.note
-    ]
-    return "".join(dict.fromkeys(words))
+    found: dict[str, list[str]] = {}
+    for one in series:
+        for value in one.values:
+            if value.note:
+                found.setdefault(value.note, []).append(f"{one.model} ({one.basis}, {value.mesh})")
+    lines = (
+        f"- {', '.join(dict.fromkeys(names))}: {_plain(note)}.\n" for note, names in found.items()
+    )
+    return "".join(lines)
 
 
 def _plain(text: str) -> str:
