@@ -334,8 +334,8 @@ def growing_inside(evidence: Evidence) -> Finding:
         f"growth of section and plate (V/c, from 20 c/V after the release on): {'; '.join(parts)} "
         f"(k*). The error of the mesh is {words}",
         resolution_of(evidence.reductions, model, _BEAM),
-        "Cells in the plane are [the same](reductions.md). Without the first 20 of 60 c/V, in which "
-        "the release shows, the plate's record is short for a growth rate.",
+        "Cells in the plane are [the same](reductions.md). Without the first 20 of 60 c/V, in "
+        "which the release shows, the plate's record is short for a growth rate.",
     )
 
 
