@@ -153,22 +153,22 @@ errors ({notes}). Of two meshes over the same window the difference counts:
 
 def _means(series: Sequence[MeshSeries]) -> str:
     chosen = [one for one in series if one.quantity in MEANS.values()]
-    rows = [(one.at.removeprefix("k* = "), one.quantity) for one in chosen]
     return f"""## Means and frequency
 
-Of the section `2d`, over the same time on each mesh:
+Limits of the section `2d`, over the same time on each mesh, with half of their intervals; in
+italics what is not converged:
 
-{_table(("k*", "quantity"), rows, chosen, form=".4g")}
+{_limits("k*", chosen, form=".4g")}
+The values on each mesh are in `results/paper-convergence/mesh_convergence.csv`.
 """
 
 
 def _loads(series: Sequence[MeshSeries]) -> str:
     section = [one for one in series if one.model == RIGID["2d"]]
     plate = [one for one in series if one.model == RIGID["3d"]]
-    rows = [(one.at, one.quantity) for one in section]
     text = f"""## Loads of the rigid section
 
-{_table(("incidence", "coefficient"), rows, section, form=".4f")}
+{_limits("incidence", section, form=".4f")}
 """
     of_plate = []
     for one in plate:
@@ -192,7 +192,6 @@ def _of_one_plate(series: Sequence[MeshSeries]) -> str:
     """Return the quotients on equal cells, and those of the plate's modes."""
     ratios = [one for one in series if one.model == EQUAL_CELLS]
     modes = [one for one in series if one.quantity in map(FIRST_MODE.format, KINDS)]
-    rows = [(one.at, one.quantity) for one in ratios]
     of_modes = [(one.quantity,) for one in modes]
     at = _plain(modes[0].at) if modes else ""
     iterations = [one for one in series if one.model == TWO_OVER_FOUR]
@@ -205,8 +204,7 @@ def _of_one_plate(series: Sequence[MeshSeries]) -> str:
 
 Loads of the rigid section over those of the rigid plate, on equal cells in the plane:
 
-{_table(("incidence", "quotient"), rows, ratios, form=".3f")}
-
+{_limits("incidence", ratios, form=".3f")}
 ## Modes of the plate
 
 Mean of the first mode over that of the next, at {at}, four iterations a step, 10 to 30 c/V:
@@ -252,6 +250,26 @@ def _table(
             ]
         )
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+
+
+def _limits(head: str, series: Sequence[MeshSeries], form: str) -> str:
+    """Return a line for each quantity: its limit at each place, in italics if not converged."""
+    places = list(dict.fromkeys(one.at for one in series))
+    lines = [[_plain(head), *(_plain(at.removeprefix("k* = ")) for at in places)]]
+    lines.append(["---"] * len(lines[0]))
+    found = {(one.quantity, one.at): one for one in series}
+    for quantity in dict.fromkeys(one.quantity for one in series):
+        cells = [found.get((quantity, at)) for at in places]
+        lines.append([quantity, *("" if one is None else _limit(one, form) for one in cells)])
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+
+
+def _limit(one: MeshSeries, form: str) -> str:
+    limit = one.limit
+    if not math.isfinite(limit.half_width):
+        return "none"
+    words = f"{format(limit.value, form)} ± {format(limit.half_width, form.replace('4g', '2g'))}"
+    return words if is_converged(one) else f"*{words}*"
 
 
 def is_converged(one: MeshSeries) -> bool:
