@@ -94,7 +94,8 @@ k\\* of the onset; above it a release decays. The paper has about {stated}.
 - *releases*: growth rates of the runs, zero between two k\\*. A mesh with one release has the
   growth curve of the next coarser mesh, shifted by the difference of both at that k\\*, which
   hardly depends on k\\* near the onset (table of growth, 6.44 to 8.5).
-- *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)).
+- *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)); a polar of
+  few angles is filled in the shape of the next coarser one.
 - `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1: two
   programs' errors, and a moment factor that grows with the mesh, since Table 1 stays.
 - `{OWN_RATIOS}` has the ratio of this project's section to its plate, on equal cells in the plane
