@@ -147,7 +147,7 @@ def _kept(kept: pd.DataFrame) -> str:
         "## Runs that are kept\n\n"
         f"[`{RUNS.name}`]({RUNS.name}) has the {len(kept)} releases of the paper's plate and its "
         "sections in `results/reference/`: mesh, verdict, growth (V/c), amplitude (deg), zigzag of "
-        f"the loads, end (c/V) and processor time (s). {zigzag} have a zigzag above "
+        f"the loads, end (c/V) and processor time (s). Of {zigzag} the zigzag is above "
         f"{LARGEST_ZIGZAG:g}: [not converged in their time "
         "step](openfoam-sweep.md#loads-that-zigzag).\n"
     )
