@@ -38,17 +38,13 @@ def test_springs_of_every_mode_carry_the_loads_of_the_strips():
     torsion, bending = position[:2], position[2:]
     alpha = RIGID + torsion @ structure.torsion_shapes.T
     assert alpha[-1] > RIGID + math.radians(0.2)
-    twisting, lifting = thin.moment_coefficient, thin.lift_coefficient
-    for spring, motion, shapes, loads in (
-        (
-            structure.torsion_stiffness[0],
-            torsion,
-            structure.torsion_shapes,
-            thin.moment_coefficient,
-        ),
-        (structure.bending_stiffness[0], bending, structure.bending_shapes, lifting),
+    by_moment = structure.torsion_stiffness[0], torsion, structure.torsion_shapes
+    by_lift = structure.bending_stiffness[0], bending, structure.bending_shapes
+    for (spring, motion, shapes), loads in (
+        (by_moment, thin.moment_coefficient(alpha)),
+        (by_lift, thin.lift_coefficient(alpha)),
     ):
-        carried = (structure.weights * fall * loads(alpha)) @ shapes
+        carried = (structure.weights * fall * loads) @ shapes
         np.testing.assert_allclose(spring * motion, carried, rtol=1e-3, atol=1e-6)
     soft = beam_parameters([beam_modes(0.02)], polars.strips, None)
     assert beam_in_equilibrium(soft, polars, RIGID) is None
