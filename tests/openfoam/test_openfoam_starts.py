@@ -20,7 +20,7 @@ from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.cases import Start
 from equisection.motion.sections import release_sections
-from equisection.solvers.openfoam.beam import coupled_run
+from equisection.solvers.openfoam.beam import coupled_run, rigid_beam
 from equisection.solvers.openfoam.beam.free_beam import PlateRun
 from equisection.solvers.openfoam.beam.rigid_beam import plate_mesh_of
 from equisection.solvers.openfoam.flow_setup import Coupling
@@ -146,6 +146,7 @@ def test_heavy_plate_vibrates_from_its_start(
     held in is the one that the run goes on from.
     """
     monkeypatch.setattr(coupled_run, "STATE_INTERVAL", 0.2)
+    monkeypatch.setattr(rigid_beam, "MOST", 20)  # so heavy a plate does not feel the flow
     modes = offset_modes(100.0, 100.0)
     case = UNSTEADY_PLATE.model_copy(
         update={
@@ -167,7 +168,7 @@ def test_heavy_plate_vibrates_from_its_start(
     assert_mesh_follows(run, "0.4")
     result = run.run(nothing)
     first = result.tip_twist[0], result.tip_deflection[0]
-    assert first == pytest.approx(run.points.tip(run.first_position))
+    assert first == pytest.approx(list(map(float, run.points.tip(run.first_position))))
     assert abs(first[1]) > 0.03
     history = run.history()
     np.testing.assert_allclose(np.diff(history.time), case.time_step)
