@@ -360,7 +360,7 @@ MALFORMED = [
             "steady": {"beam_polar": "config/polars/paper_plate_3d.csv"},
         },
         "steady.beam_polar",
-        "config/polars/paper_plate_3d.csv",
+        "'config/polars/paper_plate_3d.csv'",
         "the equilibrium is that of the loads along the span",
     ),
     (
