@@ -636,6 +636,27 @@ def test_response_says_how_near_section_and_beam_are_and_where(tmp_path):
     assert "within" not in alone.axes[0].get_title(loc="left")
 
 
+def test_titles_of_the_response_over_speed_are_whole(tmp_path):
+    """A long title goes on in a second line, rather than beyond the edge of the figure."""
+    read = response.read_response(*sweep(tmp_path, SWEEPS["all models"]), 6.7)
+    summary = read.summary.assign(speed=20.0 / np.sqrt(read.summary["k_star"] / 6.0))
+    summary.loc[summary["model"] == "3d", ["mean_twist_deg", "mean_deflection_chords"]] *= 0.4
+    over_speed = summary.drop(columns="k_star")
+    figure = response.draw(
+        replace(
+            read,
+            summary=over_speed,
+            onset=read.onset.rename(columns=lambda name: name.replace("k_star_", "speed_")),
+        )
+    )
+    lay_out(figure)
+    for axes in figure.axes[:2]:
+        title = axes._left_title
+        assert "$V$ = " in title.get_text()
+        assert title.get_text().endswith("m/s")
+        assert title.get_window_extent().x1 < figure.bbox.x1
+
+
 def test_bracket_of_the_onset_is_drawn_by_its_two_sides(tmp_path):
     figure = response.draw(response.read_response(*sweep(tmp_path, SWEEPS["no beam"]), 6.7))
     edges = [line for line in figure.axes[0].get_lines() if line.get_linestyle() == "--"]
