@@ -528,8 +528,8 @@ def _deck() -> list[KnownValue]:
             _DIGITS,
         ),
         KnownValue(
-            case, "divergence", "m/s", 90.466, _OWN, lambda: divergence_speed(deck(0.0), 1.22), 2e-5,
-            _DIGITS,
+            case, "divergence", "m/s", 90.466, _OWN,
+            lambda: divergence_speed(deck(0.0), 1.22), 2e-5, _DIGITS,
         ),
         KnownValue(
             case,

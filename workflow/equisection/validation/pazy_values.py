@@ -1,9 +1,9 @@
 """Known natural frequencies and flutter of the Pazy wing, undeformed, without and with its skin.
 
 The published beams have 15 elements between 16 nodes, with lumped masses at the nodes. Their
-stiffness varies by a few per cent over most elements; a beam here has one, with which its tip moves
-as far under a force there, and turns as far under a torque. The coupling of bending and twist in the
-published stiffness is left out, and of the in-plane motion nothing is here.
+stiffness varies by a few per cent over most elements; a beam here has one, with which its tip
+moves as far under a force there, and turns as far under a torque. The coupling of bending and twist
+in the published stiffness is left out, and of the in-plane motion nothing is here.
 """
 
 from __future__ import annotations
@@ -107,7 +107,7 @@ _WITHOUT_SKIN = PublishedWing(
     ),
     frequencies=(4.222246, 28.389015, 41.465523, 82.521586),
 )  # fmt: skip
-_WITH_SKIN = PublishedWing(
+PAZY_WITH_SKIN = PublishedWing(
     case="Pazy wing with skin, undeformed",
     source=Source(
         "published",
@@ -119,7 +119,9 @@ _WITH_SKIN = PublishedWing(
     length=0.549843728,
     chord=0.0989,
     nodes=(*(0.06956522 * number for number in range(14)), 0.96521732, 1.0),
-    torsion=(*[7.58259714] * 4, *[6.51183018] * 4, *[6.51583594] * 4, *[7.11892627] * 2, 17.3730728),
+    torsion=(
+        *[7.58259714] * 4, *[6.51183018] * 4, *[6.51583594] * 4, *[7.11892627] * 2, 17.3730728
+    ),
     bending=(
         5.24743501, 4.50448461, 4.47822861, 4.47438433, 4.47481272, 4.47492882, 4.47492903,
         4.47492905, 4.47492889, 4.47488638, 4.47471764, 4.47618354, 4.48916524, 4.54819972,
@@ -137,7 +139,7 @@ _WITH_SKIN = PublishedWing(
 
 @cache
 def _matrices(with_skin: bool) -> ModalMatrices:
-    wing = (_WITH_SKIN if with_skin else _WITHOUT_SKIN).beam
+    wing = (PAZY_WITH_SKIN if with_skin else _WITHOUT_SKIN).beam
     modes = modes_of_kinds(wing, "beam", (1, 80, 1), (5, 3), 4)
     return modal_matrices(wing, modes, 5, 3)
 
@@ -148,7 +150,7 @@ def _frequency(with_skin: bool, number: int) -> float:
 
 @cache
 def _flutter() -> FlutterOnset:
-    return beam_flutter(_matrices(with_skin=True), _WITH_SKIN.chord, _AXIS, _AIR)
+    return beam_flutter(_matrices(with_skin=True), PAZY_WITH_SKIN.chord, _AXIS, _AIR)
 
 
 def pazy_values() -> list[KnownValue]:
@@ -161,11 +163,11 @@ def pazy_values() -> list[KnownValue]:
             "Hz",
             value,
             wing.source,
-            partial(_frequency, wing is _WITH_SKIN, number),
+            partial(_frequency, wing is PAZY_WITH_SKIN, number),
             0.01,
             _ONE_STIFFNESS,
         )
-        for wing in (_WITHOUT_SKIN, _WITH_SKIN)
+        for wing in (_WITHOUT_SKIN, PAZY_WITH_SKIN)
         for number, (name, value) in enumerate(zip(names, wing.frequencies, strict=True))
     ]
     # Zero of the damping between the published speeds of 83 and 84 m/s, by a straight line.
@@ -178,7 +180,14 @@ def pazy_values() -> list[KnownValue]:
         *frequencies,
         *(
             KnownValue(
-                _WITH_SKIN.case, name, unit, value, _WITH_SKIN.source, compute, 0.03, _ONE_STIFFNESS
+                PAZY_WITH_SKIN.case,
+                name,
+                unit,
+                value,
+                PAZY_WITH_SKIN.source,
+                compute,
+                0.03,
+                _ONE_STIFFNESS,
             )
             for name, unit, value, compute in known
         ),
