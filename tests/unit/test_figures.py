@@ -841,6 +841,16 @@ def test_growth_of_runs_and_of_linear_theory_stand_in_one_panel():
     lay_out(figure)
 
 
+def test_bar_of_a_growth_rate_that_is_not_known_leaves_the_others_apart():
+    """A fit of a motion without an oscillation has bars hundreds of times as long as growths."""
+    runs = growth(growth_low=growth()["growth_rate"] - 0.01, growth_high=growth()["growth_rate"])
+    usual = growth_rate.draw(runs, linear_theory(), NOTHING).axes[0].get_ylim()
+    runs.loc[runs.index[-1], ["growth_low", "growth_high"]] = -13.0, 13.0
+    low, high = growth_rate.draw(runs, linear_theory(), NOTHING).axes[0].get_ylim()
+    assert low <= usual[0] < usual[1] <= high
+    assert high - low < 4.0 * (usual[1] - usual[0])
+
+
 def test_model_with_a_frequency_alone_is_in_the_legend_and_one_point_is_seen():
     nothing = growth(growth_rate=np.nan)
     alone = linear_theory().drop_duplicates("motion")

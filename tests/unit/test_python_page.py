@@ -49,5 +49,5 @@ def test_the_parameter_study_prints_what_the_page_says(
     code, printed = re.findall(r"```(?:python)?\n(.*?)```", part, flags=re.S)[:2]
     monkeypatch.setenv("MPLBACKEND", "Agg")
     monkeypatch.chdir(ROOT)
-    exec(code, {"eq": eq})  # noqa: S102, it is the page's own
+    exec(code, {"eq": eq})
     assert capsys.readouterr().out == printed
