@@ -16,7 +16,7 @@ from equisection.reduction.reduce import reduce_beam
 from equisection.structure.modal_matrices import modal_matrices
 from equisection.structure.modes import modes_of_kinds
 from equisection.validation.flutter_values import divergence_speed
-from equisection.validation.known_values import KnownValue, Source
+from equisection.validation.known_values import DIGITS, KnownValue, Source
 
 _CONFIGURATION = Path(__file__).parents[3] / "config" / "validation" / "patil_wing.yaml"
 _HIGH_AIR = 0.0889
@@ -34,7 +34,6 @@ _LEE = Source(
     "Lee, Price and Wong, Progress in Aerospace Sciences 35, 1999: linear flutter of their section "
     "with Wagner's function by R. T. Jones",
 )
-_DIGITS = "digits of the known value"
 
 
 def long_wing() -> Beam:
@@ -65,7 +64,7 @@ def _long_wing() -> list[KnownValue]:
     found = []
     for quantity, unit, solution, exact, compute in values:
         for known, source, tolerance, reason in (
-            (exact, _PATIL_EXACT, 2e-4, _DIGITS),
+            (exact, _PATIL_EXACT, 2e-4, DIGITS),
             (solution, _PATIL, 0.012, "elements and finite states of the published solution"),
         ):
             found.append(
@@ -127,6 +126,6 @@ def attached_values() -> list[KnownValue]:
             _LEE,
             _typical_section_flutter,
             2e-5,
-            _DIGITS,
+            DIGITS,
         ),
     ]
