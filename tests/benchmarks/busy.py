@@ -30,13 +30,16 @@ TESTS = (
 
 
 def rows() -> Iterator[Row]:
-    """Run the tests so often."""
+    """Run the tests so often; a row for each round, and one for all."""
+    passed = 0
     with busy(PROCESSES):
-        ended = [one_round() for _ in range(ROUNDS)]
-    last = ended[-1].stdout.rstrip().rpartition("\n")[2].strip("= ")
-    passed = sum(run.returncode == 0 for run in ended)
-    what = f"rounds of tests that kill and wait, beside {PROCESSES} busy processes, that pass"
-    yield Row(what, f"{passed} of {ROUNDS}; the last: {last}", f"{ROUNDS}", passed == ROUNDS)
+        for number in range(1, ROUNDS + 1):
+            ended = one_round()
+            passed += ended.returncode == 0
+            last = ended.stdout.rstrip().rpartition("\n")[2].strip("= ")
+            yield Row(f"round {number} of tests that kill and wait", last)
+    what = f"rounds beside {PROCESSES} busy processes that pass"
+    yield Row(what, f"{passed} of {ROUNDS}", f"{ROUNDS}", passed == ROUNDS)
 
 
 @contextlib.contextmanager
