@@ -5,9 +5,12 @@ What such a test waits for may come late there. It has to pass all the same, eve
 
 import contextlib
 import os
+import signal
 import subprocess
 import sys
 from collections.abc import Iterator
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 from tests.benchmarks.measure import Row
 from tests.conftest import ROOT
@@ -29,42 +32,43 @@ TESTS = (
 )
 
 
+#: Doubles itself twice, so that it is as many busy processes.
+SPIN = "import os\nfor _ in range(2): os.fork()\nwhile True: pass"
+
+
 def rows() -> Iterator[Row]:
     """Run the tests so often; a row for each round, and one for all."""
     passed = 0
-    with busy(PROCESSES):
+    with busy(), TemporaryDirectory() as folder:
         for number in range(1, ROUNDS + 1):
-            ended = one_round()
-            passed += ended.returncode == 0
-            last = ended.stdout.rstrip().rpartition("\n")[2].strip("= ")
-            yield Row(f"round {number} of tests that kill and wait", last)
+            good, last = one_round(Path(folder) / f"round{number}.log")
+            passed += good
+            yield Row(f"round {number} of the tests that kill and wait", last)
     what = f"rounds beside {PROCESSES} busy processes that pass"
     yield Row(what, f"{passed} of {ROUNDS}", f"{ROUNDS}", passed == ROUNDS)
 
 
 @contextlib.contextmanager
-def busy(number: int) -> Iterator[None]:
-    """Keep so many processes busy."""
-    spinning = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(number)]
+def busy() -> Iterator[None]:
+    """Keep processes busy, in a session of their own as those of another user are."""
+    spinning = subprocess.Popen([sys.executable, "-c", SPIN], start_new_session=True)
     try:
         yield
     finally:
-        for process in spinning:
-            process.kill()
-            process.wait()
+        os.killpg(spinning.pid, signal.SIGKILL)
+        spinning.wait()
 
 
-def one_round() -> subprocess.CompletedProcess[str]:
-    """Run the tests once; say what failed."""
-    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-q", *TESTS]
-    ended = subprocess.run(
-        command,
-        cwd=ROOT,
-        env={**os.environ, "CI": "true"},  # none is skipped
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+def one_round(log: Path) -> tuple[bool, str]:
+    """Run the tests once; return whether all pass, and pytest's last line. Say what failed."""
+    command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "-v", *TESTS]
+    print(f"busy: tests are told as they end in {log}", file=sys.stderr, flush=True)
+    with log.open("w", encoding="utf-8") as said:
+        environment = {**os.environ, "CI": "true"}  # none is skipped
+        ended = subprocess.run(
+            command, cwd=ROOT, env=environment, stdout=said, stderr=subprocess.STDOUT, check=False
+        )
+    text = log.read_text(encoding="utf-8")
     if ended.returncode:
-        print(ended.stdout[-5000:], file=sys.stderr, flush=True)
-    return ended
+        print(text[-8000:], file=sys.stderr, flush=True)
+    return ended.returncode == 0, text.rstrip().rpartition("\n")[2].strip("= ")
