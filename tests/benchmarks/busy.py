@@ -32,8 +32,8 @@ TESTS = (
 )
 
 
-#: Doubles itself twice, so that it is as many busy processes.
-SPIN = "import os\nfor _ in range(2): os.fork()\nwhile True: pass"
+#: Doubles itself twice, so that it is as many busy processes, and ends with the one that it names.
+SPIN = "import os, sys\nfor _ in range(2): os.fork()\nwhile True: os.kill(int(sys.argv[1]), 0)"
 
 
 def rows() -> Iterator[Row]:
@@ -51,7 +51,8 @@ def rows() -> Iterator[Row]:
 @contextlib.contextmanager
 def busy() -> Iterator[None]:
     """Keep processes busy, in a session of their own as those of another user are."""
-    spinning = subprocess.Popen([sys.executable, "-c", SPIN], start_new_session=True)
+    command = [sys.executable, "-c", SPIN, str(os.getpid())]
+    spinning = subprocess.Popen(command, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         yield
     finally:
