@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,7 +15,10 @@ import pandas as pd
 import xarray as xr
 import yaml
 
-from equisection.errors import ResultFileError
+from equisection.errors import ConfigError, ResultFileError
+from equisection.keys.config_file import read_config_file
+from equisection.keys.shown import shown
+from equisection.keys.values import NAME_PATTERN
 from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import VERDICT_ATTRIBUTES, VERDICT_UNITS
 from equisection.store.index import read_index, result_file
@@ -106,16 +110,23 @@ def configuration_of(folder: Path) -> dict[str, Any]:
         The folder has none, or one that cannot be read.
     """
     path = folder / CONFIGURATION
-    try:
-        read = yaml.safe_load(path.read_text(encoding="utf-8"))
-        float(read["flow"]["incidence_deg"]), read["run"]
-    except FileNotFoundError:
+    if not path.exists():
         raise ResultFileError(
             f"{folder}: no folder of a run, which has a {CONFIGURATION} (looked from "
             f"{Path.cwd()}); give results/<run>"
-        ) from None
-    except (OSError, ValueError, KeyError, TypeError, yaml.YAMLError) as error:
-        reason = " ".join(str(error).split())
+        )
+    try:
+        read = read_config_file(path)
+        name, incidence = read["run"], read["flow"]["incidence_deg"]
+        if not isinstance(name, str) or not re.fullmatch(NAME_PATTERN, name):
+            raise ConfigError(f"{path}: run: {shown(name)}: no name of a run")
+        if isinstance(incidence, bool) or not isinstance(incidence, int | float):
+            raise ConfigError(f"{path}: flow.incidence_deg: {shown(incidence)}: no number")
+    except (ConfigError, KeyError, TypeError) as error:
+        lines = [line.removeprefix("config: ") for line in str(error).split("\n")]
+        reason = lines[0].removeprefix(f"{path}: ")
+        if not isinstance(error, ConfigError):
+            reason = "it lacks 'run' or 'flow.incidence_deg'"
         raise ResultFileError(
             f"{path}: cannot be read as the configuration of a run ({reason}); delete it and run "
             "again"

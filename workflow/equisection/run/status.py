@@ -16,13 +16,14 @@ import numpy as np
 
 from equisection.cases import Kind
 from equisection.errors import EquisectionError, ResultFileError
+from equisection.keys.shown import printable
 from equisection.results.failures import failure_of
 from equisection.results.loads_zigzag import warning_of_zigzag
 from equisection.results.netcdf import read_attributes
 from equisection.results.whole import is_whole
 from equisection.run.listing import Listed, cases_of_run, config_of_run
 from equisection.run.status_cost import CostOfRun
-from equisection.run.status_logs import LINES, JobsOfRun, last_lines, last_warning, printable
+from equisection.run.status_logs import LINES, JobsOfRun, last_lines, last_warning
 from equisection.store.index import indices_of_run, read_index
 from equisection.store.lock import Owner, living_owner
 from equisection.store.progress import Snapshot

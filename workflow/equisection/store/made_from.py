@@ -7,6 +7,7 @@ of them.
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
@@ -65,10 +66,27 @@ def read_record(path: Path) -> ProvenanceRecord:
         raw = json.loads(path.read_text(encoding="utf-8"))
         made_by, inputs, outputs = (dict(raw[name]) for name in ("made_by", "inputs", "outputs"))
         return ProvenanceRecord(made_by, inputs, outputs, float(raw["cpu_seconds"]))
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise ResultFileError(
             f"{path}: cannot be read as a record of what a job has made ({error!r}); delete it"
         ) from None
+
+
+def recorded(run: Path, name: str) -> set[str]:
+    """Return the SHA-256 of a file of a run as its jobs made it; none where no record names it.
+
+    Parameters
+    ----------
+    run
+        Folder of the run.
+    name
+        The file as seen from there.
+    """
+    found = set()
+    for path in (run / FOLDER).glob("*.json"):
+        with contextlib.suppress(ResultFileError):  # 'equisection verify' names it
+            found.add(read_record(path).outputs.get(name, ""))
+    return found - {""}
 
 
 def _hashes(paths: Iterable[Path], run: Path) -> dict[str, str]:
