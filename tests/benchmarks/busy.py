@@ -39,6 +39,9 @@ SPIN = "import os, sys\nfor _ in range(2): os.fork()\nwhile True: os.kill(int(sy
 
 def rows() -> Iterator[Row]:
     """Run the tests so often; a row for each round of a part, and one for each part."""
+    # a shell's background has no interruption, and tests of it would have none
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     with busy(), TemporaryDirectory() as folder, contextlib.ExitStack() as ends:
         running = {name: _Rounds(name, Path(folder)) for name in PARTS}
         for part in running.values():
