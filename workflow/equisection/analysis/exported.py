@@ -28,6 +28,7 @@ from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import no_section, section_from_dataset
+from equisection.store.made_from import recorded, require_as_made
 
 
 def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFile]:
@@ -145,6 +146,7 @@ def _derivatives(run: ExportedRun) -> Iterator[ExportedFile]:
         path = run.folder / "derivatives" / f"{dimension}.csv"
         if not path.is_file():
             continue
+        require_as_made(run.folder, path, recorded(run.folder))
         read = {"2d": read_derivative_rows, "3d": GeneralisedForces.read}[dimension]
         try:
             read(path)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -22,6 +22,7 @@ from equisection.keys.values import NAME_PATTERN
 from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import VERDICT_ATTRIBUTES, VERDICT_UNITS
 from equisection.store.index import read_index, result_file
+from equisection.store.made_from import recorded, require_as_made
 
 CONFIGURATION = "config.resolved.yaml"
 #: Files of a run by their places in the tree; a run need not have all of them.
@@ -80,7 +81,7 @@ def open_run(folder: Path | str) -> xr.DataTree:
     Raises
     ------
     ResultFileError
-        The folder is no run, or a file in it is broken.
+        The folder is no run, a file in it is broken, or a table or an index was edited.
     """
     folder = Path(folder)
     configuration = configuration_of(folder)
@@ -89,11 +90,16 @@ def open_run(folder: Path | str) -> xr.DataTree:
         for node, file in DATASETS.items()
         if (folder / file).exists()
     }
-    histories = _histories(folder, float(configuration["flow"]["incidence_deg"]))
+    made = recorded(folder)
+    indices = sorted((folder / "unsteady").glob("*/*.json"))
+    for index in indices:
+        require_as_made(folder, index, made)
+    histories = _histories(indices, float(configuration["flow"]["incidence_deg"]))
     if histories is not None:
         nodes["/histories"] = histories
     for kind in TABLES:
         for path in sorted((folder / kind).glob("*.csv")):
+            require_as_made(folder, path, made)
             nodes[f"/{kind}/{path.stem}"] = _table(path)
     root = xr.Dataset(
         attrs={"run": str(configuration["run"]), "configuration": yaml.safe_dump(configuration)}
@@ -143,8 +149,8 @@ class _Case:
     attributes: Mapping[str, Any]
 
 
-def _cases(folder: Path, incidence_deg: float) -> Iterator[_Case]:
-    for index in sorted((folder / "unsteady").glob("*/*.json")):
+def _cases(indices: Iterable[Path], incidence_deg: float) -> Iterator[_Case]:
+    for index in indices:
         for name, attributes in read_index(index).items():
             try:
                 place = (index.parent.name, float(attributes["k_star"]), _incidence(attributes))
@@ -166,9 +172,9 @@ def _incidence(attributes: Mapping[str, Any]) -> float:
     return float(json.loads(case)["incidence_deg"]) if case else math.nan
 
 
-def _histories(folder: Path, incidence_deg: float) -> xr.Dataset | None:
+def _histories(indices: Iterable[Path], incidence_deg: float) -> xr.Dataset | None:
     """Return the histories of all cases on common axes; None of a run without any."""
-    cases = list(_cases(folder, incidence_deg))
+    cases = list(_cases(indices, incidence_deg))
     if not cases:
         return None
     read = [_of_time(read_dataset(case.path)) for case in cases]

@@ -14,10 +14,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from equisection.errors import EquisectionError
+from equisection.errors import EquisectionError, ResultFileError
 from equisection.keys.shown import shown
 from equisection.keys.written_number import LARGEST, is_plain_number, number_in
-from equisection.provenance import file_hash
 
 #: The table with the answer, as seen from the folder of a run.
 CRITICAL_SPEEDS = Path("comparison") / "critical_speed.csv"
@@ -158,11 +157,12 @@ def answer_of(run: Path) -> Answer:
 def _require_as_made(run: Path, path: Path) -> None:
     """Refuse a table that differs from the record of its job; a copy without records has none."""
     # Imported here, so that --help and --version come at once.
-    from equisection.store.made_from import recorded  # noqa: PLC0415
+    from equisection.store.made_from import recorded, require_as_made  # noqa: PLC0415
 
-    made = recorded(run, CRITICAL_SPEEDS.as_posix())
-    if made and file_hash(path) not in made:
-        raise AnswerError(f"{path}: edited since its job made it; run again, which makes it anew")
+    try:
+        require_as_made(run, path, recorded(run))
+    except ResultFileError as error:
+        raise AnswerError(str(error)) from None
 
 
 def _rows(path: Path) -> Iterator[Mapping[str, Any]]:

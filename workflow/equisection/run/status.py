@@ -26,6 +26,7 @@ from equisection.run.status_cost import CostOfRun
 from equisection.run.status_logs import LINES, JobsOfRun, last_lines, last_warning
 from equisection.store.index import indices_of_run, read_index
 from equisection.store.lock import Owner, living_owner
+from equisection.store.made_from import recorded, require_as_made
 from equisection.store.progress import Snapshot
 from equisection.store.result_store import ResultStore, runs_batches, task_of
 
@@ -143,8 +144,10 @@ class _Indices:
     def __init__(self, run: Path) -> None:
         self._run = run
         self._of: dict[str, tuple[dict[str, Any], int]] = {}
+        made = recorded(run)
         for index in indices_of_run(run):
             try:
+                require_as_made(run, index, made)
                 written, entries = index.stat().st_mtime_ns, read_index(index)
             except (OSError, ResultFileError):
                 continue

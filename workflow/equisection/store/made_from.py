@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -72,21 +72,39 @@ def read_record(path: Path) -> ProvenanceRecord:
         ) from None
 
 
-def recorded(run: Path, name: str) -> set[str]:
-    """Return the SHA-256 of a file of a run as its jobs made it; none where no record names it.
+def recorded(run: Path) -> dict[str, set[str]]:
+    """Return the SHA-256 that files of a run had when jobs made them, by name seen from there.
+
+    A file may be the output of several records: of a rule that had another name before.
+    """
+    found: dict[str, set[str]] = {}
+    for path in (run / FOLDER).glob("*.json"):
+        with contextlib.suppress(ResultFileError):  # 'equisection verify' names it
+            for name, digest in read_record(path).outputs.items():
+                found.setdefault(name, set()).add(digest)
+    return found
+
+
+def require_as_made(run: Path, path: Path, made: Mapping[str, set[str]]) -> None:
+    """Refuse a file of a run that differs from all records of it; one without a record passes.
 
     Parameters
     ----------
     run
         Folder of the run.
-    name
-        The file as seen from there.
+    path
+        The file, in that folder.
+    made
+        What :func:`recorded` returns for the run.
+
+    Raises
+    ------
+    ResultFileError
+        The file was edited.
     """
-    found = set()
-    for path in (run / FOLDER).glob("*.json"):
-        with contextlib.suppress(ResultFileError):  # 'equisection verify' names it
-            found.add(read_record(path).outputs.get(name, ""))
-    return found - {""}
+    digests = made.get(path.relative_to(run).as_posix())
+    if digests and file_hash(path) not in digests:
+        raise ResultFileError(f"{path}: edited since its job made it; run again to make it anew")
 
 
 def _hashes(paths: Iterable[Path], run: Path) -> dict[str, str]:
