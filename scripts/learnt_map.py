@@ -6,7 +6,8 @@ from pathlib import Path
 from typing import Any
 
 from equisection.analysis.learning import Lessons
-from equisection.analysis.learnt_map import learnt_lines, map_of_learnt, stability_of_learnt
+from equisection.analysis.learnt_lines import learnt_lines
+from equisection.analysis.learnt_map import map_of_learnt, stability_of_learnt
 from equisection.analysis.mapped_models import speeds_of_map
 from equisection.config import load_config
 from equisection.files import written_whole

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from equisection.analysis.learning import Lessons, datasets_of
+from equisection.analysis.learning import Lessons
+from equisection.analysis.learnt_dataset import datasets_of
 from equisection.config import load_config
 from equisection.results.netcdf import write_dataset
 from equisection.run.script import logged

@@ -68,7 +68,7 @@ def main(
     table = with_speeds(table, AsGiven(nominal_k_star(sections), speed))
     table = with_known_errors(table, known or {})
     if learnt:
-        from equisection.analysis.learning import onsets_of  # noqa: PLC0415
+        from equisection.analysis.learnt_dataset import onsets_of  # noqa: PLC0415
 
         found = [read_dataset(path) for path in learnt]
         over_incidence = INCIDENCE.name in table

@@ -17,9 +17,11 @@ from tests.conftest import ROOT
 
 from equisection.aerodynamics.learnt_loads import LearntLoads
 from equisection.aerodynamics.polar import Polar
-from equisection.analysis.learning import Course, dataset_of
+from equisection.analysis.learnt_course import Course
+from equisection.analysis.learnt_dataset import dataset_of
 from equisection.analysis.learnt_file import as_table, export, model_of, model_of_json
-from equisection.analysis.learnt_map import LearntLine, map_of_learnt, stability_of_learnt
+from equisection.analysis.learnt_lines import LearntLine
+from equisection.analysis.learnt_map import map_of_learnt, stability_of_learnt
 from equisection.analysis.reduced_model import (
     PredictedOnset,
     ReducedModel,

@@ -9,13 +9,9 @@ import pandas as pd
 import pytest
 
 from equisection.analysis import learning
-from equisection.analysis.learning import (
-    Course,
-    Lessons,
-    datasets_of,
-    onsets_of,
-    points_of_round,
-)
+from equisection.analysis.learning import Lessons, points_of_round
+from equisection.analysis.learnt_course import Course
+from equisection.analysis.learnt_dataset import datasets_of, onsets_of
 from equisection.analysis.reduced_model import PredictedOnset
 from equisection.config import load_config
 from equisection.errors import ConfigError, ResultFileError

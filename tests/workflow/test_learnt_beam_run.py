@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from equisection.analysis.learning import Lessons, dataset_of, onsets_of
-from equisection.analysis.learnt_map import LearntLine, map_of_learnt, stability_of_learnt
+from equisection.analysis.learning import Lessons
+from equisection.analysis.learnt_dataset import dataset_of, onsets_of
+from equisection.analysis.learnt_lines import LearntLine
+from equisection.analysis.learnt_map import map_of_learnt, stability_of_learnt
 from equisection.config import load_config
 from equisection.results.netcdf import write_dataset
 from equisection.results.section_dataset import nominal_k_star

@@ -22,11 +22,11 @@ import xarray as xr
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.strip_polars import StripPolars
+from equisection.analysis.learnt_course import Course, Learnt
 from equisection.analysis.learnt_cycles import (
     LimitCycles,
     cycles_of,
     no_cycles,
-    with_cycles,
 )
 from equisection.analysis.onset import is_unstable
 from equisection.analysis.recorded_beam import on_strips, release_of, strip_polars_at
@@ -34,7 +34,6 @@ from equisection.analysis.reduced_beam import ReducedBeam, learnt_beam, predicte
 from equisection.analysis.reduced_model import (
     COLUMNS,
     PredictedOnset,
-    ReducedModel,
     learnt_model,
     next_release,
     predicted,
@@ -56,8 +55,6 @@ from equisection.study import plan
 from equisection.study.assemble import case_at
 from equisection.study.axes import INCIDENCE, K_STAR, Axis, Point, onset_axis, varied
 
-#: Model of the loads of a section, or of those of the strips of a beam.
-Learnt = ReducedModel | ReducedBeam
 #: Values over the sweep and its reach at which a model predicts, beside those of the sweep, and as
 #: many of a beam, whose strips take longer.
 PREDICTED, PREDICTED_BEAMS = 41, 21
@@ -449,229 +446,3 @@ def points_of_round(lessons: Lessons, batch: str) -> list[Point]:
                 raise
             _LOG.warning("%s at %g deg: %s", one.name, one.incidence_deg, error)
     return found
-
-
-def datasets_of(lessons: Lessons) -> list[xr.Dataset]:
-    """Return the models that are learnt at all incidences, in the order of ``plan.learnt_names``.
-
-    Where an incidence of several has nothing to learn from, its data set has the ``refusal`` alone.
-    """
-    each = lessons.at_each_incidence()
-    found = []
-    for one in each:
-        try:
-            course = one.course()
-        except EquisectionError as error:
-            if len(each) == 1:
-                raise
-            _LOG.warning("%s at %g deg: %s", one.name, one.incidence_deg, error)
-            found.append(_refused(one, str(error)))
-            continue
-        (_LOG.warning if course.at_odds or course.reservations else _LOG.info)(
-            "%s, %s: %s",
-            one.name,
-            course.words,
-            "; ".join(filter(None, (course.confirmation, course.reservations))),
-        )
-        data = dataset_of(course, one.name, one.axis)
-        found.append(with_cycles(data, one.limit_cycles(), one.axis))
-    return found
-
-
-def _refused(lessons: Lessons, reason: str) -> xr.Dataset:
-    """Return what is written where there is no model."""
-    unknown = dict.fromkeys((f"onset_k_star{end}" for end in ("", "_low", "_high")), math.nan)
-    return xr.Dataset(
-        attrs={
-            "model": lessons.name,
-            "axis": lessons.axis.name,
-            "incidence_deg": lessons.incidence_deg,
-            "words": f"no model: {reason}",
-            "refusal": reason,
-            "confirmation": "",
-            "reservations": "",
-            **unknown,
-        }
-    )
-
-
-@dataclass(frozen=True)
-class Course:
-    """A learnt model and what it says after the runs so far.
-
-    Attributes
-    ----------
-    model
-        The model.
-    table
-        Its prediction.
-    onset
-        Its onset over k*.
-    checked
-        Number of runs that check it.
-    silent
-        Number of runs that were to check it and failed, or are undecided.
-    contradicted
-        Whether the first ones contradicted, so that it was learnt anew.
-    at_odds
-        Name of a run that it still contradicts; empty if there is none.
-    zigzag
-        Warning of the loads of the release, if they zigzag from step to step.
-    """
-
-    model: Learnt
-    table: pd.DataFrame
-    onset: PredictedOnset
-    checked: int
-    contradicted: bool
-    at_odds: str
-    zigzag: str = ""
-    silent: int = 0
-
-    @property
-    def reservations(self) -> str:
-        """Return in words what speaks against the model; empty where nothing does."""
-        found = [self.zigzag] if self.zigzag else []
-        again = next_release(self.model.k_star, self.onset)
-        if again is not None:
-            part = self.model.k_star / self.onset.k_star
-            found.append(
-                f"learnt at {part:.2g} times the k* of its onset, too far from it: add "
-                f"{again:g} to rom.learn_from"
-            )
-        if self.model.missing_angles:
-            angles = ", ".join(f"{angle:g}" for angle in self.model.missing_angles)
-            found.append(f"the polar has no points at {angles} deg: steady.incidence_deg")
-        if self.extrapolates:
-            low, high = np.degrees(self.model.loads.seen)
-            found.append(
-                f"the release at the onset leaves the incidences that were seen, {low:.3g} to "
-                f"{high:.3g} deg"
-            )
-        return "; ".join(found)
-
-    @property
-    def extrapolates(self) -> bool:
-        """Tell whether the release at the onset goes to an incidence that was not learnt from."""
-        if not math.isfinite(self.onset.k_star):
-            return False
-        near = np.abs(np.log(self.table["k_star"] / self.onset.k_star)).argmin()
-        return bool(self.table["extrapolated"].iloc[near])
-
-    @property
-    def words(self) -> str:
-        """Return what the model is, with its incidence."""
-        angle = math.degrees(self.model.loads.incidence_rad)
-        return f"{self.model.words}, incidence {angle:.6g} deg"
-
-    @property
-    def confirmation(self) -> str:
-        """Return in words how far runs bear the model out."""
-        if self.at_odds:
-            return f"contradicted by the run {self.at_odds}"
-        silent = f"; {self.silent} failed or undecided" if self.silent else ""
-        if not self.checked:
-            return f"not confirmed by runs{silent}"
-        again = (
-            ", after it was learnt anew from a run that contradicted" if self.contradicted else ""
-        )
-        return f"not contradicted by {self.checked} runs{again}{silent}"
-
-
-def dataset_of(course: Course, name: str, axis: Axis) -> xr.Dataset:
-    """Return what is written to ``rom/<model>/model.nc``."""
-    loads, model = course.model.loads, course.model
-    table = course.table
-    moved = "tip" if isinstance(model, ReducedBeam) else "section"
-    described = {
-        "k_star": ("1", "k* = k_theta/(q c^2)"),
-        "growth_rate": ("V/c", "growth rate of the pitch after a release"),
-        "growth_low": ("V/c", "lower end of the band of the growth rate"),
-        "growth_high": ("V/c", "upper end of the band of the growth rate"),
-        "frequency_strouhal": ("1", "frequency f c/V"),
-        "frequency_low": ("1", "lowest frequency of the refits"),
-        "frequency_high": ("1", "highest frequency of the refits"),
-        "twist_amplitude_deg": ("deg", f"half the range of the {moved}'s twist at the end"),
-        "extrapolated": ("1", "1: the motion goes to an incidence that the model has not seen"),
-    }
-    variables = {
-        column: (
-            axis.name,
-            table[column].replace([math.inf, -math.inf], math.nan).to_numpy(dtype=float),
-            {"units": units, "long_name": text, "missing_allowed": "1"},
-        )
-        for column, (units, text) in described.items()
-        if column != axis.name
-    }
-    fits = [loads, *model.refits]
-    per_fit = {
-        "rate": ("V/c", "rate g of the lag", [fit.rate for fit in fits]),
-        "residual_moment": ("1", "part of the moment left", [fit.residual_moment for fit in fits]),
-        "residual_lift": ("1", "part of the lift left", [fit.residual_lift for fit in fits]),
-        "learnt_until": ("c/V", "end of the record", [fit.learnt_until for fit in fits]),
-    }
-    return xr.Dataset(
-        {
-            **variables,
-            "moment_terms": (
-                ("fit", "term"),
-                np.array([fit.moment for fit in fits]),
-                {
-                    "units": "1",
-                    "long_name": f"B_m of {', '.join(model.terms)}",
-                },
-            ),
-            "lift_terms": (
-                ("fit", "term"),
-                np.array([fit.lift for fit in fits]),
-                {"units": "1", "long_name": "B_l of the same terms"},
-            ),
-            **{
-                one: ("fit", np.array(values), {"units": units, "long_name": text})
-                for one, (units, text, values) in per_fit.items()
-            },
-        },
-        coords={
-            axis.name: (
-                axis.name,
-                table[axis.name].to_numpy(dtype=float),
-                {"units": axis.unit, "long_name": f"value of the study's axis, {axis.symbol}"},
-            )
-        },
-        attrs={
-            "model": name,
-            "axis": axis.name,
-            "learnt_from": model.learnt_from,
-            "learnt_from_k_star": model.k_star,
-            "source": model.source,
-            "words": course.words,
-            "incidence_deg": round(math.degrees(loads.incidence_rad), 9),
-            "seen_least_deg": math.degrees(loads.seen[0]),
-            "seen_most_deg": math.degrees(loads.seen[1]),
-            "missing_angles": " ".join(f"{angle:g}" for angle in model.missing_angles),
-            "onset_k_star": course.onset.k_star,
-            "onset_k_star_low": course.onset.low,
-            "onset_k_star_high": course.onset.high,
-            "confirmation": course.confirmation,
-            "reservations": course.reservations,
-            "at_odds": course.at_odds,
-        },
-    )
-
-
-def onsets_of(learnt: Sequence[xr.Dataset], *, over_incidence: bool = False) -> pd.DataFrame:
-    """Return the onsets of learnt models, ``rom/<model>/model*.nc``, as columns of the onsets.
-
-    The incidence is one of them in a study that varies it.
-    """
-    rows = []
-    for data in learnt:
-        row: dict[str, object] = {"model": data.attrs["model"]}
-        if over_incidence:
-            row[INCIDENCE.name] = float(data.attrs["incidence_deg"])
-        for end in ("", "_low", "_high"):
-            row[f"k_star_learnt{end}"] = float(data.attrs[f"onset_k_star{end}"])
-        row["learnt"] = data.attrs["words"]
-        row |= {name: data.attrs[name] for name in ("confirmation", "reservations")}
-        rows.append(row)
-    return pd.DataFrame(rows)
