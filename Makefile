@@ -19,7 +19,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run install report paper validation cost identification cost-model status verify test lint docs drawing gallery bench openfoam slurm chromium clean
+.PHONY: run install report paper validation cost identification cost-model status verify test lint docs drawing gallery pictures bench openfoam slurm chromium clean
 
 run: $(ENV)/run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && echo "$(SNAKEMAKE)" && $(SNAKEMAKE) && printf '%s\n' '' \
@@ -118,6 +118,25 @@ gallery: drawing
 		$(SNAKEMAKE) --configfile config/examples/$$1.yaml -- results/$$2.png && \
 		cp results/$$2.png docs/$$3.png || exit 1; \
 	done
+
+# Every other picture of the pages that a run draws; those of the paper are drawn by `make paper`.
+PICTURES := $(SNAKEMAKE) --configfile
+pictures: gallery
+	$(PICTURES) config/examples/plate_over_incidence.yaml -- results/plate-over-incidence/figures/modes-over-speed.png
+	$(PICTURES) config/examples/openfoam_deck.yaml --config compute=false \
+		-- results/openfoam-deck/figures/response.png results/openfoam-deck/figures/mesh-of-section.png
+	$(PICTURES) config/examples/thin_plate_forced.yaml -- results/thin-plate-forced/figures/flutter-derivatives.png
+	$(BIN)/python docs/examples/other_program.py data/other-program
+	$(PICTURES) docs/examples/other_program.yaml -- results/other-program/figures/growth-rate.png
+	$(SNAKEMAKE) --config run=forced-modes 'forced={run: true, beam_modes: 2, incidence_deg: 3.01}' \
+		-- results/forced-modes/figures/flutter-derivatives.png results/forced-modes/figures/forces-on-modes.png
+	$(BIN)/python docs/examples/critical_speed.py && mv critical-speed.png docs/
+	cp results/plate-over-incidence/figures/modes-over-speed.png docs/
+	cp results/openfoam-deck/figures/response.png docs/deck-response.png
+	cp results/openfoam-deck/figures/mesh-of-section.png docs/deck-mesh.png
+	cp results/thin-plate-forced/figures/flutter-derivatives.png docs/thin-plate-derivatives.png
+	cp results/other-program/figures/growth-rate.png docs/given-growth-rate.png
+	cp results/forced-modes/figures/flutter-derivatives.png results/forced-modes/figures/forces-on-modes.png docs/
 
 bench: $(ENV)/test
 	$(BIN)/python -m tests.benchmarks

@@ -172,8 +172,27 @@ def table(paths: Sequence[Path]) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
+def surplus(path: Path) -> str:
+    """Return what is missing as a growth rate, over twice the swing's energy and the period."""
+    known = read_dataset(path)
+    rates = [
+        (one.change - one.work) / (2 * one.swing * one.period)
+        for one in cycles(swing_of(case_of(known), known))
+    ]
+    words = (f"{rate:+.1e}" for rate in (max(rates), rates[-1]))
+    return " ".join((path.parent.name, path.stem, *words, f"{known.growth_rate:+.4f}"))
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.energy")
     kept = [KEPT / "2d" / f"k{k_star}.nc" for k_star in (5, 10)]
     parser.add_argument("results", nargs="*", type=Path, default=kept, metavar="result.nc")
-    print(table(parser.parse_args().results).to_string(index=False, float_format="%.3g"))
+    parser.add_argument(
+        "--surplus", action="store_true", help="as a growth rate (V/c): largest and last of a run"
+    )
+    chosen = parser.parse_args()
+    if chosen.surplus:
+        for path in chosen.results:
+            print(surplus(path))
+    else:
+        print(table(chosen.results).to_string(index=False, float_format="%.3g"))

@@ -201,8 +201,12 @@ if __name__ == "__main__":
     parser.add_argument(
         "k_star", nargs="*", type=float, help="(default: 5 and 10; of the plate 6.44)"
     )
+    parser.add_argument("--of", type=Path, metavar="result.nc", help="growth, f c/V of a release")
     options = parser.parse_args()
     chosen = PLATE_MEDIUM if options.plate_medium else PLATE if options.plate else SECTION
+    if options.of:
+        print(*oscillation(xr.load_dataset(options.of).sel(time=slice(0.0, chosen.duration))))
+        raise SystemExit
     at = options.k_star or chosen.k_star
     for each in chosen.variants:
         chosen.compute(each, at, os.cpu_count() or 1)

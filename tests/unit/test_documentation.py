@@ -66,6 +66,29 @@ def is_as_kept(drawn: Path, kept: Path) -> bool:
     return one.shape == other.shape and (np.abs(one - other).max(axis=-1) > 0.1).mean() < 2e-3
 
 
+#: Software that a picture says it is of, in a chunk of its file.
+SOFTWARE = re.compile(rb"tEXtSoftware\x00equisection ([\d.]+)")
+
+
+def test_pictures_are_of_this_version() -> None:
+    """Their footers have it: a picture of an earlier version is of other equations, maybe."""
+    drawn_by = {
+        str(path.relative_to(ROOT)): found[1].decode()
+        for path in sorted((ROOT / "docs").rglob("*.png"))
+        if (found := SOFTWARE.search(path.read_bytes()))
+    }
+    assert "docs/fig16-response.png" in drawn_by
+    older = {name: by for name, by in drawn_by.items() if by != equisection.__version__}
+    assert not older, "make paper and make pictures draw them anew"
+
+
+def test_every_picture_is_on_a_page() -> None:
+    pages = [ROOT / "README.md", *(ROOT / "docs").glob("*.md")]
+    shown = "".join(page.read_text() for page in pages)
+    pictures = [path.relative_to(ROOT / "docs") for path in (ROOT / "docs").rglob("*.png")]
+    assert [str(path) for path in pictures if str(path) not in shown] == []
+
+
 def test_drawings_of_the_gallery_are_what_their_script_draws(tmp_path: Path) -> None:
     examples = script_of("docs/drawings/examples.py")
     examples.main(tmp_path)

@@ -24,6 +24,7 @@ from equisection.cases import SteadyCase, case_hash, read_cases, write_cases
 from equisection.config import load_config, resolve_config
 from equisection.config.groups import Beam, Flow, Structure
 from equisection.errors import EquisectionError, ModesError, ResultFileError
+from equisection.figures import lift_correction
 from equisection.figures.response import draw, read_response
 from equisection.figures.style import drawing_style
 from equisection.results.modes_dataset import modes_to_dataset
@@ -141,6 +142,20 @@ def chain(load_script: LoadScript, tmp_path_factory: pytest.TempPathFactory) -> 
         output=folder / "onset.csv",
     )
     return folder
+
+
+def test_correction_that_no_model_needs_may_have_no_polar(
+    load_script: LoadScript, chain: Path, tmp_path: Path
+) -> None:
+    """A run from kept results alone goes on to its figures, which say what is missing."""
+    correction, of = tmp_path / "correction.nc", load_script("correction_factors").main
+    polars = chain / "polar_2d.nc", chain / "polar_3d.nc"
+    with pytest.raises(ResultFileError, match="no resolution 'thick'"):
+        of(*polars, "thick", correction)
+    of(*polars, "thick", correction, may_lack=True)
+    assert read_dataset(correction)["lift_factor"].size == 0
+    figure = lift_correction.from_files(*polars, correction, "thick")
+    assert "No rigid section was run" in figure.axes[0].texts[0].get_text().replace("\n", " ")
 
 
 def test_correction_keeps_the_ratio_of_a_section_to_its_beam(

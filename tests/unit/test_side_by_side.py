@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import re
 from dataclasses import replace
@@ -15,7 +16,7 @@ import xarray as xr
 from equisection.errors import ResultFileError
 from equisection.paper.claims_page import findings_loads as loads
 from equisection.paper.claims_page import findings_response as response
-from equisection.paper.claims_page.__main__ import main, page
+from equisection.paper.claims_page.__main__ import main, page, runs_table
 from equisection.paper.claims_page.claims import CLAIMS
 from equisection.paper.claims_page.evidence import Evidence, read_evidence
 from equisection.paper.claims_page.findings import ClaimVerdict, Known, together
@@ -500,12 +501,16 @@ def test_runs_whose_loads_zigzag_are_named() -> None:
         loads_zigzag=np.where(whole.reductions["model"] == "3d", 0.06, 0)
     )
     how = response.mean_twist_uncorrected(replace(whole, reductions=zigzag)).how
-    assert "the loads of 3 of them" in how
+    assert (
+        "3 of them [not converged in their time step](openfoam-sweep.md#loads-that-zigzag)" in how
+    )
     assert "zigzag" not in response.mean_twist_uncorrected(whole).how
     some = whole.kept.assign(loads_zigzag=[0.06, np.nan, 0.001, 0.001])
-    text = page(replace(whole, kept=some))
-    assert "| **6 %** |" in text
-    assert "| 0.1 % |" in text
+    assert "(kept-runs.csv) has the 4 releases" in page(replace(whole, kept=some))
+    assert "Of 1 the zigzag is above 0.02" in page(replace(whole, kept=some))
+    table = pd.read_csv(io.StringIO(runs_table(some)))
+    np.testing.assert_allclose(table["loads_zigzag"], some["loads_zigzag"])
+    assert table["folder"].tolist() == some["folder"].tolist()
 
 
 class TestCostLadder:

@@ -6,6 +6,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
+from equisection.run.status import run_status
 from tests.workflow.project import Project, has_nothing_to_do, small
 
 TARGETS = (
@@ -39,6 +40,11 @@ def test_what_is_not_kept_is_named_and_left_out(shown: Project) -> None:
     corrected = {("2d-corrected", name) for name in ("k6", "k10", "k21")}
     assert names == {("2d", "k6"), *corrected}
     assert missing["reason"].str.contains("kept").all()
+    said = {
+        (one.model, one.case): one.text for one in run_status(shown.results).entries if one.text
+    }
+    of_missing = missing.set_index(["model", "case"])["reason"].to_dict()
+    assert of_missing.items() <= said.items(), "status and report say why, too"
 
 
 def test_everything_else_is_there_with_the_model_that_is_taken(shown: Project) -> None:

@@ -42,6 +42,7 @@ rule correction_factors:
     params:
         code=code("correction_factors"),
         resolution=CONFIG.steady.resolution,
+        may_lack=not CONFIG.compute and not plan.corrects(CONFIG),
     message:
         "correction factors"
     script:

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 
 from equisection.figures.models import Look
 from equisection.figures.origin import add_provenance, solver_of
-from equisection.figures.panels import legend_above, letter, say
+from equisection.figures.panels import legend_above, letter, say, without_data
 from equisection.figures.style import BLACK, BLUE, GREY, PAGE_WIDTH, PURPLE, VERMILLION
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import at_resolution
@@ -48,6 +48,9 @@ def read_steady(polar_2d: Path, polar_3d: Path, correction: Path, resolution: st
 
 def draw_correction(data: SteadyData, coefficient: Coefficient) -> Figure:
     """Draw the coefficient over incidence (left) and its correction factor (right)."""
+    for polar, what in ((data.section, "section"), (data.beam, "beam")):
+        if data.resolution not in polar["resolution"].values:
+            return without_data(f"No rigid {what} was run at resolution '{data.resolution}'.")
     figure = Figure(figsize=(PAGE_WIDTH, 3.1))
     left, right = figure.subplots(1, 2)
     _coefficients(left, data, coefficient)

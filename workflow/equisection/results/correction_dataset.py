@@ -11,6 +11,7 @@ from equisection.aerodynamics.polar import Polar
 from equisection.reduction.correction import CorrectionFactors
 
 _COEFFICIENTS = {"drag": "cd", "lift": "cl", "moment": "cm"}
+_FACTORS = ("lift_factor", "moment_factor")
 #: Incidences (deg) this close are one: they come from degrees by way of radians.
 _SAME_DEG = 1e-6
 
@@ -68,6 +69,14 @@ def factors_to_dataset(factors: CorrectionFactors) -> xr.Dataset:
         },
         attrs={"section_label": section.label, "beam_label": beam.label},
     )
+
+
+def no_factors() -> xr.Dataset:
+    """Return ``steady/correction.nc`` of a run that has no polar of section or beam."""
+    axis = ("incidence_deg", np.empty(0), {"units": "deg", "long_name": "incidence"})
+    nothing = {"units": "1", "long_name": "factor that there is none of"}
+    variables = {name: ("incidence_deg", np.empty(0), nothing) for name in _FACTORS}
+    return xr.Dataset(variables, {"incidence_deg": axis})
 
 
 def factors_from_dataset(dataset: xr.Dataset) -> CorrectionFactors:

@@ -24,7 +24,7 @@ from equisection.results.whole import is_whole
 from equisection.run.listing import Listed, cases_of_run, config_of_run
 from equisection.run.status_cost import CostOfRun
 from equisection.run.status_logs import LINES, JobsOfRun, last_lines, last_warning
-from equisection.store.index import indices_of_run, read_index
+from equisection.store.index import indices_of_run, read_with_missing
 from equisection.store.lock import Owner, living_owner
 from equisection.store.made_from import recorded, require_as_made
 from equisection.store.progress import Snapshot
@@ -144,16 +144,23 @@ class _Indices:
     def __init__(self, run: Path) -> None:
         self._run = run
         self._of: dict[str, tuple[dict[str, Any], int]] = {}
+        self._missing: dict[str, str] = {}
         made = recorded(run)
         for index in indices_of_run(run):
             try:
                 require_as_made(run, index, made)
-                written, entries = index.stat().st_mtime_ns, read_index(index)
+                written = index.stat().st_mtime_ns
+                entries, missing = read_with_missing(index)
             except (OSError, ResultFileError):
                 continue
             place = index.parent.relative_to(run).as_posix()
             for name, attributes in entries.items():
                 self._of[f"{place}/{name}.nc"] = attributes, written
+            self._missing |= {f"{place}/{name}.nc": reason for name, reason in missing.items()}
+
+    def why_missing(self, result: str) -> str:
+        """Return the reason why a run from kept results alone has none of a case, if it says so."""
+        return self._missing.get(result, "")
 
     def attributes(self, result: str, wanted: str) -> dict[str, Any]:
         """Return the attributes of the result of a case.
@@ -237,7 +244,8 @@ class _Reader:
         if job is not None:
             text = f"its process ended at {100 * done:.0f} % without a word; run again"
             return replace(entry, state=State.STOPPED, text=text, last_lines=lines)
-        return replace(entry, state=State.WAITING)
+        why = self._indices.why_missing(listed.result)
+        return replace(entry, state=State.WAITING, text=printable(why))
 
 
 def _finished(entry: CaseStatus, attributes: dict[str, Any]) -> CaseStatus:

@@ -53,7 +53,7 @@ def read_index(path: Path) -> dict[str, dict[str, Any]]:
     ResultFileError
         The file is missing, malformed or of another schema version.
     """
-    results = _read(path)[0].items()
+    results = read_with_missing(path)[0].items()
     return {
         name: {key: math.nan if value is None else value for key, value in attributes.items()}
         for name, attributes in results
@@ -68,11 +68,11 @@ def read_missing(path: Path) -> dict[str, str]:
     ResultFileError
         As :func:`read_index`.
     """
-    return _read(path)[1]
+    return read_with_missing(path)[1]
 
 
-def _read(path: Path) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:
-    """Return results and what is missing, as they stand in an index."""
+def read_with_missing(path: Path) -> tuple[dict[str, dict[str, Any]], dict[str, str]]:
+    """Return :func:`read_index` and :func:`read_missing` of an index, which is read once."""
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
         found = document["schema_version"]

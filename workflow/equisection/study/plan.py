@@ -337,6 +337,11 @@ def has_beam_polar(config: Config) -> bool:
     return bool(config.steady.beam_polar) or "3d" in steady_dimensions(config)
 
 
+def corrects(config: Config) -> bool:
+    """Tell whether a model of the sweep is a section with the correction for the finite span."""
+    return any(model(name, config.reduction).corrected for name in config.sweep.models)
+
+
 def has_mesh(config: Config) -> bool:
     """Tell whether the configured solver has a mesh."""
     return Capability.MESH in SOLVERS[config.solver].provides

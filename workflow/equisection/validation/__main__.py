@@ -12,7 +12,7 @@ from pathlib import Path
 
 from equisection.generated import write_or_check
 from equisection.validation.flutter_values import flutter_values
-from equisection.validation.known_values import ORIGINS, KnownValue
+from equisection.validation.known_values import DIGITS, ORIGINS, OWN_CODE, KnownValue
 from equisection.validation.outline_values import outline_values
 from equisection.validation.pazy_values import pazy_values
 from equisection.validation.structure_values import structure_values
@@ -31,8 +31,8 @@ make validation        # {COMMAND}, about twenty seconds
 ```
 
 The command computes every number of the column *here* and writes this page.
-`tests/physics/test_validation.py` asserts each within its tolerance, whose reason is below the
-tables.
+`tests/physics/test_validation.py` asserts each within its tolerance: the digits of the known value,
+where no other reason is below the table.
 
 | origin | is |
 |---|---|
@@ -98,8 +98,10 @@ def _table(values: Sequence[KnownValue]) -> str:
     ]
     sources = dict.fromkeys((value.source.origin, value.source.words) for value in values)
     reasons = dict.fromkeys(value.reason for value in values)
-    named = "".join(f"- {origin}: {words}.\n" for origin, words in sources)
-    return "\n".join(lines) + f"\n\n{named}- tolerance: {'; '.join(reasons)}.\n"
+    notes = [f"- {origin}: {words}.\n" for origin, words in sources if words != OWN_CODE]
+    if list(reasons) != [DIGITS]:
+        notes.append(f"- tolerance: {'; '.join(reasons)}.\n")
+    return "\n".join((*lines, "", "".join(notes))) if notes else "\n".join((*lines, ""))
 
 
 def _unit(value: KnownValue) -> str:

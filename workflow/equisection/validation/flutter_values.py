@@ -27,7 +27,7 @@ from equisection.motion.stability import critical_speed
 from equisection.reduction.reduce import Reduction, reduce_beam
 from equisection.structure.modal_matrices import ModalMatrices, modal_matrices
 from equisection.structure.modes import modes_of_kinds
-from equisection.validation.known_values import KnownValue, Source
+from equisection.validation.known_values import DIGITS, OWN_CODE, KnownValue, Source
 
 _AIR = 1.225
 _CONTOUR_ROOTS = Source(
@@ -35,9 +35,9 @@ _CONTOUR_ROOTS = Source(
     "ContourRoots 0.6, tutorial 11 and validation record (flavioluiz/ContourRoots): the beam by "
     "transfer matrices, exact C(p), centre of mass 0.183 m behind the axis",
 )
-_OWN = Source("independent", "finite elements and Theodorsen's loads by Hankel functions")
+_OWN = Source("independent", OWN_CODE)
 _OWN_JONES = Source("independent", "the same with the two states of R. T. Jones")
-_DIGITS = "digits of the known value"
+_DIGITS = DIGITS
 
 _GOLAND_MASS_AXIS = 0.43
 #: Centre of mass of ContourRoots, 0.183 m behind the elastic axis.

@@ -9,9 +9,14 @@ from typing import Literal
 
 Origin = Literal["published", "independent", "unconfirmed"]
 
+OWN_CODE = "finite elements and Theodorsen's loads by Hankel functions"
+"""Usual source of an independent value."""
+DIGITS = "digits of the known value"
+"""Usual reason of a tolerance."""
 ORIGINS: dict[Origin, str] = {
     "published": "read in the source that is named",
-    "independent": "another computation of the same equations, in a code of its own, not published",
+    "independent": "another computation of the same equations, in a code of its own, not "
+    f"published; {OWN_CODE}, where nothing else is named",
     "unconfirmed": "quoted from the source that is named, which was not at hand to look it up",
 }
 """Origin of a known value, in words."""

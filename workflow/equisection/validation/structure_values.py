@@ -10,7 +10,7 @@ import numpy as np
 from equisection.beam.beam import Beam
 from equisection.structure.modes import compute_modes
 from equisection.validation.flutter_values import goland
-from equisection.validation.known_values import KnownValue, Source
+from equisection.validation.known_values import DIGITS, KnownValue, Source
 
 _FV16 = Source(
     "published",
@@ -72,7 +72,7 @@ def structure_values() -> list[KnownValue]:
                 contour_roots,
                 partial(_of, _uncoupled, n),
                 2e-4,
-                "digits of the known value",
+                DIGITS,
             )
             for n, (name, value) in enumerate(
                 zip(names, (49.49, 310.16, 87.11, 261.32), strict=True)

@@ -142,6 +142,5 @@ def _not_converged_in_time(runs: pd.DataFrame) -> str:
     if not count:
         return ""
     return (
-        f"; the loads of {count} of them [zigzag](openfoam-sweep.md#loads-that-zigzag): these are "
-        "not converged in their time step"
+        f"; {count} of them [not converged in their time step](openfoam-sweep.md#loads-that-zigzag)"
     )

@@ -181,9 +181,7 @@ def _by_the_other_reduction(evidence: Evidence, model: str, columns: tuple[str, 
         if not (pairs := _pairs(evidence.reductions, f"{model}-consistent", column)).empty
     ]
     words = f"With the consistent reduction {'; '.join(found)}. " if found else ""
-    return (
-        f"{words}Section and plate have the same cells in the plane ([reductions](reductions.md))."
-    )
+    return f"{words}Cells in the plane are [the same](reductions.md)."
 
 
 def _pairs(runs: pd.DataFrame, model: str, column: str) -> pd.DataFrame:
@@ -336,9 +334,8 @@ def growing_inside(evidence: Evidence) -> Finding:
         f"growth of section and plate (V/c, from 20 c/V after the release on): {'; '.join(parts)} "
         f"(k*). The error of the mesh is {words}",
         resolution_of(evidence.reductions, model, _BEAM),
-        "Section and plate have the same cells in the plane ([reductions](reductions.md)). Of the "
-        "plate's 60 c/V the first 20 are left out, in which the release shows; what is left is "
-        "short for a growth rate.",
+        "Cells in the plane are [the same](reductions.md). Without the first 20 of 60 c/V, in "
+        "which the release shows, the plate's record is short for a growth rate.",
     )
 
 

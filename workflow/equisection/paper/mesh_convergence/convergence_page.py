@@ -44,9 +44,8 @@ make paper                                          # or this step of it alone:
 python -m equisection.paper.mesh_convergence
 ```
 
-Both write this page, its figure and `results/paper-convergence/mesh_convergence.csv` from what is
-kept in `results/reference/`, with no flow solver: do not edit it. What is kept on a further mesh
-later is taken in.
+writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from what is
+kept in `results/reference/`, with no flow solver: do not edit it.
 
 A **limit** is the value at vanishing cell size. Its interval is
 
@@ -95,13 +94,12 @@ k\\* of the onset; above it a release decays. The paper has about {stated}.
 - *releases*: growth rates of the runs, zero between two k\\*. A mesh with one release has the
   growth curve of the next coarser mesh, shifted by the difference of both at that k\\*, which
   hardly depends on k\\* near the onset (table of growth, 6.44 to 8.5).
-- *learnt model*: learnt from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)). A
-  polar of few angles is filled in the shape of the next coarser one.
-- `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1, as
-  the sweep does. It mixes two programs' errors: its moment factor grows with the mesh, since Table
-  1 stays.
-- `{OWN_RATIOS}` has the ratio of this project's section to this project's plate, on equal cells in
-  the plane {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}.
+- *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)); a polar of
+  few angles is filled in the shape of the next coarser one.
+- `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1: two
+  programs' errors, and a moment factor that grows with the mesh, since Table 1 stays.
+- `{OWN_RATIOS}` has the ratio of this project's section to its plate, on equal cells in the plane
+  {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}.
 """
     return text + _notes(chosen) + _of_the_plate(chosen)
 
@@ -113,9 +111,9 @@ def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
     limit = plate[0].limit
     return f"""
 **The plate's onset is not converged**: its limit has the interval {limit.low:.1f} to
-{limit.high:.1f}. On `medium` there are 30 c/V with four iterations, from which no growth rate can
-be read, but only the difference from `coarse` over the same time; the longer run with two
-iterations is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+{limit.high:.1f}. On `medium` 30 c/V with four iterations have no growth rate, but only the
+difference from `coarse` over the same time; the longer run with two iterations is
+[not converged in its time step](plate-sweep.md#on-the-medium-mesh).
 """
 
 
@@ -124,9 +122,8 @@ def _damping(series: Sequence[MeshSeries]) -> str:
     rows = [(one.model, one.at.removeprefix("zeta = ") or "0") for one in chosen]
     return f"""## Structural damping
 
-The paper gives no damping of the structure. A plastic plate has some, and so may the time
-integration of a structure. The onset by the learnt models with the same damping (of critical) in
-bending and torsion:
+The paper gives none; a plastic plate has some, and so may a time integration. The onset by the
+learnt models with the same damping (of critical) in bending and torsion:
 
 {_table(("model", "damping"), rows, chosen)}
 """
@@ -157,22 +154,22 @@ errors ({notes}). Of two meshes over the same window the difference counts:
 
 def _means(series: Sequence[MeshSeries]) -> str:
     chosen = [one for one in series if one.quantity in MEANS.values()]
-    rows = [(one.at.removeprefix("k* = "), one.quantity) for one in chosen]
     return f"""## Means and frequency
 
-Of the section `2d`, over the same time on each mesh:
+Limits of the section `2d`, over the same time on each mesh, with half of their intervals; in
+italics what is not converged:
 
-{_table(("k*", "quantity"), rows, chosen, form=".4g")}
+{_limits("k*", chosen, form=".4g")}
+The values on each mesh are in `results/paper-convergence/mesh_convergence.csv`.
 """
 
 
 def _loads(series: Sequence[MeshSeries]) -> str:
     section = [one for one in series if one.model == RIGID["2d"]]
     plate = [one for one in series if one.model == RIGID["3d"]]
-    rows = [(one.at, one.quantity) for one in section]
     text = f"""## Loads of the rigid section
 
-{_table(("incidence", "coefficient"), rows, section, form=".4f")}
+{_limits("incidence", section, form=".4f")}
 """
     of_plate = []
     for one in plate:
@@ -196,7 +193,6 @@ def _of_one_plate(series: Sequence[MeshSeries]) -> str:
     """Return the quotients on equal cells, and those of the plate's modes."""
     ratios = [one for one in series if one.model == EQUAL_CELLS]
     modes = [one for one in series if one.quantity in map(FIRST_MODE.format, KINDS)]
-    rows = [(one.at, one.quantity) for one in ratios]
     of_modes = [(one.quantity,) for one in modes]
     at = _plain(modes[0].at) if modes else ""
     iterations = [one for one in series if one.model == TWO_OVER_FOUR]
@@ -209,8 +205,7 @@ def _of_one_plate(series: Sequence[MeshSeries]) -> str:
 
 Loads of the rigid section over those of the rigid plate, on equal cells in the plane:
 
-{_table(("incidence", "quotient"), rows, ratios, form=".3f")}
-
+{_limits("incidence", ratios, form=".3f")}
 ## Modes of the plate
 
 Mean of the first mode over that of the next, at {at}, four iterations a step, 10 to 30 c/V:
@@ -258,6 +253,26 @@ def _table(
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 
+def _limits(head: str, series: Sequence[MeshSeries], form: str) -> str:
+    """Return a line for each quantity: its limit at each place, in italics if not converged."""
+    places = list(dict.fromkeys(one.at for one in series))
+    lines = [[_plain(head), *(_plain(at.removeprefix("k* = ")) for at in places)]]
+    lines.append(["---"] * len(lines[0]))
+    found = {(one.quantity, one.at): one for one in series}
+    for quantity in dict.fromkeys(one.quantity for one in series):
+        cells = [found.get((quantity, at)) for at in places]
+        lines.append([quantity, *("" if one is None else _limit(one, form) for one in cells)])
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
+
+
+def _limit(one: MeshSeries, form: str) -> str:
+    limit = one.limit
+    if not math.isfinite(limit.half_width):
+        return "none"
+    words = f"{format(limit.value, form)} ± {format(limit.half_width, form.replace('4g', '2g'))}"
+    return words if is_converged(one) else f"*{words}*"
+
+
 def is_converged(one: MeshSeries) -> bool:
     """Tell whether the interval of a limit is narrow enough to judge by."""
     part = one.limit.half_width / abs(one.limit.value) if one.limit.value else math.nan
@@ -276,13 +291,15 @@ def _of_mesh(values: Iterable[MeshValue], mesh: str, form: str) -> str:
 
 
 def _notes(series: Iterable[MeshSeries]) -> str:
-    words = [
-        f"- {one.model}, {one.basis}, {value.mesh}: {_plain(value.note)}.\n"
-        for one in series
-        for value in one.values
-        if value.note
-    ]
-    return "".join(dict.fromkeys(words))
+    found: dict[str, list[str]] = {}
+    for one in series:
+        for value in one.values:
+            if value.note:
+                found.setdefault(value.note, []).append(f"{one.model} ({one.basis}, {value.mesh})")
+    lines = (
+        f"- {', '.join(dict.fromkeys(names))}: {_plain(note)}.\n" for note, names in found.items()
+    )
+    return "".join(lines)
 
 
 def _plain(text: str) -> str:
