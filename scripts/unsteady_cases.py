@@ -24,7 +24,8 @@ def main(
     """Write the cases, named by their point of the study.
 
     ``structure_files`` holds ``equivalent``, with ``modes`` in 3D, ``correction`` for corrected
-    models, and ``polar_2d`` for sections that start from equilibrium; further ones are not used.
+    models, and ``polar_2d`` or ``polar_3d`` for a start from equilibrium; further ones are not
+    used.
     """
     config = load_config(raw_config)
     model = plan.model(model_name, config.reduction)
@@ -36,7 +37,8 @@ def main(
 
 if __name__ == "__main__":
     with logged(snakemake.log[0], snakemake.input, snakemake.output):
-        made_from = {"modes", "equivalent", "correction", "polar_2d"} & set(snakemake.input.keys())
+        files = {"modes", "equivalent", "correction", "polar_2d", "polar_3d"}
+        made_from = files & set(snakemake.input.keys())
         for output in map(Path, snakemake.output):
             of_sweep = snakemake.params.cases
             if isinstance(of_sweep, dict):

@@ -32,8 +32,10 @@ from tests.benchmarks import (  # noqa: E402
     many_cases,
     modes,
     openfoam,
+    outline_beams,
     outlines,
     plate,
+    same_error,
     stability_map,
     starts,
 )
@@ -55,8 +57,10 @@ BENCHMARKS: dict[str, Callable[[], Iterator[Row]]] = {
     "learnt": learnt.rows,
     "malformed": malformed.rows,
     "openfoam": openfoam.rows,
+    "outline-beams": outline_beams.rows,
     "outlines": outlines.rows,
     "plate": plate.rows,
+    "same-error": same_error.rows,
     "stability-map": stability_map.rows,
     "starts": starts.rows,
 }

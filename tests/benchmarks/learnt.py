@@ -306,7 +306,30 @@ def _learnt_beams(beams: dict[float, BeamRelease], polars: StripPolars) -> Itera
             by_model.low <= onset <= by_model.high,
         )
     spent = time.process_time() - start
+    yield from _learnt_in_parts(beams, polars)
     yield limit("beam: fit and prediction, processor time", spent / len(LEARNT_BEAMS), 10.0, "s")
+
+
+def _learnt_in_parts(beams: dict[float, BeamRelease], polars: StripPolars) -> Iterator[Row]:
+    """Compare models of the swing that follows a release, and of the small motions after it."""
+    onset = onset_of(list(beams), [_growth_of_beam(one, 3).rate for one in beams.values()])
+    whole, places = beams[10.0], {one: place for place, one in enumerate(beams)}
+    for begin, end in ((0.0, 45.0), (20.0, 95.0)):
+        part = (whole.time >= begin) & (whole.time <= end)
+        cut = replace(
+            whole,
+            time=whole.time[part] - begin,
+            torsion=whole.torsion[:, part],
+            bending=whole.bending[:, part],
+        )
+        small = growth_of_pitch(LearntBeams(_together(beams), learn_strips(cut, polars)))
+        found = onset_of(list(beams), small)
+        yield Row(
+            f"beam learnt at k* 10 from {begin:g} to {end:g} c/V: growth by eigenvalues at k* "
+            "5, 10 and 12, and onset",
+            ", ".join(f"{1e3 * small[places[one]]:.1f}" for one in (5.0, 10.0, 12.0))
+            + f" e-3, {found:.2f}, {100.0 * (found / onset - 1.0):+.0f} %",
+        )
 
 
 def _in_thousandths(rates: dict[float, Growth]) -> str:

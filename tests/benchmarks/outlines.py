@@ -27,13 +27,16 @@ from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
 from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.mesh.outline_mesh import LOG, OutlineMesh
 from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.solvers.openfoam.rigid_flow import WINDOW
+from equisection.solvers.openfoam.section.free_section import SectionRun
+from equisection.solvers.openfoam.section.overset_section import OversetRun
 from equisection.solvers.openfoam.section.rigid_section import (
     check_mesh,
     outline_mesh_of,
     rigid_loads,
 )
 from tests.benchmarks.measure import Row, limit, measured, processor_seconds
-from tests.sample_cases import STEADY
+from tests.sample_cases import STEADY, UNSTEADY
 from tests.sample_outlines import EXAMPLES, SHAPES
 from tests.watching import nothing
 from tests.workflow.project import ROOT
@@ -49,6 +52,8 @@ SECONDS, MEGABYTES = 5.0, 400.0
 TWIST_DEG, DEFLECTION = 10.0, 0.5
 #: Incidence of the rectangle (deg), and the range of its loads over the meshes (%), at the most.
 RECTANGLE_DEG, RANGE = 2.5, 1.0
+#: Outlines and incidences (deg) whose loads on overset meshes are compared.
+OVERSET_LOADS = (("rectangle", 2.5), ("naca 0012", 4.0))
 #: Test that leads an airfoil from its digits to a verdict, and the seconds that it may take.
 TO_VERDICT = "tests/openfoam/test_outline.py::test_airfoil_from_digits_to_verdict"
 VERDICT_SECONDS = 90.0
@@ -81,6 +86,7 @@ def rows(polygons: int = POLYGONS) -> Iterator[Row]:
     installation = find()
     yield from _moved(installation)
     yield from _on_three_meshes(installation)
+    yield from overset(installation)
     command = [sys.executable, "-m", "pytest", "-q", TO_VERDICT]
     cost = measured(command, ROOT)
     yield limit("airfoil from digits to verdict", cost.processor_seconds, VERDICT_SECONDS, "s")
@@ -126,6 +132,26 @@ def _on_three_meshes(installation: Installation) -> Iterator[Row]:
     for what, values in zip(("c_l", "c_m"), np.transpose(found), strict=True):
         apart = 100.0 * float(np.ptp(values) / np.mean(values))
         yield limit(f"range of {what} over the three", apart, RANGE, "%")
+
+
+def overset(installation: Installation) -> Iterator[Row]:
+    """Yield steady loads on overset meshes and on the one mesh of as fine cells."""
+    for name, incidence_deg in OVERSET_LOADS:
+        geometry = UNSTEADY.geometry.model_copy(update={"outline": SHAPES[name].as_pairs()})
+        given = {"incidence_deg": incidence_deg, "geometry": geometry}
+        mesh = outline_mesh_of(case := UNSTEADY.model_copy(update=given), 1.0)
+        for kind in (SectionRun, OversetRun):
+            before = processor_seconds()
+            with tempfile.TemporaryDirectory() as place:
+                run = kind(installation, case, mesh, flow.Coupling(), Path(place))
+                _, loads, _ = run.steady(nothing)
+            drag, lift, moment = loads.last(WINDOW // 3).means()
+            on = "one mesh" if kind is SectionRun else "overset"
+            yield Row(
+                f"{name}, {incidence_deg:g} deg, coarse, {on}: c_l, c_m, c_d",
+                f"{lift:.4f}, {moment:.4f}, {drag:.4f}; {loads.time.size} iterations, "
+                f"{processor_seconds() - before:.0f} processor s",
+            )
 
 
 def _random(installation: Installation, polygons: int) -> Iterator[Row]:

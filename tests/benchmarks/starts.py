@@ -4,7 +4,7 @@
 
 prints verdict, growth and time to the verdict of both starts, for the sections and the beams of the
 kept releases; and verdict and growth of the kept releases by OpenFOAM from both, as if they ended
-at some times.
+at some times; and static equilibria of the beam beside the means of its kept releases by OpenFOAM.
 """
 
 import json
@@ -18,11 +18,14 @@ import numpy as np
 
 from equisection.cases import EndCriteria, Start, UnsteadyCase
 from equisection.config import load_config
+from equisection.motion.beam_equilibrium import beam_in_equilibrium
 from equisection.motion.equilibrium_path import path_from_rest
 from equisection.motion.steady_states import least_stable
 from equisection.results.netcdf import read_dataset
+from equisection.results.polar_dataset import gather_polar, strip_polars_at
 from equisection.results.unsteady_result import STABLE, Regime, UnsteadyResult
 from equisection.solvers.embedded.adapter import Adapter
+from equisection.solvers.embedded.releases import beam_parameters
 from equisection.solvers.registry import solver_from_config
 from equisection.solvers.verdicts import judge
 from equisection.store.judged_again import tip_motion
@@ -40,6 +43,11 @@ BY_OPENFOAM = {
     "rigid": KEPT / "paper-reductions/unsteady/2d-consistent",
     "equilibrium": KEPT / "openfoam-equilibrium/unsteady/2d",
 }
+#: Kept releases of the beam by OpenFOAM from rest, those of 100 c/V and others.
+BEAMS_BY_OPENFOAM = (
+    KEPT / "paper-plate-openfoam-3d/unsteady/3d",
+    KEPT / "paper-plate-openfoam-3d-long/unsteady/3d",
+)
 JUDGED_AT = (40.0, 50.0, 60.0)
 #: Twist (deg) of the tip by which the equilibrium is disturbed.
 PUSH = 0.3
@@ -139,6 +147,30 @@ def of_openfoam() -> Iterator[tuple[float, str, float, dict[str, Any]]]:
                 yield case.k_star, start, end, judge(case, tip_motion(kept, end))
 
 
+def equilibria() -> Iterator[tuple[float, tuple[float, float], tuple[float, float]]]:
+    """Yield k* of the kept beams by OpenFOAM, their equilibrium, and the mean of their releases.
+
+    Each has twist (deg) and deflection (chords) of the tip.
+    """
+    paths = (KEPT / "paper-plate-openfoam-3d/steady/3d").glob("coarse_a*.nc")
+    steady = map(read_dataset, paths)
+    rigid = {("coarse", float(one.attrs["incidence_deg"])): one for one in steady}
+    polars = strip_polars_at(gather_polar(rigid), "coarse")
+    released = [path for folder in BEAMS_BY_OPENFOAM for path in folder.glob("k*.nc")]
+    for path in sorted(released, key=lambda one: float(one.stem[1:])):
+        kept = read_dataset(path)
+        case = UnsteadyCase.model_validate(json.loads(kept.attrs["case"]))
+        assert case.beam is not None, "the plate"
+        beam = beam_parameters([case.beam], polars.strips, None)
+        position = beam_in_equilibrium(beam, polars, np.radians(case.incidence_deg))
+        assert position is not None, "far from the fold"
+        modes = beam.torsion_at_tip.size
+        twist = float(np.degrees(position[:modes] @ beam.torsion_at_tip))
+        rest = twist, float(position[modes:] @ beam.bending_at_tip)
+        names = ("mean_twist_deg", "mean_deflection_chords")
+        yield case.k_star, rest, (kept.attrs[names[0]], kept.attrs[names[1]])
+
+
 def main() -> None:
     """Print the table."""
     print("model k*    eigenvalue  start        regime       growth    c/V")
@@ -159,6 +191,9 @@ def main() -> None:
             f"{k_star:<5g} {start:12} {end:3.0f} {verdict['regime']:12} "
             f"{verdict['growth_rate']:+.4f} +- {half:.4f} {verdict['twist_amplitude_deg']:.2f} deg"
         )
+    print("beam by OpenFOAM: k*, twist (deg) and deflection (c) of equilibrium, and of releases")
+    for k_star, rest, mean in equilibria():
+        print(f"{k_star:<5g} {rest[0]:.3f} {rest[1]:.3f}, {mean[0]:.3f} {mean[1]:.3f}")
 
 
 if __name__ == "__main__":

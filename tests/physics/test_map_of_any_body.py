@@ -97,3 +97,16 @@ def test_beam_without_an_equilibrium_at_one_incidence_has_the_others():
     )
     assert np.isfinite(found["critical_speed"].values[0])
     assert "25 deg is outside polar" in str(found["note"].values[1])
+
+
+def test_a_single_incidence_leaves_no_dimension():
+    """As of ``stability`` and ``critical_speed``: one number in, one number out."""
+    section = eq.reduce(panel(), method="beam")
+    one, listed = (
+        eq.stability_map(section, THIN, incidence_deg=angle, speed=SPEEDS, lags=NONE)
+        for angle in (0.0, [0.0])
+    )
+    assert np.isfinite(one["critical_speed"])
+    assert float(one["critical_speed"]) == float(listed["critical_speed"].values[0])
+    assert "incidence_deg" not in one.sizes
+    assert one["incidence_deg"].item() == 0.0

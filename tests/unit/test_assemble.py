@@ -135,6 +135,49 @@ def test_section_starts_from_the_equilibrium_of_the_steady_polar(
     assert "equilibrium" not in released.model_dump_json()
 
 
+def test_beam_starts_from_the_equilibrium_of_the_polars_along_its_span(
+    data: dict[str, xr.Dataset],
+) -> None:
+    """A number for each of its modes, the twist first; below the fold of the plate none."""
+    start = {"state": "equilibrium", "twist_deg": 0.3}
+    flow_solver = {
+        "solver": "openfoam",
+        "sweep": {"models": ["3d"]},
+        "steady": {"resolution": "coarse"},
+        "unsteady": {"time_step": 0.02, "start": start},
+    }
+    config = load_config({**RAW, **flow_solver})
+    assert plan.starts_by_polar(config)
+    angles, span = np.arange(0.0, 31.0, 2.5), np.linspace(0.02, 0.98, 20)
+    slope, row = math.pi * np.radians(angles), ("resolution", "incidence_deg")
+    along = np.ones((1, 1, span.size))
+    polar = xr.Dataset(
+        {
+            "cd": (row, 0.01 * np.ones((1, angles.size))),
+            "cl": (row, 2.0 * slope[None]),
+            "cl_section": ((*row, "span"), 2.0 * slope[None, :, None] * along),
+            "cm_section": ((*row, "span"), 0.5 * slope[None, :, None] * along),
+        },
+        {"resolution": ["coarse"], "incidence_deg": angles, "span": span},
+        {"solver_coarse": "a thin plate"},
+    )
+    solver, known = solver_from_config(config, "coarse"), {**data, "polar_3d": polar}
+
+    def case_of(k_star: float) -> UnsteadyCase:
+        return unsteady_case(config, plan.model("3d", config.reduction), k_star, known, solver)
+
+    position = case_of(6.0).start.equilibrium
+    assert position is not None
+    assert len(position) == 4
+    assert 0.3 < math.degrees(position[0]) < 1.5
+    assert position[2] > 0.0
+    assert case_of(0.5).start.equilibrium is None
+    moved = case_of(6.0).model_dump()
+    moved["start"]["equilibrium"] = (0.0, 0.0)
+    with pytest.raises(ValueError, match=r"start\.equilibrium has 2 numbers; wanted are 4"):
+        UnsteadyCase(**moved)
+
+
 @pytest.mark.parametrize("k_star", [2.0, 6.44, 21.0])
 def test_section_of_the_paper_has_the_k_star_of_its_case(
     k_star: float, data: dict[str, xr.Dataset]

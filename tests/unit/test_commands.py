@@ -47,6 +47,20 @@ class TestOnset:
         assert "2d 39.54 m/s (eigenvalue)" in lines[4]
         assert len(lines) == 5
 
+    def test_runs_without_a_verdict_between_the_speeds_are_counted(self, tmp_path: Path) -> None:
+        run = run_with(
+            tmp_path / "run",
+            "2d,1,35,30,40,divergence,,1.8,,time,,,",
+            "3d,1,40.3,37.5,43.1,divergence,,1.4,,time,,,",
+        )
+        (run / "comparison" / "onset.csv").write_text(
+            "model,speed_stable,speed_unstable,failed_inside,undecided_inside\n"
+            "2d,30,40,32 34 35,\n3d,37.5,43.12,39.38 40 41.25,38\n"
+        )
+        how_sure = list(answer_of(run).lines())[3]
+        assert "of the runs between these speeds 3 failed and 1 undecided" in how_sure
+        assert "'equisection status run' says why of each" in how_sure
+
     @pytest.mark.parametrize("reduction", ["", "-paper", "-consistent"])
     def test_a_corrected_section_answers_before_one_that_is_not(
         self, reduction: str, tmp_path: Path

@@ -354,10 +354,14 @@ MALFORMED = [
         "with unsteady.start.twist_deg, such as 0.2",
     ),
     (
-        {"solver": "openfoam", "unsteady": {"time_step": 0.02, "start": {"state": "equilibrium"}}},
-        "unsteady.start.state",
-        "'equilibrium'",
-        "'rigid' with solver 'openfoam' and the model 3d",
+        {
+            "solver": "openfoam",
+            "unsteady": {"time_step": 0.02, "start": {"state": "equilibrium", "twist_deg": 0.2}},
+            "steady": {"beam_polar": "config/polars/paper_plate_3d.csv"},
+        },
+        "steady.beam_polar",
+        "'config/polars/paper_plate_3d.csv'",
+        "the equilibrium is that of the loads along the span",
     ),
     (
         {"solver": "given", "unsteady": {"start": {"state": "equilibrium", "twist_deg": 0.2}}},

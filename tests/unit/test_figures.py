@@ -636,6 +636,27 @@ def test_response_says_how_near_section_and_beam_are_and_where(tmp_path):
     assert "within" not in alone.axes[0].get_title(loc="left")
 
 
+def test_titles_of_the_response_over_speed_are_whole(tmp_path):
+    """A long title goes on in a second line, rather than beyond the edge of the figure."""
+    read = response.read_response(*sweep(tmp_path, SWEEPS["all models"]), 6.7)
+    summary = read.summary.assign(speed=20.0 / np.sqrt(read.summary["k_star"] / 6.0))
+    summary.loc[summary["model"] == "3d", ["mean_twist_deg", "mean_deflection_chords"]] *= 0.4
+    over_speed = summary.drop(columns="k_star")
+    figure = response.draw(
+        replace(
+            read,
+            summary=over_speed,
+            onset=read.onset.rename(columns=lambda name: name.replace("k_star_", "speed_")),
+        )
+    )
+    lay_out(figure)
+    for axes in figure.axes[:2]:
+        title = axes._left_title
+        assert "$V$ = " in title.get_text()
+        assert title.get_text().endswith("m/s")
+        assert title.get_window_extent().x1 < figure.bbox.x1
+
+
 def test_bracket_of_the_onset_is_drawn_by_its_two_sides(tmp_path):
     figure = response.draw(response.read_response(*sweep(tmp_path, SWEEPS["no beam"]), 6.7))
     edges = [line for line in figure.axes[0].get_lines() if line.get_linestyle() == "--"]
@@ -818,6 +839,16 @@ def test_growth_of_runs_and_of_linear_theory_stand_in_one_panel():
     marks = [line for line in figure.axes[0].get_lines() if line.get_label() == "onset elsewhere"]
     assert [list(line.get_xdata()) for line in marks] == [[5.5, 5.5]]
     lay_out(figure)
+
+
+def test_bar_of_a_growth_rate_that_is_not_known_leaves_the_others_apart():
+    """A fit of a motion without an oscillation has bars hundreds of times as long as growths."""
+    runs = growth(growth_low=growth()["growth_rate"] - 0.01, growth_high=growth()["growth_rate"])
+    usual = growth_rate.draw(runs, linear_theory(), NOTHING).axes[0].get_ylim()
+    runs.loc[runs.index[-1], ["growth_low", "growth_high"]] = -13.0, 13.0
+    low, high = growth_rate.draw(runs, linear_theory(), NOTHING).axes[0].get_ylim()
+    assert low <= usual[0] < usual[1] <= high
+    assert high - low < 4.0 * (usual[1] - usual[0])
 
 
 def test_model_with_a_frequency_alone_is_in_the_legend_and_one_point_is_seen():

@@ -540,6 +540,16 @@ def test_channel_without_room_for_the_mesh_is_refused(
     assert reason in line
 
 
+def test_mesh_without_room_at_the_equilibrium_is_a_result(tmp_path: Path) -> None:
+    """Its height is known with the case alone, and other cases of the sweep may have the room."""
+    start = Start(state="equilibrium", twist_deg=0.3, equilibrium=(0.01, 1.9))
+    case = UNSTEADY.model_copy(update={"start": start})
+    solver = Adapter(Settings("coarse", 2))
+    found = solver._free_section(cast(Installation, None), case, tmp_path, nothing)
+    assert found.verdict["regime"] == "failed"
+    assert "with the section 1.9 c above its middle" in found.verdict["reason"]
+
+
 def test_wide_channel_in_the_place_of_free_air_has_room() -> None:
     wide = {"height_chords": 20, "tip_gap_chords": 10}
     check_provided(load_config(openfoam(flow={"channel": wide})))

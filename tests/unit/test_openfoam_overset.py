@@ -2,22 +2,31 @@
 
 import math
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from tests.sample_cases import UNSTEADY
+from tests.sample_outlines import SHAPES
 
 from equisection.config import load_config
 from equisection.errors import ConfigError, SolverError
+from equisection.results.plane_mesh import cell_areas
 from equisection.solvers.openfoam.adapter import Adapter
 from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
-from equisection.solvers.openfoam.mesh.overset_mesh import OversetMesh
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
+from equisection.solvers.openfoam.mesh.outline_overset_mesh import OutlineOversetMesh
+from equisection.solvers.openfoam.mesh.overset_mesh import OVERSET, OversetMesh
+from equisection.solvers.openfoam.mesh.poly_mesh import read_poly_mesh
+from equisection.solvers.openfoam.process import BlowUpError
+from equisection.solvers.openfoam.reading.meshed_section import read_cells
 from equisection.solvers.openfoam.section.overset_section import OversetRun, read_motion
 from equisection.solvers.openfoam.section.rigid_section import mesh_of
+from equisection.solvers.openfoam.section.section_history import SectionHistory
 from equisection.solvers.registry import solver_from_config
 
 CHANNEL = ChannelBox(thickness=0.04, height=4.0, upstream=5.0, downstream=15.0)
@@ -90,6 +99,64 @@ def test_moving_section_is_that_of_the_morphing_mesh(tmp_path: Path) -> None:
     assert "nOuterCorrectors 8;" in (tmp_path / "system" / "fvSolution").read_text()
     # GAMG ends with a fault on meshes that overlap
     assert "GAMG" not in (tmp_path / "system" / "fvSolution").read_text()
+
+
+def around_airfoil(incidence_deg: float = 0.0, refinement: float = 1.0) -> OutlineOversetMesh:
+    outline = SHAPES["naca 0012"].as_pairs()
+    return OutlineOversetMesh(
+        OutlineMesh(outline, CHANNEL, math.radians(incidence_deg), refinement)
+    )
+
+
+@pytest.mark.parametrize("height", [4.0, 60.0])
+def test_background_of_an_outline_is_even_where_its_disc_comes(height: float) -> None:
+    box = ChannelBox(0.12, height, height, height)
+    mesh = OutlineOversetMesh(OutlineMesh(SHAPES["deck"].as_pairs(), box, 0.0, 1.0))
+    radius = mesh.section.disc_radius
+    for lines, ends in zip(
+        mesh.background_lines(), ((-height, height), (-height / 2, height / 2)), strict=True
+    ):
+        assert (lines[0], lines[-1]) == pytest.approx(ends)
+        sizes, middle = np.diff(lines), (lines[1:] + lines[:-1]) / 2
+        assert sizes[np.abs(middle) < radius] == pytest.approx(0.06, rel=0.02)
+        ratio = sizes[1:] / sizes[:-1]
+        assert 1 / 1.25 < ratio.min() < ratio.max() < 1.25
+
+
+def test_refinement_divides_the_background_of_an_outline() -> None:
+    cells = around_airfoil().background_cells
+    assert around_airfoil(refinement=2.0).background_cells == pytest.approx(4 * cells, rel=0.03)
+
+
+def test_both_meshes_of_an_outline_are_whole_and_the_background_is_first(tmp_path: Path) -> None:
+    mesh = around_airfoil(10.0, 0.5)
+    cells = mesh.write(tmp_path)
+    points, corners = read_cells(tmp_path)
+    assert len(corners) == cells
+    areas = cell_areas(points, corners)
+    background = areas[: mesh.background_cells]
+    assert areas.min() > 0
+    assert background.sum() == pytest.approx(4.0 * 20.0, rel=1e-9)
+    # the disc is a polygon of many sides
+    around = math.pi * mesh.section.disc_radius**2 - SHAPES["naca 0012"].area
+    assert areas[mesh.background_cells :].sum() == pytest.approx(around, rel=2e-3)
+    found = read_poly_mesh(tmp_path)
+    assert next(iter(found.patches)) == OVERSET  # as the library wants it
+    ends = found.points[found.faces[found.patches[OVERSET]]][:, :, :2]
+    assert np.hypot(*np.moveaxis(ends, -1, 0)) == pytest.approx(mesh.section.disc_radius, rel=1e-5)
+
+
+def test_section_whose_mesh_has_left_the_channel_is_refused(tmp_path: Path) -> None:
+    run = run_in(tmp_path)
+    rows = np.array([[0.0, 0.02, 0.04], [0.0, 0.1, 0.0], [0.0, 1.6, 0.0]])
+    nothing = np.zeros(3)
+    history = SectionHistory(rows[0], rows[1], 0.5 * rows[2], nothing, nothing, nothing)
+    run.require_room(history)
+    out = replace(history, deflection=rows[2])
+    with pytest.raises(BlowUpError, match=r"^at 0\.02 c/V the section's mesh reaches 2\.\d+ c off"):
+        run.require_room(out)
+    # a disc reaches as far at any twist
+    assert around_airfoil().reach(0.3, 0.5) == pytest.approx(1.5, abs=0.02)
 
 
 STEP = """

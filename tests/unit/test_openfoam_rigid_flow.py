@@ -83,7 +83,7 @@ def test_mean_is_of_the_first_record_whose_halves_agree(
     record = follow_unsteady(tmp_path, RECORD, nothing, polled(monkeypatch, whole, interval))
     assert record.time[0] > RECORD.discarded
     assert record.time[-1] == pytest.approx(80.0)
-    assert record.drift() <= rigid_flow.KNOWN
+    assert record.halves().drift() <= rigid_flow.KNOWN
     assert "mean of unsteady over 70 c/V" in method_of_mean(record, RECORD)
 
 
@@ -136,6 +136,21 @@ def test_mean_of_even_shedding_is_known_at_once_and_of_whole_periods(
     by_time = replace(wanted, by_periods=False)
     record = follow_unsteady(tmp_path, by_time, nothing, polled(monkeypatch, whole, 3.3))
     assert record.time[-1] > 50.0
+
+
+@pytest.mark.parametrize(("periods", "whole"), [(3.9, 3), (3.99, 4), (4.0, 4), (4.3, 4)])
+def test_period_that_lacks_next_to_nothing_is_whole(periods: float, whole: int) -> None:
+    """A frequency is known no better; a record is never longer than it is."""
+    step, period = 0.02, 7.0
+    time = step * np.arange(1.0, round(periods * period / step) + 1)
+    lift = np.sin(2 * np.pi * time / period)
+    loads = Loads(time, lift, lift, lift)
+    part = loads.in_whole_periods(period)
+    assert part.time.size * step / period == pytest.approx(min(whole, periods), abs=0.01)
+    assert part.time[-1] == time[-1]
+    halves = loads.halves(period)
+    assert halves.first.time.size * step / period == pytest.approx(whole // 2, abs=0.01)
+    assert halves.first.time.size == halves.last.time.size
 
 
 def test_record_goes_on_to_the_longest(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

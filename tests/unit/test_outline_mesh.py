@@ -166,7 +166,7 @@ def ring() -> PlaneCells:
 def written(folder: Path) -> None:
     box = ChannelBox(1.0, 3.0, 1.5, 1.5)
     kinds = dict.fromkeys(("inlet", "outlet", "floor", "ceiling"), "patch") | {"plate": "wall"}
-    write_layer(folder, ring(), kinds, lambda a, b: patches_of(box, a, b))
+    write_layer(folder, [ring()], kinds, lambda a, b: patches_of(box, a, b))
 
 
 def test_written_mesh_is_read_again(tmp_path: Path) -> None:
@@ -223,7 +223,7 @@ def test_sides_are_the_same_at_every_incidence(tmp_path: Path) -> None:
 def test_mesh_with_a_gap_is_refused(tmp_path: Path) -> None:
     kinds = {"inlet": "patch"}
     with pytest.raises(SolverError, match="the mesh has a gap at"):
-        write_layer(tmp_path, ring(), kinds, lambda a, b: np.full(len(a), "plate"))
+        write_layer(tmp_path, [ring()], kinds, lambda a, b: np.full(len(a), "plate"))
 
 
 def airfoil_mesh(incidence_deg: float = 0.0, channel: ChannelBox = CHANNEL) -> OutlineMesh:
@@ -397,7 +397,6 @@ def test_far_field_takes_the_place_of_the_channel() -> None:
             {"sweep": {"models": ["2d-corrected"]}, "flow": {"root_on_wall": False}},
             "flow.root_on_wall: false: allowed is true",
         ),
-        ({"openfoam": {"mesh_motion": "overset"}}, "allowed is morph with beam.outline"),
         ({"openfoam": {"meshes": {"coarse": "finest"}}}, "allowed are coarse, medium, fine"),
     ],
 )

@@ -8,6 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
+import equisection as eq
+
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs/python.md").read_text(encoding="utf-8")
 EXAMPLE = ROOT / "docs/examples/critical_speed.py"
@@ -36,3 +40,14 @@ def test_code_of_the_page_is_that_of_the_example() -> None:
     example = EXAMPLE.read_text(encoding="utf-8")
     for line in filter(None, code[1].splitlines()):
         assert line in example
+
+
+def test_the_parameter_study_prints_what_the_page_says(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    part = PAGE.split("## A parameter study")[1]
+    code, printed = re.findall(r"```(?:python)?\n(.*?)```", part, flags=re.S)[:2]
+    monkeypatch.setenv("MPLBACKEND", "Agg")
+    monkeypatch.chdir(ROOT)
+    exec(code, {"eq": eq})
+    assert capsys.readouterr().out == printed

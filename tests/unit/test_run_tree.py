@@ -67,6 +67,21 @@ def test_each_history_is_found_by_its_coordinates(run: Path) -> None:
     assert str(missing["regime"].values[0]) == ""
 
 
+@pytest.mark.parametrize(("speeds", "is_found"), [((28.3, 20.0), True), ((20.0, 20.0), False)])
+def test_histories_of_a_sweep_over_speed_are_found_by_it(
+    run: Path, speeds: tuple[float, float], is_found: bool
+) -> None:
+    """And those of one over k*, at one speed, are not."""
+    lines = (f"2d,{speed},{k}" for speed, k in zip(speeds, (5.0000001, 10.0), strict=True))
+    (run / "comparison" / "summary.csv").write_text("\n".join(["model,speed,k_star", *lines]))
+    histories = open_run(run)["histories"].to_dataset()
+    assert ("speed" in histories.coords) == is_found
+    if is_found:
+        by_speed, by_k_star = histories.sel(speed=20.0), histories.sel(k_star=10.0)
+        np.testing.assert_array_equal(by_speed["twist"], by_k_star["twist"])
+        assert histories["speed"].attrs["units"] == "m s-1"
+
+
 def test_amplitudes_of_modes_belong_to_the_beam_alone(run: Path) -> None:
     amplitude = open_run(run)["histories/torsion_amplitude"]
     own = read_dataset(CASES["3d", "k5"])["torsion_amplitude"]

@@ -94,11 +94,13 @@ def jobs_wanted(raw: dict[str, Any], batches: bool = True, with_paper: bool = Tr
         refine_onset=models * rounds,
     )
     if config.forced.run and not batches:
-        moved = 2 * (
-            1 if config.forced.motion == "multi-sine" else len(config.forced.reduced_velocity)
-        )
+        of_beam = config.forced.beam_modes
+        harmonics = len(config.forced.reduced_velocity)
+        moved = 2 * (1 + of_beam) * (1 if config.forced.motion == "multi-sine" else harmonics)
         jobs.update(forced_case_file=moved, forced_case=moved)
         jobs.update(("forced_results", "forced_derivatives", "flutter_derivatives"))
+        if of_beam:
+            jobs.update(("forced_results", "forced_modes", "forces_on_modes"))
     if is_paper_case(config) and with_paper:
         jobs.update((*ONCE_WITH_THE_PAPERS_CASE, *(["rigid_beam_table"] * (dimensions == 2))))
     if batches:
@@ -196,7 +198,7 @@ def test_every_beam_runs_without_the_paper(path: Path, without_the_paper: Projec
 
 
 #: Examples that are the paper's plate.
-OF_THE_PLATE = ("own_polar", "openfoam_equilibrium")
+OF_THE_PLATE = ("own_polar", "openfoam_equilibrium", "plate_forced")
 
 
 @pytest.mark.parametrize(

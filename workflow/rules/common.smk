@@ -216,8 +216,8 @@ def structure_of(name):
         files["modes"] = f"{RESULTS}/structure/modes.nc"
     if model.corrected:
         files["correction"] = f"{RESULTS}/steady/correction.nc"
-    if plan.starts_by_polar(CONFIG) and model.dimension == "2d":
-        files["polar_2d"] = f"{RESULTS}/steady/polar_2d.nc"
+    if plan.starts_by_polar(CONFIG):
+        files |= polar_of_dimension(model.dimension)
     return files
 
 
@@ -276,7 +276,12 @@ def learnt_from(model, batches):
 
 def polar_of_learnt(name):
     """Return the polar that a learnt model has as its steady part, by its name."""
-    polar = f"polar_{plan.model(name, CONFIG.reduction).dimension}"
+    return polar_of_dimension(plan.model(name, CONFIG.reduction).dimension)
+
+
+def polar_of_dimension(dimension):
+    """Return the steady polar of the section or the beam, by its name."""
+    polar = f"polar_{dimension}"
     return {polar: f"{RESULTS}/steady/{polar}.nc"}
 
 

@@ -80,6 +80,13 @@ class LearntStrips:
     seen: tuple[float, float]
     learnt_until: float
 
+    @classmethod
+    def of_steady_loads(cls, polars: StripPolars, incidence_rad: float) -> LearntStrips:
+        """Return the loads of polars alone at a rigid incidence (rad), with nothing learnt."""
+        nothing = np.zeros(len(STRIP_TERMS))
+        at_rest = (incidence_rad, incidence_rad)
+        return cls(polars, incidence_rad, 1.0, nothing, nothing, 0.0, 0.0, at_rest, 0.0)
+
     def coefficients(self, a: Floats, twist_rate: Floats, lag: Floats) -> tuple[Floats, Floats]:
         """Return c_l and c_m of the strips without apparent mass; NaN beyond the polars.
 

@@ -29,7 +29,7 @@ from equisection.analysis.learnt_cycles import (
     no_cycles,
 )
 from equisection.analysis.onset import is_unstable
-from equisection.analysis.recorded_beam import on_strips, release_of, strip_polars_at
+from equisection.analysis.recorded_beam import on_strips, release_of
 from equisection.analysis.reduced_beam import ReducedBeam, learnt_beam, predicted_beams
 from equisection.analysis.reduced_model import (
     COLUMNS,
@@ -45,7 +45,7 @@ from equisection.errors import EquisectionError, ResultFileError
 from equisection.motion.beam_lesson import BeamRelease
 from equisection.results.loads_zigzag import loads_zigzag, warning_of_zigzag
 from equisection.results.netcdf import read_attributes, read_dataset
-from equisection.results.polar_dataset import polar_at
+from equisection.results.polar_dataset import polar_at, strip_polars_at
 from equisection.results.recorded_history import history_of
 from equisection.results.unsteady_result import Regime
 from equisection.solvers.protocol import Solver

@@ -1,4 +1,4 @@
-"""What a learnt model says of its onset after the runs so far, and what speaks against it."""
+"""Course of learning: what a model says of its onset after the runs so far, what speaks against it."""
 
 from __future__ import annotations
 

@@ -11,13 +11,11 @@ import xarray as xr
 from pydantic import ValidationError
 
 from equisection.aerodynamics.span_strips import SpanStrips
-from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.cases import BeamModes, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.motion.beam_lesson import BeamRelease
 from equisection.motion.beams import BeamParameters
 from equisection.results.netcdf import read_dataset
-from equisection.results.polar_dataset import at_resolution
 from equisection.solvers.embedded.releases import beam_parameters
 
 
@@ -60,34 +58,3 @@ def release_of(path: Path, data: xr.Dataset, case: UnsteadyCase, strips: SpanStr
 def on_strips(beams: Sequence[BeamModes], strips: SpanStrips) -> BeamParameters:
     """Return the modes of beams that differ in stiffness at the strips, whose wakes are not."""
     return beam_parameters(list(beams), strips, None)
-
-
-def strip_polars_at(dataset: xr.Dataset, resolution: str) -> StripPolars:
-    """Return the polars along the span of ``steady/polar_3d.nc`` at a resolution.
-
-    Raises
-    ------
-    ResultFileError
-        There are no loads along the span, or fewer than four incidences with a result.
-    """
-    known = resolution in dataset["resolution"].values and "cl_section" in dataset
-    chosen = at_resolution(dataset, resolution) if known else dataset
-    there = np.isfinite(chosen["cl"].values) if known else np.zeros(0, bool)
-    if there.sum() < 4:
-        raise ResultFileError(
-            f"the polar of the beam at resolution '{resolution}' has {there.sum()} incidences with "
-            "loads along the span, at least 4 are needed to learn a model of its strips "
-            "(steady.incidence_deg)"
-        )
-    lift, moment = (
-        chosen[name].transpose("incidence_deg", "span").values[there]
-        for name in ("cl_section", "cm_section")
-    )
-    return StripPolars(
-        np.radians(chosen["incidence_deg"].values[there]),
-        chosen["span"].values.astype(np.float64),
-        lift,
-        moment,
-        label=str(dataset.attrs[f"solver_{resolution}"]),
-        drag=chosen["cd"].values[there].astype(np.float64),
-    )

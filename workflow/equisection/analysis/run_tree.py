@@ -25,6 +25,7 @@ from equisection.store.index import read_index, result_file
 from equisection.store.made_from import recorded, require_as_made
 
 CONFIGURATION = "config.resolved.yaml"
+SUMMARY = Path("comparison") / "summary.csv"
 #: Files of a run by their places in the tree; a run need not have all of them.
 DATASETS = {
     "structure/modes": "structure/modes.nc",
@@ -40,6 +41,8 @@ DATASETS = {
 TABLES = ("comparison", "tables", "identification")
 #: Digits of convective time (c/V) that tell two samples apart.
 TIME_DIGITS = 6
+#: Relative difference of two k* that are the same: their names have six digits.
+_SAME = 1e-5
 
 _AXES = {
     "model": ("1", "model of the sweep"),
@@ -68,7 +71,8 @@ def open_run(folder: Path | str) -> xr.DataTree:
     """Read a run's results into memory, as one tree.
 
     Nodes are ``histories`` over ``model``, ``k_star``, ``incidence_deg`` and ``time``, with the
-    verdict of each case over the first three; ``structure``, ``steady``, and a data set for each
+    verdict of each case over the first three; of a sweep over the speed they are found by ``speed``
+    (m/s) as well. Others are ``structure``, ``steady``, and a data set for each
     table of ``comparison`` and ``tables``. A part that the run does not have is absent. Histories
     are NaN where a case has no sample: after its end, and between samples where another case has
     more of them. Fields of single cases (surfaces, the flow at the tip) stay in their files.
@@ -198,7 +202,26 @@ def _histories(indices: Iterable[Path], incidence_deg: float) -> xr.Dataset | No
     _add_verdicts(dataset, cases, axes)
     for name, (units, long_name) in _AXES.items():
         dataset[name].attrs = {"units": units, "long_name": long_name}
-    return dataset
+    speeds = _speeds(folder, axes[1])
+    if speeds is None:
+        return dataset
+    about = {"units": "m s-1", "long_name": "speed V"}
+    return dataset.assign_coords(speed=("k_star", speeds, about)).set_xindex("speed")
+
+
+def _speeds(folder: Path, k_star: Any) -> Any:
+    """Return the speed (m/s) at each k*; None unless the sweep is one over the speed."""
+    if not (folder / SUMMARY).is_file():
+        return None
+    summary = _table(folder / SUMMARY)
+    if not {"speed", "k_star"} <= set(summary.data_vars):
+        return None
+    given, known = summary["speed"].values, summary["k_star"].values
+    found = [np.unique(given[np.isclose(known, value, rtol=_SAME)]) for value in k_star]
+    if any(one.size != 1 for one in found):
+        return None
+    speeds = np.concatenate(found)
+    return speeds if np.unique(speeds).size == speeds.size else None
 
 
 def _of_time(data: xr.Dataset) -> xr.Dataset:

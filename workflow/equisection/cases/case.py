@@ -207,8 +207,8 @@ class Start(Block):
 
     The beam has them in its first modes, the section by its recovery factors. The twist is that
     beyond the state: the undeformed beam, or its static equilibrium in the flow. ``equilibrium`` is
-    that of the section, twist (rad) and deflection (chords), for a solver that does not know it;
-    None where there is none.
+    for a solver that does not know it: of a section twist (rad) and deflection (chords), of a beam
+    these of its torsion modes and then of its bending modes; None where there is none.
     """
 
     left_out = frozenset({"state", "equilibrium"})
@@ -216,4 +216,4 @@ class Start(Block):
     state: Literal["rigid", "equilibrium"] = "rigid"
     twist_deg: float = 0.0
     heave_rate: float = 0.0  # over V, up
-    equilibrium: tuple[float, float] | None = None
+    equilibrium: tuple[float, ...] | None = None

@@ -75,7 +75,10 @@ class UnsteadyCase(Case):
     @property
     def section_equilibrium(self) -> tuple[float, float]:
         """Twist (rad) and deflection (chords) of the state that a section starts from."""
-        return self.start.equilibrium or (0.0, 0.0)
+        if self.section is None or self.start.equilibrium is None:
+            return (0.0, 0.0)
+        twist, deflection = self.start.equilibrium
+        return twist, deflection
 
     @property
     def section_heave_rate(self) -> float:
@@ -91,6 +94,10 @@ class UnsteadyCase(Case):
         wanted = "section" if self.dimension == "2d" else "beam"
         if getattr(self, wanted) is None or (self.section is None) == (self.beam is None):
             raise ValueError(f"a case of dimension {self.dimension} holds '{wanted}' alone")
+        given, beam = self.start.equilibrium, self.beam
+        count = 2 if beam is None else len(beam.torsion_shape) + len(beam.bending_shape)
+        if given is not None and len(given) != count:
+            raise ValueError(f"start.equilibrium has {len(given)} numbers; wanted are {count}")
         return self
 
 

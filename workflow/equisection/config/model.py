@@ -179,6 +179,21 @@ def _learnt_on_strips(onset: str, models: tuple[str, ...], beam_polar: str) -> I
         )
 
 
+@check("unsteady.start", "solver", "sweep.models", "steady.beam_polar")
+def _equilibrium_of_strips(
+    start: StartKeys, solver: str, models: tuple[str, ...], beam_polar: str
+) -> Iterator[Problem]:
+    """Refuse a beam without loads along the span, by which its equilibrium is found."""
+    if start.state == "equilibrium" and solver == "openfoam" and "3d" in models and beam_polar:
+        yield Problem(
+            "steady.beam_polar",
+            beam_polar,
+            "allowed with solver 'openfoam', unsteady.start.state 'equilibrium' and the model 3d "
+            'is "", with which the solver runs the rigid beam: the equilibrium is that of the '
+            "loads along the span, which such a file does not have",
+        )
+
+
 @check("sweep.onset", "unsteady.start")
 def _learnt_from_this_start(onset: str, start: StartKeys) -> Iterator[Problem]:
     """Refuse a start from which the learnt models do not release."""

@@ -29,6 +29,8 @@ _QUANTITIES = {
 #: Ends of the interval of a growth rate.
 _ENDS = ("growth_low", "growth_high")
 _BAND_OF_FREQUENCY = ("frequency_low", "frequency_high")
+#: Height of the panel of growth rates, over how far they are apart, from which bars are left long.
+_MOST_ROOM = 5.0
 
 
 def from_files(
@@ -72,6 +74,8 @@ def draw(
         letter(axes, place, title)
         _over_study(axes, summary, linear, name, along)
         _by_learnt_models(axes, learnt, name, summary)
+        if name == "growth_rate":
+            _leave_long_bars(axes)
         for k_star, name_of in zip(onsets["value"], onsets["label"], strict=True):
             axes.axvline(k_star, color=GREY, linewidth=0.8, linestyle=":", label=name_of)
         if axes.has_data():
@@ -173,6 +177,17 @@ def _intervals(axes: Axes, runs: pd.DataFrame, along: Axis, look: Look) -> None:
         marker=look.marker,
         markerfacecolor="white",
     )
+
+
+def _leave_long_bars(axes: Axes) -> None:
+    """Let bars that are far longer than growth rates differ go on beyond the frame."""
+    drawn = [line.get_ydata() for line in axes.lines if line.get_transform() == axes.transData]
+    values = np.concatenate([[0.0], *(np.asarray(one, dtype=float) for one in drawn)])
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    room = high - low
+    bottom, top = axes.get_ylim()
+    if top - bottom > _MOST_ROOM * room > 0.0:
+        axes.set_ylim(max(bottom, low - room), min(top, high + room))
 
 
 def _over_study(

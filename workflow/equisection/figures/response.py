@@ -50,6 +50,8 @@ _FAILED, _DIVERGED = "x", "+"
 _MOST_MARKERS = 40
 #: Part of the axis below which two letters would stand on each other.
 _TOO_CLOSE = 0.03
+#: Characters that the title of a panel above has room for.
+_WIDEST_TITLE = 46
 #: Symbols and units of the two upper panels.
 _QUANTITIES = {
     "mean_twist_deg": r"mean twist {}  $\overline{\theta}$ (deg)",
@@ -281,8 +283,10 @@ def _agreement(summary: pd.DataFrame, section: str | None, beam: str | None, nam
     farthest = 100.0 * float(deviation.abs().max())
     labels = [LOOKS[model].label for model in (section, beam)]
     low, high = float(deviation.index.min()), float(deviation.index.max())
-    where = f"{along.typeset(low)} to {high:g}"
-    return f"{labels[0]} within {farthest:.0f} % of {labels[1]}, {where}"
+    words = f"{labels[0]} within {farthest:.0f} % of {labels[1]},"
+    where = f"= {low:g} to {high:g}" + ("" if along.unit == "1" else f" {along.unit}")
+    fits = len(f"{words} {along.symbol} {where}") <= _WIDEST_TITLE
+    return words + (" " if fits else "\n") + f"{along.tex} {where}"
 
 
 def _learnt_intervals(response: Response) -> list[tuple[Look, tuple[float, float]]]:

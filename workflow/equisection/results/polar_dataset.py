@@ -8,6 +8,7 @@ import numpy as np
 import xarray as xr
 
 from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.errors import ResultFileError
 from equisection.reduction.modal_load import modal_load
 from equisection.structure.mode_set import ModeSet
@@ -194,6 +195,36 @@ def polar_at(dataset: xr.Dataset, resolution: str, modes: ModeSet | None = None)
         lift=chosen["cl"].values[there],
         moment=chosen["cm"].values[there],
         label=str(dataset.attrs[f"solver_{resolution}"]),
+    )
+
+
+def strip_polars_at(dataset: xr.Dataset, resolution: str) -> StripPolars:
+    """Return the polars along the span of ``steady/polar_3d.nc`` at a resolution.
+
+    Raises
+    ------
+    ResultFileError
+        There are no loads along the span, or fewer than four incidences with a result.
+    """
+    known = resolution in dataset["resolution"].values and "cl_section" in dataset
+    chosen = at_resolution(dataset, resolution) if known else dataset
+    there = np.isfinite(chosen["cl"].values) if known else np.zeros(0, bool)
+    if there.sum() < 4:
+        raise ResultFileError(
+            f"the polar of the beam at resolution '{resolution}' has {there.sum()} incidences with "
+            "loads along the span, at least 4 are needed (steady.incidence_deg)"
+        )
+    lift, moment = (
+        chosen[name].transpose("incidence_deg", "span").values[there]
+        for name in ("cl_section", "cm_section")
+    )
+    return StripPolars(
+        np.radians(chosen["incidence_deg"].values[there]),
+        chosen["span"].values.astype(np.float64),
+        lift,
+        moment,
+        label=str(dataset.attrs[f"solver_{resolution}"]),
+        drag=chosen["cd"].values[there].astype(np.float64),
     )
 
 

@@ -1,7 +1,7 @@
 """The answer of a run in a few lines: the critical speed, by what, and how sure that is.
 
-It is read from ``comparison/critical_speed.csv`` alone, so it takes no solver and says nothing that
-the table does not say.
+It is read from ``comparison/critical_speed.csv``, and runs without a verdict from
+``comparison/onset.csv``, so it takes no solver and says nothing that the tables do not say.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import csv
 import json
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -20,6 +20,12 @@ from equisection.keys.written_number import LARGEST, is_plain_number, number_in
 
 #: The table with the answer, as seen from the folder of a run.
 CRITICAL_SPEEDS = Path("comparison") / "critical_speed.csv"
+#: The table with the brackets of the onsets.
+_BRACKETS = Path("comparison") / "onset.csv"
+#: Columns of runs inside a bracket that have no verdict, and what they are.
+_WITHOUT_VERDICT = {"failed_inside": "failed", "undecided_inside": "undecided"}
+#: What speeds rest on that are runs, each with a verdict.
+_RUNS = ("cfd", "time", "experiment")
 #: Columns without which a table is none of critical speeds.
 _NEEDED = ("model", "incidence_deg", "speed", "speed_low", "speed_high", "mechanism", "basis")
 #: Columns of numbers, with the least and the largest that each may have; infinity is no bound.
@@ -69,11 +75,14 @@ class Answer:
         beam itself, then the corrected section), at the incidence with the lowest speed. At each
         incidence the strongest basis answers; where it knows no stable speed, the next one that
         has an onset below its unstable speed.
+    inside
+        Numbers of runs inside its bracket that have no verdict, by what they are.
     """
 
     run: str
     rows: tuple[Mapping[str, Any], ...]
     chosen: Mapping[str, Any]
+    inside: Mapping[str, int] = field(default_factory=dict)
 
     def lines(self) -> Iterator[str]:
         """Yield the answer, a line each: speed, mechanism, margin, how sure, other models."""
@@ -87,7 +96,7 @@ class Answer:
         yield "critical speed", f"{_speed(self.chosen)}{self._incidence()}{hint}"
         yield "mechanism", _mechanism(self.chosen)
         yield "margin", self._margin()
-        yield "how sure", _sure(self.chosen)
+        yield "how sure", _sure(self.chosen) + self._without_verdict()
         others = [row for row in self.rows if self._is_another_there(row)]
         if others:
             words = (f"{row['model']} {_speed(row)} ({row['basis']})" for row in others)
@@ -109,6 +118,16 @@ class Answer:
         return (
             f"{at}, the lowest of {len(answers)} incidences from {min(angles):g} to "
             f"{max(angles):g} deg" + (f"; at {unknown} of them nothing is known" if unknown else "")
+        )
+
+    def _without_verdict(self) -> str:
+        if not self.inside:
+            return ""
+        found = " and ".join(f"{number} {what}" for what, number in self.inside.items())
+        several = sum(self.inside.values()) > 1
+        return (
+            f"; of the runs between these speeds {found}, which leaves them wide apart: "
+            f"'equisection status {self.run}' says why of {'each' if several else 'it'}"
         )
 
     def _is_another_there(self, row: Mapping[str, Any]) -> bool:
@@ -151,7 +170,29 @@ def answer_of(run: Path) -> Answer:
         )
     _require_as_made(run, path)
     rows = tuple(_rows(path))
-    return Answer(run.resolve().name, rows, _chosen(rows))
+    chosen = _chosen(rows)
+    return Answer(run.resolve().name, rows, chosen, _inside(run, chosen))
+
+
+def _inside(run: Path, chosen: Mapping[str, Any]) -> dict[str, int]:
+    """Return the numbers of runs without a verdict inside a bracket; none where no table is."""
+    path = run / _BRACKETS
+    if chosen["basis"] not in _RUNS or not path.is_file():
+        return {}
+    _require_as_made(run, path)
+    names, *lines = _cells(path) or [[]]
+    for number, cells in enumerate(lines, start=2):
+        row = dict(zip(names, cells, strict=False))
+        try:
+            angle = float(row.get("incidence_deg", chosen["incidence_deg"]))
+        except ValueError as error:
+            raise AnswerError(f"{path}: line {number}: {error}; delete it and run again") from None
+        if row.get("model") == chosen["model"] and angle == chosen["incidence_deg"]:
+            counts = {
+                what: len(row.get(column, "").split()) for column, what in _WITHOUT_VERDICT.items()
+            }
+            return {what: number for what, number in counts.items() if number}
+    return {}
 
 
 def _require_as_made(run: Path, path: Path) -> None:

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 
 import xarray as xr
 
+from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.beam.section import Section
 from equisection.cases import (
     BeamModes,
@@ -24,6 +25,7 @@ from equisection.cases import (
 from equisection.cases.beam_in_flow import beam_modes_in_flow
 from equisection.config import Config
 from equisection.errors import DivergenceError, EquisectionError, ReductionError
+from equisection.motion.beam_equilibrium import beam_in_equilibrium
 from equisection.motion.static_branch import section_in_equilibrium
 from equisection.reduction.corrected_section import corrected_section
 from equisection.reduction.flutter_bias import refusal as bias_refusal
@@ -31,8 +33,9 @@ from equisection.reduction.flutter_bias import unlike
 from equisection.reduction.reduce import Reduction
 from equisection.results.correction_dataset import factors_from_dataset
 from equisection.results.modes_dataset import modes_from_dataset
-from equisection.results.polar_dataset import polar_at
+from equisection.results.polar_dataset import polar_at, strip_polars_at
 from equisection.results.section_dataset import no_section, section_from_dataset
+from equisection.solvers.embedded.releases import beam_parameters
 from equisection.solvers.protocol import Capability, HasRecords, OfFlow, Solver
 from equisection.solvers.verdicts import pitch_frequency
 from equisection.study.axes import K_STAR, Point
@@ -91,7 +94,8 @@ def unsteady_case(
         k* of the uncorrected structural stiffness.
     data
         ``equivalent``, with ``modes`` in 3D and ``correction`` for a corrected model, and with
-        ``polar_2d`` for a section that starts from an equilibrium that its solver does not know.
+        ``polar_2d`` or ``polar_3d`` for a section or beam that starts from an equilibrium that its
+        solver does not know.
     solver
         The solver that is to run it.
 
@@ -124,7 +128,7 @@ def unsteady_case(
         lift_factor=factors[0],
         moment_factor=factors[1],
         beam=beam,
-        start=_start(config, section, factors, data, solver),
+        start=_start(config, section or beam, factors, data, solver),
         duration=unsteady.duration,
         time_step=unsteady.time_step,
         output_interval=unsteady.output_interval,
@@ -140,7 +144,7 @@ def unsteady_case(
 
 def _start(
     config: Config,
-    section: Section | None,
+    body: Section | BeamModes | None,
     factors: tuple[float, float],
     data: Mapping[str, xr.Dataset],
     solver: Solver,
@@ -148,12 +152,24 @@ def _start(
     """Return the start of a case, with the equilibrium that its solver does not know."""
     start = Start(**config.unsteady.start.model_dump())
     known = Capability.STATES in solver.provides or start.state != "equilibrium"
-    if known or section is None or "polar_2d" not in data:
+    if known or body is None:
         return start
-    polar = polar_at(data["polar_2d"], config.steady.resolution).continued
-    rigid = math.radians(config.flow.incidence_deg)
-    found = section_in_equilibrium(section, polar, rigid, factors)
+    rigid, mesh = math.radians(config.flow.incidence_deg), config.steady.resolution
+    if isinstance(body, BeamModes):
+        found = _beam_equilibrium(body, strip_polars_at(data["polar_3d"], mesh).continued, rigid)
+    elif "polar_2d" in data:
+        polar = polar_at(data["polar_2d"], mesh).continued
+        found = section_in_equilibrium(body, polar, rigid, factors)
+    else:
+        return start
     return start.model_copy(update={"equilibrium": found})
+
+
+def _beam_equilibrium(
+    beam: BeamModes, polars: StripPolars, incidence_rad: float
+) -> tuple[float, ...] | None:
+    found = beam_in_equilibrium(beam_parameters([beam], polars.strips, None), polars, incidence_rad)
+    return None if found is None else tuple(map(float, found))
 
 
 def _seldom(case: UnsteadyCase) -> str:

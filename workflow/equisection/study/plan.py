@@ -222,7 +222,7 @@ def batches_before(batch: str) -> list[str]:
 
 
 def starts_by_polar(config: Config) -> bool:
-    """Tell whether sections start from the equilibrium that the run's steady polar has.
+    """Tell whether section and beam start from the equilibrium that the run's steady polars have.
 
     A solver whose motions are equations knows it by itself.
     """

@@ -176,7 +176,8 @@ def _reduced(reduction: Reduction, damping: float = 0.0) -> Section:
     return reduce_beam(beam, modes_of_kinds(beam, "analytic", (8, 60, 1), (1, 1), 8), reduction)
 
 
-def _divergence(section: Section, density: float) -> float:
+def divergence_speed(section: Section, density: float) -> float:
+    """Return the speed (m/s) at which a section diverges by linear theory."""
     return 100.0 / math.sqrt(divergence_scale(section.in_flow(density, 100.0)))
 
 
@@ -447,7 +448,7 @@ def _goland() -> list[KnownValue]:
             2e-5,
         ),
         _section_value(
-            "divergence", 252.35, _OWN, lambda: _divergence(_reduced("consistent"), _AIR), 4e-5
+            "divergence", 252.35, _OWN, lambda: divergence_speed(_reduced("consistent"), _AIR), 4e-5
         ),
     ]
     return [*found, *section]
@@ -527,8 +528,8 @@ def _deck() -> list[KnownValue]:
             _DIGITS,
         ),
         KnownValue(
-            case, "divergence", "m/s", 90.466, _OWN, lambda: _divergence(deck(0.0), 1.22), 2e-5,
-            _DIGITS,
+            case, "divergence", "m/s", 90.466, _OWN,
+            lambda: divergence_speed(deck(0.0), 1.22), 2e-5, _DIGITS,
         ),
         KnownValue(
             case,

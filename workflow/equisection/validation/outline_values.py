@@ -32,6 +32,10 @@ _SOHANKAR = Source(
     "Sohankar, Norberg and Davidson, International Journal for Numerical Methods in Fluids 26, "
     "1998, their finest grid, 5 % of blockage, read in a transcript of their tables III and IV",
 )
+_DENNIS = Source(
+    "unconfirmed",
+    "Dennis and Chang, Journal of Fluid Mechanics 42, 1970, as others quote them",
+)
 _SYMMETRY = Source("independent", "symmetry of section and flow")
 
 _MOVED = "Thin plate moved in pitch and heave by OpenFOAM, Re 1.3e5"
@@ -172,6 +176,22 @@ def outline_values() -> list[KnownValue]:
             for quantity, known, coefficient in (
                 ("mean drag", 1.478, "cd"),
                 ("Strouhal number", 0.146, "strouhal"),
+            )
+        ),
+        *(
+            KnownValue(
+                "Circular cylinder by OpenFOAM, laminar and steady",
+                f"drag at Re {reynolds}",
+                "-",
+                known,
+                _DENNIS,
+                partial(kept_load, f"{run}/steady/2d/coarse_a0", "cd"),
+                0.02,
+                f"{coarse}; walls 60 chords away; others have 2.00 to 2.09 and 1.50 to 1.58",
+            )
+            for reynolds, known, run in (
+                (20, 2.045, "circular-cylinder-20"),
+                (40, 1.522, "circular-cylinder"),
             )
         ),
         *_moved_plate(),

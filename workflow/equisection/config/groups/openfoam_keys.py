@@ -28,7 +28,7 @@ MeshName = Literal[
 ]
 #: Before the name of a mesh: the section has the cells that its plate has in the plane.
 ON_CELLS_OF_PLATE = "plate-"
-#: Meshes that have one around the plate, for overset.
+#: Meshes that have one around the section, for overset.
 OVERSET_MESHES = ("coarse", "medium", "fine")
 
 #: A mesh that morphs around the section, and one above another that moves with it.
@@ -80,7 +80,7 @@ class OpenFoam(SolverKeys):
     mesh_motion: MeshMotion = Field(
         MORPH,
         description="How the mesh follows the free section: `morph` deforms it, `overset` moves a "
-        "mesh around the plate as it is above one of the channel, for large deflection and twist.",
+        "mesh around the section above one of channel or free air, for large deflection and twist.",
     )
     mesher: Mesher = Field(
         BLOCKS,
@@ -246,9 +246,9 @@ def _laminar_morphs(turbulence: str, motion: str) -> Iterator[Problem]:
         )
 
 
-@check("solver", "beam.outline", "openfoam.mesher", "openfoam.meshes", "openfoam.mesh_motion")
+@check("solver", "beam.outline", "openfoam.mesher", "openfoam.meshes")
 def _has_a_mesh_of_outlines(
-    solver: str, outline: object, mesher: str, meshes: Mapping[str, str], motion: str
+    solver: str, outline: object, mesher: str, meshes: Mapping[str, str]
 ) -> Iterator[Problem]:
     """Refuse what the mesh of outlines does not have."""
     if solver != "openfoam" or (outline is None and mesher == BLOCKS):
@@ -259,13 +259,6 @@ def _has_a_mesh_of_outlines(
             yield Problem(
                 f"openfoam.meshes.{name}", mesh, f"allowed are {', '.join(OUTLINE_MESHES)} {why}"
             )
-    if motion == OVERSET:
-        yield Problem(
-            "openfoam.mesh_motion",
-            motion,
-            f"allowed is {MORPH} {why}, which is sound up to 10 deg and half a chord of motion: "
-            "the mesh that overset moves is that of a rectangle",
-        )
 
 
 @check("openfoam.mesh_motion", "openfoam.meshes")

@@ -39,7 +39,7 @@ class StartKeys(KeyGroup):
         "rigid",
         description="`rigid`: the undeformed section or beam; `equilibrium`: its static "
         "equilibrium in the flow, from which `twist_deg` or `heave_rate` push it (solver "
-        "`embedded`; `openfoam` for sections, by the run's steady polar).",
+        "`embedded`; `openfoam` by the run's steady polars).",
     )
     twist_deg: Angle = Field(
         0.0,
@@ -75,10 +75,8 @@ class Unsteady(KeyGroup):
     verdict: VerdictKeys = Field(VerdictKeys(), description="How a run is judged.")
 
 
-@check("unsteady.start", "solver", "sweep.models")
-def _equilibrium_is_pushed(
-    start: StartKeys, solver: str, models: tuple[str, ...]
-) -> Iterator[Problem]:
+@check("unsteady.start", "solver")
+def _equilibrium_is_pushed(start: StartKeys, solver: str) -> Iterator[Problem]:
     """Refuse an equilibrium that nothing leaves, and releases that cannot start from one."""
     if start.state != "equilibrium":
         return
@@ -87,14 +85,6 @@ def _equilibrium_is_pushed(
             "unsteady.start.state",
             start.state,
             "allowed is 'rigid' with solver 'given': a record starts as it was recorded",
-        )
-    elif solver == "openfoam" and "3d" in models:
-        yield Problem(
-            "unsteady.start.state",
-            start.state,
-            "allowed is 'rigid' with solver 'openfoam' and the model 3d: the mesh of the beam has "
-            "no start from equilibrium; leave 3d out of sweep.models, or give a twist as "
-            "unsteady.start.twist_deg",
         )
     elif not start.is_given:
         yield Problem(

@@ -73,7 +73,7 @@ def stability_map(
     polar
         Steady coefficients of the section.
     incidence_deg
-        Rigid incidences theta_0 (deg).
+        Rigid incidences theta_0 (deg); a single number leaves no dimension of it.
     speed
         Two speeds V (m/s) or more, rising; an onset is looked for up to the last.
     density
@@ -133,6 +133,8 @@ def stability_map(
             numbers=modes,
         )
     data = map_of_body(flowing, list(angles), list(speeds))
+    if np.ndim(incidence_deg) == 0:
+        data = data.isel(incidence_deg=0)
     return data.assign_attrs(density=density, density_units="kg m-3")
 
 

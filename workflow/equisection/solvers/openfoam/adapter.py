@@ -27,6 +27,7 @@ from equisection.solvers.openfoam.installation import Installation, find
 from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.settings import Settings
 from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
+from equisection.solvers.verdicts import refused
 
 if TYPE_CHECKING:
     from equisection.solvers.openfoam.beam.rigid_beam import BeamCells, PlateFlow
@@ -295,6 +296,12 @@ class Adapter:
         _require_own_loads(case)  # before the steady flow, which takes long
         mesh = self._mesh(case)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
+        if case.start.equilibrium and kind is SectionRun:
+            # its height is known by now alone, and other cases of the sweep may have the room
+            try:
+                mesh.require_room()
+            except SolverError as error:
+                return refused(case.model_copy(update={"refusal": str(error)}))
         settings = self._settings
         run = kind(installation, case, mesh, settings.coupling, place, turbulence=settings.stream)
         _ = run.axes  # refuses what it does not have, the same

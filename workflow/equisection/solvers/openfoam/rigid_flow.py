@@ -81,11 +81,8 @@ class RigidFlowRecord:
 
     def is_known(self, loads: Loads) -> bool:
         """Tell whether the means of loads, without the time left out, are known."""
-        period = self.period(loads)
-        return (
-            loads.drift(self.floor, period) <= KNOWN
-            and loads.growth(self.floor, period) <= self.evenness
-        )
+        halves = loads.halves(self.period(loads))
+        return halves.drift(self.floor) <= KNOWN and halves.growth(self.floor) <= self.evenness
 
     def averaged(self, loads: Loads) -> Loads:
         """Return the part of loads, without the time left out, that their means are of."""
@@ -203,8 +200,9 @@ def method_of_mean(record: Loads, wanted: RigidFlowRecord) -> str:
     period = wanted.period(record)
     if period is not None:
         said += f"{round(length / period)} periods, "
-    said += f"its halves {100 * record.drift(wanted.floor, period):.2g} % apart"
-    growth = record.growth(wanted.floor, period)
+    halves = record.halves(period)
+    said += f"its halves {100 * halves.drift(wanted.floor):.2g} % apart"
+    growth = halves.growth(wanted.floor)
     if growth <= wanted.evenness:
         return said
     return f"{said}, its fluctuation {1 + growth:.2g} times as large in the second"

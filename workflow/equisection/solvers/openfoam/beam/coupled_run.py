@@ -78,9 +78,9 @@ class CoupledRun(MovingRun[CaseT, BeamCells], ABC):
         """Position of the modes at time 0."""
 
     @property
-    @abstractmethod
-    def held_twist_deg(self) -> float:
-        """Twist (deg) that the plate is held in until time 0."""
+    def is_held(self) -> bool:
+        """Tell whether the plate is held deformed until time 0."""
+        return bool(np.any(self.first_position))
 
     def start(self, tell: Tell) -> float:
         """Return the time that the run goes on from (c/V), and make its folder if there is none.
@@ -113,7 +113,7 @@ class CoupledRun(MovingRun[CaseT, BeamCells], ABC):
             self.work,
             self.turbulence,
         )
-        deform = self._deform if self.held_twist_deg else None
+        deform = self._deform if self.is_held else None
         source, _, converged = rigid.steady(self.before_release(tell), deform)
         if not converged:
             logger.info("the steady flow does not converge; the motion begins in its last state")
@@ -123,7 +123,7 @@ class CoupledRun(MovingRun[CaseT, BeamCells], ABC):
         """Make the folder of the run from the last state of a steady run of the same mesh."""
         folder = emptied(self.folder)
         copy_flow_of_all(source, folder)
-        write_lumped_motion(folder, self.points, names(), is_deformed=bool(self.held_twist_deg))
+        write_lumped_motion(folder, self.points, names(), is_deformed=self.is_held)
         mark_ready(folder)
 
     @property

@@ -69,11 +69,6 @@ class ForcedPlateRun(CoupledRun[ForcedCase]):
         """Position of the modes at time 0."""
         return self.position(0.0)
 
-    @property
-    def held_twist_deg(self) -> float:
-        """Mean twist of the first torsion mode where it is largest (deg)."""
-        return self.case.mean_twist_deg
-
     def position(self, time: float) -> Floats:
         """Return the position of the modes at a time (c/V), torsion modes first."""
         position, torsion = np.zeros(self.points.frequency.size), self.points.torsion_modes

@@ -2,7 +2,8 @@
 
 OpenFOAM moves the mesh and resolves the flow; the structure is solved here, on its modes
 (``motion.modal_response``), with loads and places exchanged over pipes. The run starts from the
-rigid steady flow, or that of the plate held in its first torsion mode (:mod:`.coupled_run`).
+rigid steady flow, or that of the plate held in its first torsion mode or in its static equilibrium
+(:mod:`.coupled_run`).
 """
 
 from __future__ import annotations
@@ -52,6 +53,7 @@ from equisection.solvers.verdicts import (
     judge,
     last_look,
     refused,
+    told_without_equilibrium,
 )
 from equisection.verdict.zigzag import zigzag_of
 
@@ -82,17 +84,13 @@ class PlateRun(CoupledRun[UnsteadyCase], FreeRun[BeamCells]):
     def release(self) -> tuple[Floats, Floats]:
         """Position and velocity of the modes at the release."""
         start = self.case.start
-        return self.points.release(math.radians(start.twist_deg), start.heave_rate)
+        pushed, velocity = self.points.release(math.radians(start.twist_deg), start.heave_rate)
+        return pushed + np.array(start.equilibrium or 0.0), velocity
 
     @property
     def first_position(self) -> Floats:
         """Position of the modes at the release."""
         return self.release[0]
-
-    @property
-    def held_twist_deg(self) -> float:
-        """Twist of the tip (deg) until the release."""
-        return self.case.start.twist_deg
 
     def history(self) -> PlateHistory:
         """Return the history so far."""
@@ -206,7 +204,7 @@ class PlateRun(CoupledRun[UnsteadyCase], FreeRun[BeamCells]):
         history = history.sampled(case.time_step, case.output_interval, end)
         tip = self.tip_motion(history)
         torsion = self.points.torsion_modes
-        return UnsteadyResult(
+        result = UnsteadyResult(
             time=history.time,
             twist=tip.twist,
             deflection=tip.deflection,
@@ -223,6 +221,8 @@ class PlateRun(CoupledRun[UnsteadyCase], FreeRun[BeamCells]):
             bending_loads=history.load[:, torsion:].T,
             loads_zigzag=zigzag_of(every_step.time, every_step.lift, every_step.moment),
         )
+        is_without = case.start.state == "equilibrium" and case.start.equilibrium is None
+        return told_without_equilibrium(result) if is_without else result
 
 
 class _Exchange:

@@ -156,6 +156,16 @@ class Mesh:
         high = 0.5 * abs(math.sin(incidence))
         return -high, high
 
+    def require_room(self) -> None:
+        """Refuse a channel that the turned near field does not fit into.
+
+        Raises
+        ------
+        SolverError
+            With the channel and the incidence.
+        """
+        self.points()
+
     def points(self) -> NDArray[np.float64]:
         """Return the crossings of the lines (chords), shape (6, 6, 2), by x and then y.
 

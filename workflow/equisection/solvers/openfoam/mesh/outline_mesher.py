@@ -61,7 +61,7 @@ def cells_of(mesh: OutlineMesh) -> PlaneCells:
     SolverError
         gmsh is missing.
     """
-    disc, circle = _disc(mesh)
+    disc, circle = disc_of(mesh)
     turned = disc.turned(-mesh.incidence)  # nose up is clockwise
     around = turned.points[circle]
     box = _box(mesh)
@@ -70,7 +70,7 @@ def cells_of(mesh: OutlineMesh) -> PlaneCells:
     return turned.joined(ring, common, circle)
 
 
-def _disc(mesh: OutlineMesh) -> tuple[PlaneCells, NDArray[np.int64]]:
+def disc_of(mesh: OutlineMesh) -> tuple[PlaneCells, NDArray[np.int64]]:
     """Return the cells around the body in its frame, and the points of their outer circle."""
     sizes, refinement, radius = mesh.sizes, mesh.refinement, mesh.disc_radius
     outline = np.array(mesh.outline)
@@ -170,7 +170,9 @@ def patches_of(channel: ChannelBox, first: Floats, last: Floats) -> NDArray[np.s
 
 def write_mesh(mesh: OutlineMesh, folder: Path) -> int:
     """Write the mesh into the folder of a case, and return its number of cells."""
-    return write_layer(folder, cells_of(mesh), PATCHES, lambda a, b: patches_of(mesh.channel, a, b))
+    return write_layer(
+        folder, [cells_of(mesh)], PATCHES, lambda a, b: patches_of(mesh.channel, a, b)
+    )
 
 
 def read_mesh(found: dict[str, Any]) -> OutlineMesh:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -73,18 +73,20 @@ def corner_areas(cells: PlaneCells) -> Floats:
     return np.asarray(cross.min(axis=1))
 
 
-def write_layer(folder: Path, cells: PlaneCells, patches: Mapping[str, str], of: PatchOf) -> int:
+def write_layer(
+    folder: Path, parts: Sequence[PlaneCells], patches: Mapping[str, str], of: PatchOf
+) -> int:
     """Write ``constant/polyMesh`` of one layer of cells of depth 1, and return their number.
 
-    Cells are in the order of reverse Cuthill-McKee, faces in that of OpenFOAM: inside by the lower
-    cell and then the higher one, then patch by patch.
+    Cells are part by part, in the order of reverse Cuthill-McKee; faces in that of OpenFOAM: inside
+    by the lower cell and then the higher one, then patch by patch.
 
     Parameters
     ----------
     folder
         Folder of the case.
-    cells
-        The cells.
+    parts
+        The cells, in parts that have no point in common.
     patches
         Names and types of the patches of the plane's boundary, in their order; ``sides`` come
         behind them.
@@ -96,19 +98,23 @@ def write_layer(folder: Path, cells: PlaneCells, patches: Mapping[str, str], of:
     SolverError
         Cells overlap, or an edge is on no patch.
     """
-    corners = ordered(cells.corners)
+    points = np.concatenate([part.points for part in parts])
+    before = np.cumsum([0, *(len(part.points) for part in parts)])
+    corners = np.concatenate(
+        [ordered(part.corners) + own for part, own in zip(parts, before[:-1], strict=True)]
+    )
     inside, boundary = edges_of(corners)
-    shift = len(cells.points)
+    shift = len(points)
 
     def upright(edge: Indices) -> Indices:
         a, b = edge.T
         return np.stack([a, b, b + shift, a + shift], axis=-1)
 
     owner, ends = boundary[:, 0], boundary[:, 1:]
-    names = of(cells.points[ends[:, 0]], cells.points[ends[:, 1]])
+    names = of(points[ends[:, 0]], points[ends[:, 1]])
     unknown = ~np.isin(names, list(patches))
     if unknown.any():
-        x, y = cells.points[ends[unknown][0, 0]]
+        x, y = points[ends[unknown][0, 0]]
         raise SolverError(f"the mesh has a gap at x = {x:.4g} c, y = {y:.4g} c")
     groups = [(upright(inside[:, 2:]), inside[:, 0])]
     places, start = [], len(inside)
@@ -122,8 +128,8 @@ def write_layer(folder: Path, cells: PlaneCells, patches: Mapping[str, str], of:
     places.append(("sides", "empty", 2 * len(corners), start))
     faces = np.concatenate([faces for faces, _ in groups])
     owners = np.concatenate([owners for _, owners in groups])
-    points = np.concatenate([np.c_[cells.points, np.full(shift, plane)] for plane in _PLANES])
-    write_faces(folder, points, faces, (owners, inside[:, 1]), places)
+    both = np.concatenate([np.c_[points, np.full(shift, plane)] for plane in _PLANES])
+    write_faces(folder, both, faces, (owners, inside[:, 1]), places)
     return len(corners)
 
 

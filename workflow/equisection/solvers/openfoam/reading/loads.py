@@ -22,6 +22,8 @@ BEYOND_REASON = 1e3
 FLOOR = 0.02
 #: Samples of an impulsive start.
 _IMPULSIVE = 20
+#: Part of a period that may lack of the last one, since a frequency is known no better.
+_SHORT_OF_WHOLE = 0.02
 
 
 @dataclass(frozen=True)
@@ -73,47 +75,58 @@ class Loads:
         """
         if period is None:
             return self
-        step = self._step
-        periods = math.floor((self.time[-1] - self.time[0] + step) / period * (1 + 1e-9))
-        return self.last(round(periods * period / step))
+        return self.last(self._whole(self.time.size, period))
 
-    def halves(self, period: float | None = None) -> tuple[Loads, Loads]:
+    def halves(self, period: float | None = None) -> Halves:
         """Return the first and the last part of a length.
 
         It is half the length, or the most whole periods (c/V) that fit into half of it.
         """
         half = self.time.size // 2
         if period is None:
-            return self.first(half), self.last(self.time.size - half)
-        periods = math.floor(half * self._step / period * (1 + 1e-9))
-        samples = round(periods * period / self._step)
-        return self.first(samples), self.last(samples)
+            return Halves(self.first(half), self.last(self.time.size - half), self)
+        samples = self._whole(half, period)
+        return Halves(self.first(samples), self.last(samples), self)
+
+    def _whole(self, samples: int, period: float) -> int:
+        """Return the samples of the most whole periods (c/V) in a number of samples.
+
+        A period that lacks less than :data:`_SHORT_OF_WHOLE` of itself counts as whole.
+        """
+        periods = math.floor(samples * self._step / period + _SHORT_OF_WHOLE)
+        return min(round(periods * period / self._step), samples)
 
     @property
     def _step(self) -> float:
         return float(self.time[1] - self.time[0])
 
-    def drift(self, floor: float = FLOOR, period: float | None = None) -> float:
-        """Return the largest difference of the means of both halves relative to the mean.
 
-        A mean counts as ``floor`` at least. The halves are whole periods (c/V) of a flow that has
-        one.
+@dataclass(frozen=True)
+class Halves:
+    """First and last part of a record of loads, of one length, and the whole record."""
+
+    first: Loads
+    last: Loads
+    whole: Loads
+
+    def drift(self, floor: float = FLOOR) -> float:
+        """Return the largest difference of the means of both relative to that of the whole.
+
+        A mean counts as ``floor`` at least.
         """
-        before, after = self.halves(period)
         return max(
             abs(later - earlier) / max(abs(mean), floor)
             for earlier, later, mean in zip(
-                before.means(), after.means(), self.means(), strict=True
+                self.first.means(), self.last.means(), self.whole.means(), strict=True
             )
         )
 
-    def growth(self, floor: float = FLOOR, period: float | None = None) -> float:
-        """Return the growth of the lift's fluctuation from the first half to the second.
+    def growth(self, floor: float = FLOOR) -> float:
+        """Return the growth of the lift's fluctuation from the first to the last.
 
-        A root mean square below a thousandth of ``floor`` in the second half has none.
+        A root mean square below a thousandth of ``floor`` in the last has none.
         """
-        first, last = self.halves(period)
-        before, after = float(first.lift.std()), float(last.lift.std())
+        before, after = float(self.first.lift.std()), float(self.last.lift.std())
         if after < 1e-3 * floor:
             return 0.0
         return after / before - 1.0 if before > 0 else np.inf

@@ -31,7 +31,6 @@ from equisection.solvers.openfoam.case_folder import (
 )
 from equisection.solvers.openfoam.dictionaries import control, write_system
 from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
-from equisection.solvers.openfoam.mesh.block_mesh import Mesh
 from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
 from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
 from equisection.solvers.openfoam.reading.loads import (
@@ -133,6 +132,7 @@ class SectionRun(FreeRun[SectionCells]):
                 self.write_system(self.folder)
                 run_program(self.installation, "pimpleFoam", self.folder, self._watch(start, tell))
                 require_reasonable(read_loads(self.folder), self.folder)
+                self.require_room(self.history())
         except BlowUpError as error:
             failure = str(error)
             if not is_ready(self.folder) or not has_loads(self.folder):
@@ -151,6 +151,12 @@ class SectionRun(FreeRun[SectionCells]):
         history = _from_release(self.folder, self.history(), self.case, self.case.duration)
         return math.isfinite(decided_at(self.case, _tip(self.case.section, history)))
 
+    def mesh_fault_at(self, so_far: SectionHistory, sample: int) -> str:
+        """Return the fault of the mesh at a sample of a history, or ''."""
+        twist, deflection = so_far.twist[sample], so_far.deflection[sample]
+        _, height = self.axes.mid_chord_places(twist, deflection)
+        return self.mesh_fault(float(twist) - self.axes.start_twist, float(height))
+
     def _where(self, so_far: SectionHistory) -> str:
         """Return where the section was when the flow blew up, and what the mesh has to do with it.
 
@@ -161,9 +167,8 @@ class SectionRun(FreeRun[SectionCells]):
             f"after {so_far.time[-1]:g} c/V, at a twist of {math.degrees(twist):.3g} deg and a "
             f"deflection of {deflection:.3g} c"
         )
-        _, height = self.axes.mid_chord_places(so_far.twist[-1], so_far.deflection[-1])
         try:
-            fault = self.mesh_fault(twist - self.axes.start_twist, float(height))
+            fault = self.mesh_fault_at(so_far, -1)
         except SolverError as error:
             # the run has its result, whatever becomes of the search for its cause
             logger.warning("the mesh at its end was not checked: %s", error)
@@ -182,8 +187,10 @@ class SectionRun(FreeRun[SectionCells]):
             faults = f"a face is {quality.non_orthogonality_deg:.0f} deg oblique"
         if not faults:
             return ""
-        further = "; openfoam.mesh_motion: overset goes further"
-        return f"the mesh has tangled ({faults}){further if isinstance(self.mesh, Mesh) else ''}"
+        return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
+
+    def require_room(self, so_far: SectionHistory) -> None:
+        """Refuse a motion that the mesh cannot follow; one that morphs tangles by itself."""
 
     def _watch(self, start: float, tell: Tell) -> Watch:
         case, due, iterations = self.case, Every(LOOKS_EVERY, last_look(start)), IterationsCheck()
@@ -195,6 +202,7 @@ class SectionRun(FreeRun[SectionCells]):
             loads = read_loads(self.folder)
             require_reasonable(loads, self.folder)
             so_far = self.history(loads)
+            self.require_room(so_far)
             iterations.look(so_far.time, so_far.lift, so_far.moment)
             history = so_far.sampled(case.time_step, case.output_interval, last_look(time))
             return is_decided(case, _tip(case.section, history))

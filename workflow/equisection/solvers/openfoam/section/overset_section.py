@@ -29,17 +29,28 @@ from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.case_folder import emptied
 from equisection.solvers.openfoam.dictionaries import control, dictionary, write_system
 from equisection.solvers.openfoam.free_run import STATE_INTERVAL
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
+from equisection.solvers.openfoam.mesh.outline_overset_mesh import OutlineOversetMesh
 from equisection.solvers.openfoam.mesh.overset_mesh import OVERSET, OversetMesh
+from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.reading.loads import Loads
-from equisection.solvers.openfoam.rigid_flow import MOST, Tell
+from equisection.solvers.openfoam.rigid_flow import (
+    MOST,
+    Tell,
+    has_converged,
+    has_converged_around_outline,
+)
 from equisection.solvers.openfoam.section.free_section import SectionRun
-from equisection.solvers.openfoam.section.rigid_section import iterate, make_mesh
+from equisection.solvers.openfoam.section.rigid_section import check_mesh, iterate, make_mesh
 from equisection.solvers.openfoam.section.section_history import SectionHistory, read_section
 from equisection.solvers.openfoam.section.section_motion import (
     BodyMotion,
     rigid_body,
     write_displacement,
 )
+
+#: Meshes that lie above each other, around the plate or around any outline.
+OverlappingMeshes = OversetMesh | OutlineOversetMesh
 
 #: Edge of the boxes in which the library looks for the other mesh (chords): those that the plate
 #: touches are its hole.
@@ -61,19 +72,20 @@ class OversetRun(SectionRun):
     """The run of one case on the meshes that lie above each other."""
 
     @property
-    def meshes(self) -> OversetMesh:
+    def meshes(self) -> OverlappingMeshes:
         """Both meshes, as fine as the one that morphs."""
-        return OversetMesh(self.mesh.channel, self.mesh.incidence, self.mesh.refinement)
+        mesh = self.mesh
+        if isinstance(mesh, OutlineMesh):
+            return OutlineOversetMesh(mesh)
+        return OversetMesh(mesh.channel, mesh.incidence, mesh.refinement)
 
     def steady(self, tell: Tell) -> tuple[Path, Loads, bool]:
         """Run the steady solver on the same meshes."""
         folder = emptied(self.work / "steady")
         meshes, case = self.meshes, self.case
-        write_text(folder / "system" / "blockMeshDict", meshes.block_mesh_dict())
         ends = {**flow.IN_THE_PLANE, OVERSET: OVERSET}
         reynolds = flow.reynolds_number(case.geometry, case.medium)
         flow.write_flow(folder, reynolds, ends, self.turbulence)
-        write_text(folder / "0" / "zoneID", _zones(meshes))
         at_rest = {"dynamicFvMesh": "dynamicOversetFvMesh", "solvers": {}}
         write_text(folder / "constant" / "dynamicMeshDict", dictionary("dynamicMeshDict", at_rest))
         entries = control("simpleFoam", MOST, 1, MOST)
@@ -86,8 +98,17 @@ class OversetRun(SectionRun):
             "equations": {"U": 0.7, "k": 0.7, "omega": 0.7},
         }
         write_system(folder, entries, _overlapping(flow.schemes(steady=True), meshes), solution)
-        make_mesh(self.installation, folder)
-        return iterate(self.installation, "overSimpleFoam", folder, tell)
+        is_converged = has_converged
+        if isinstance(meshes, OutlineOversetMesh):
+            cells = meshes.write(folder)
+            check_mesh(self.installation, folder)
+            is_converged = has_converged_around_outline
+        else:
+            write_text(folder / "system" / "blockMeshDict", meshes.block_mesh_dict())
+            make_mesh(self.installation, folder)
+            cells = meshes.cells
+        write_text(folder / "0" / "zoneID", _zones(meshes.background_cells, cells))
+        return iterate(self.installation, "overSimpleFoam", folder, tell, is_converged)
 
     def write_motion(self, folder: Path) -> None:
         """Write the dictionary that moves the section and its mesh."""
@@ -121,11 +142,29 @@ class OversetRun(SectionRun):
         )
 
     def mesh_fault(self, rotation: float, height: float) -> str:
-        """Return the fault of the plate's mesh where it has left the channel, else ''."""
+        """Return the fault of the section's mesh where it has left the channel, else ''."""
         reach, half = self.meshes.reach(rotation, height), self.mesh.channel.height / 2
         if reach < half:
             return ""
-        return f"the plate's mesh reaches {reach:.3g} c off the middle of a channel of {half:g} c"
+        return f"the section's mesh reaches {reach:.3g} c off the middle of a channel of {half:g} c"
+
+    def require_room(self, so_far: SectionHistory) -> None:
+        """Refuse a motion in which the section's mesh has left the channel.
+
+        What is beyond it takes no values from the channel's mesh, and the loads are wrong.
+
+        Raises
+        ------
+        BlowUpError
+            With the reach.
+        """
+        if not so_far.time.size:
+            return
+        motion = so_far.deflection, so_far.twist
+        furthest = {int(find(values)) for values in motion for find in (np.argmin, np.argmax)}
+        for sample in sorted(furthest):
+            if fault := self.mesh_fault_at(so_far, sample):
+                raise BlowUpError(f"at {so_far.time[sample]:g} c/V {fault}")
 
     def history(self, loads: Loads | None = None) -> SectionHistory:
         """Return the history so far, its motion from the log."""
@@ -163,13 +202,13 @@ def read_motion(folder: Path) -> BodyMotion:
     return BodyMotion(np.array(list(rows)), values[:, 0], values[:, 1])
 
 
-def _zones(meshes: OversetMesh) -> str:
-    """Return the field by which the library knows the meshes apart."""
-    zones = ["0"] * meshes.background_cells + ["1"] * meshes.component_cells
+def _zones(background: int, cells: int) -> str:
+    """Return the field by which the library knows the meshes apart, the background first."""
+    zones = ["0"] * background + ["1"] * (cells - background)
     mirror, beside = {"type": "symmetryPlane"}, {"type": "zeroGradient"}
     entries = {
         "dimensions": "[0 0 0 0 0 0 0]",
-        "internalField": f"nonuniform List<scalar> {meshes.cells} ({' '.join(zones)})",
+        "internalField": f"nonuniform List<scalar> {cells} ({' '.join(zones)})",
         "boundaryField": {
             OVERSET: {"type": OVERSET, "value": "uniform 1"},
             "floor": mirror,
@@ -181,7 +220,7 @@ def _zones(meshes: OversetMesh) -> str:
     return dictionary("zoneID", entries, "volScalarField")
 
 
-def _overlapping(schemes: dict[str, Any], meshes: OversetMesh) -> dict[str, Any]:
+def _overlapping(schemes: dict[str, Any], meshes: OverlappingMeshes) -> dict[str, Any]:
     """Return schemes with those of the overlap.
 
     ``inverseDistance`` finds the same stencil and the same loads, but searches for it anew each
