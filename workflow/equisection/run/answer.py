@@ -191,7 +191,7 @@ def _inside(run: Path, chosen: Mapping[str, Any]) -> dict[str, int]:
             counts = {
                 what: len(row.get(column, "").split()) for column, what in _WITHOUT_VERDICT.items()
             }
-            return {what: number for what, number in counts.items() if number}
+            return {what: many for what, many in counts.items() if many}
     return {}
 
 
