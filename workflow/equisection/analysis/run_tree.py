@@ -98,7 +98,7 @@ def open_run(folder: Path | str) -> xr.DataTree:
     indices = sorted((folder / "unsteady").glob("*/*.json"))
     for index in indices:
         require_as_made(folder, index, made)
-    histories = _histories(indices, float(configuration["flow"]["incidence_deg"]))
+    histories = _histories(folder, indices, float(configuration["flow"]["incidence_deg"]))
     if histories is not None:
         nodes["/histories"] = histories
     for kind in TABLES:
@@ -176,7 +176,7 @@ def _incidence(attributes: Mapping[str, Any]) -> float:
     return float(json.loads(case)["incidence_deg"]) if case else math.nan
 
 
-def _histories(indices: Iterable[Path], incidence_deg: float) -> xr.Dataset | None:
+def _histories(folder: Path, indices: Iterable[Path], incidence_deg: float) -> xr.Dataset | None:
     """Return the histories of all cases on common axes; None of a run without any."""
     cases = list(_cases(indices, incidence_deg))
     if not cases:
