@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 
 #: Seconds after which what is waited for will not come any more, on a machine that is busy too.
-LONG = 600.0
+LONG = 3600.0
 
 
 def wait_until(condition: Callable[[], object]) -> None:

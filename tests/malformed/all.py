@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
-from tests.malformed import configurations, derivatives, histories, outlines, polars
+from tests.malformed import commands, configurations, derivatives, histories, outlines, polars
 from tests.malformed.given import Malformed, answered
 
 Look = Callable[[Malformed, Path], tuple[str, str]]
@@ -18,6 +18,7 @@ KINDS: dict[str, tuple[list[Malformed], Look]] = {
         partial(answered, config=derivatives.CONFIG),
     ),
     "histories": (histories.histories(), histories.read),
+    "command lines": (commands.calls(), commands.ran),
 }
 
 
@@ -31,7 +32,8 @@ def sound() -> dict[str, tuple[Malformed, Look]]:
     found["airfoil"] = (outlines.airfoil(outlines.airfoil_points()), "mine.dat", "outlines")
     found["derivatives"] = (derivatives.text(), "mine.csv", "tables of derivatives")
     found["history"] = (histories.text(histories.GOOD, ","), "mine.txt", "histories")
-    return {
+    inputs = {
         what: (Malformed("nothing", name, text.encode(), name), KINDS[kind][1])
         for what, (text, name, kind) in found.items()
     }
+    return inputs | {one.what: (one, commands.ran) for one in commands.sound()}

@@ -65,6 +65,64 @@ MISSPELT = (
     *("sweep.k-star", "sweep.kstar", "steady.incidence", "unsteady.dt", "embedded.polar", "solvr"),
     *("openfoam.mesh", "given.history", "rom.learn", "forced.runs", "structure.elements.chords"),
 )
+#: Sections that a key needs around it, so that it is the one thing that is wrong.
+GIVEN = "solver: given\nsteady: {resolution: own}\n"
+GIVEN_POLARS = "polars: {own: own.csv}"
+SECTION = (
+    "cross_section: {bending_rigidity: 60, torsional_rigidity: 25, mass_per_length: 1.2, "
+    "inertia_per_length: 0.006}"
+)
+#: Values that are none of these keys', by the key.
+NO_VALUES = {
+    "forced.motion": ("sine", "5"),
+    "forced.reduced_velocity": ("[4, 3, 6, 8]", "[3]", "4", "[0, 1, 2, 3]", "[3, 3.01, 5, 7]"),
+    "forced.amplitude_deg": ("0", "25", "1:30"),
+    "forced.periods": ("1", "2.5"),
+    "forced.settling": ("0", "1e300"),
+    "forced.twist_deg": ("90", "5 deg"),
+    "forced.beam_modes": ("-1", "13", "1.5"),
+    "forced.run": ("maybe", "[true]"),
+    "given.columns.time": ("''", "[t]"),
+    "given.columns.speed": ("v",),
+    "given.units.time": ("min", "S"),
+    "given.units.lift": ("kN",),
+    "given.signs.twist": ("0", "2", "up"),
+    "given.span": ("0", "1e30"),
+    "given.moment_axis": ("1.5", "quarter"),
+    "given.release": ("nan", "now"),
+    "given.basis": ("guess",),
+    "given.polars": ("a.csv", "{'a b': x}", "{a: ''}"),
+    "rom.confirm": ("1", "3", "-2", "[]", "[4, 4]", "[0]", "two", "2.5", "{a: 1}"),
+    "rom.learn_from": ("5", "[]", "[4, 5, 6]", "[4, 4]", "[0]", "never"),
+    "openfoam.turbulence": ("k-epsilon", "SST", "true"),
+    "openfoam.turbulence_intensity": ("0", "5", "5 %", ".nan"),
+    "openfoam.viscosity_ratio": ("0", "1e6", "ten"),
+    "openfoam.turbulence_intensty": ("0.1",),
+    "openfoam.inlet": ("5",),
+    "openfoam.mesher": ("snappy",),
+    "openfoam.far_field_chords": ("1", "'30 c'"),
+    "openfoam.meshes": ("{}", "{a: huge}", "coarse"),
+    "unsteady.start": ("5", "rigid", "{state: moving}", "{state: equilibrium}", "{twist: 1}"),
+    "unsteady.start.twist_deg": ("90", "0.01", "-10", "1 deg"),
+    "unsteady.start.heave_rate": ("1", "-1", "fast", ".nan"),
+    "steady.beam_polar_section": ("own.csv", "[a]", "5"),
+    "derivatives.table": ("none.csv", "[a]", "."),
+}
+#: Shapes that ``beam.outline`` is none of.
+NO_SHAPES = (
+    *("{}", "5", "naca0012", "[0012]", "{circle: 1}", "{naca: '0012', file: a.csv}"),
+    *("{naca: 12}", "{naca: 0012}", "{naca: '00x2'}", "{naca: '0000'}", "{naca: 'NACA0012'}"),
+    *("{naca: '23012'}", "{naca: '٠٠١٢'}", "{naca: '00１２'}", "{naca: true}"),
+    *("{rectangle: {edge_radius: 1}}", "{rectangle: {thickness: 0}}", "{rectangle: 5}"),
+    *("{rectangle: {height: 1}}", "{naca: '0012', chord: 1}", "{naca: '0012', axis: [0, 0]}"),
+    *("{file: none.csv}", "{file: .}", "{file: [a]}", "{file: a.csv, axis: [1]}"),
+    *("{file: a.csv, axis: tube}", "{file: a.csv, chord: 0}"),
+)
+#: Paths of forced motions that name no file, or none that there is.
+NO_MOTIONS = (
+    *("''", "data/{cas}.csv", "data/{case.csv", "data/case}.csv", "data/{model}.csv", "{}"),
+    *("data/{k_star}/{case}.csv", "data/{0}.csv", "{case!r}.csv"),
+)
 MOST = "more than 10000 keys and values"
 
 
@@ -92,8 +150,27 @@ def _texts() -> Iterator[tuple[str, str, str]]:
         yield f"{key} is {value}", _nested(key, value), key + place_below
     for key in MISSPELT:
         yield f"misspelt {key}", _nested(key, "5"), key
+    for key, values in NO_VALUES.items():
+        for value in values:
+            yield f"{key} is {value}", _nested(key, value), key
     for key in ("on", "No", "~", "010", "1.5", "2024-01-31"):
         yield f"key {key}", f"beam: {{{key}: 1}}\n", f"beam.{key}"
+
+
+def _together() -> Iterator[tuple[str, str, str]]:
+    """Give keys that are wrong together with others."""
+    for shape in NO_SHAPES:
+        text = f"structure: {{method: beam}}\nbeam:\n  {SECTION}\n  outline: {shape}\n"
+        yield f"beam.outline is {shape}", text, "beam.outline"
+    for path in NO_MOTIONS:
+        quoted = path if path == "''" else f"'{path}'"
+        text = f"{GIVEN}forced: {{run: true}}\ngiven: {{{GIVEN_POLARS}, forced: {quoted}}}\n"
+        yield f"given.forced is {path}", text, "given.forced"
+    path = "forced: 'data/{case}.csv'"
+    modes = f"{GIVEN}forced: {{run: true, beam_modes: 1}}\ngiven: {{{GIVEN_POLARS}, {path}}}\n"
+    yield "modes of a beam that nobody recorded", modes, "forced.beam_modes"
+    laminar = "openfoam: {turbulence: laminar, mesh_motion: overset}\n"
+    yield "laminar flow above an overset mesh", laminar, "openfoam.turbulence"
 
 
 def _bytes() -> Iterator[tuple[str, str | bytes, str]]:
@@ -140,7 +217,7 @@ def configurations() -> list[Malformed]:
     """Return the malformed configurations."""
     found = [
         Malformed(what, "mine.yaml", text.encode(), f"config: {key}")
-        for what, text, key in _texts()
+        for what, text, key in (*_texts(), *_together())
     ]
     for what, content, named in _bytes():
         text = content.encode() if isinstance(content, str) else content

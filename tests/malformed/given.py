@@ -44,6 +44,7 @@ class Malformed:
     def write(self, folder: Path) -> Path:
         """Write it with its further files; return its path."""
         for name, content in self.further.items():
+            (folder / name).parent.mkdir(parents=True, exist_ok=True)
             (folder / name).write_bytes(content)
         path = folder / self.file
         if self.content is not None:

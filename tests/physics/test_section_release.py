@@ -94,6 +94,9 @@ def test_everything_has_units_and_can_be_written(tmp_path: Path):
         ({"density": -1.0}, "density is -1.0"),
         ({"incidence_deg": math.nan}, "incidence_deg is nan"),
         ({"duration": 0.5}, "duration is 0.5; wanted 1 c/V or more"),
+        ({"speed": 1e-300}, "speed is 1e-300; wanted a number above 0"),
+        ({"speed": 1e-17}, "duration is 400; wanted up to .*, 10,000,000 time steps"),
+        ({"start_heave_rate": 1e300}, r"wanted a number \(over V\) from -1 to 1"),
     ],
 )
 def test_arguments_that_make_no_sense_are_refused(changes, words):

@@ -292,6 +292,7 @@ def test_lists_make_dimensions_and_everything_has_units():
     ("changes", "words"),
     [
         ({"speed": 0.0}, r"speed is 0\.0; wanted numbers above 0 \(m/s\)"),
+        ({"speed": [10.0, 1e300]}, "wanted numbers from 1e-18 to 1e.18"),
         ({"speed": [10.0, -1.0]}, "speed is"),
         ({"speed": []}, "speed is"),
         ({"speed": "fast"}, "speed is 'fast'"),

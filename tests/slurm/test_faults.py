@@ -16,7 +16,7 @@ import pandas as pd
 import pytest
 
 from equisection.results.netcdf import read_dataset
-from tests.processes import wait_until
+from tests.processes import LONG, wait_until
 from tests.slurm.cluster_project import ClusterProject
 from tests.slurm.conftest import RESULT
 from tests.slurm.node import AS_ROOT, Node, said
@@ -72,7 +72,7 @@ def starts(project: Project) -> list[float]:
 
 
 def ends_well(workflow: subprocess.Popen[str]) -> str:
-    said_by_it, _ = workflow.communicate(timeout=1200)
+    said_by_it, _ = workflow.communicate(timeout=LONG)
     assert workflow.returncode == 0, said_by_it
     return said_by_it
 
@@ -95,7 +95,7 @@ def test_case_that_is_cancelled_is_told_and_goes_on_at_the_next_start(
 ) -> None:
     workflow, job = begun("--retries=0")
     subprocess.run(["scancel", job], check=True)
-    told, _ = workflow.communicate(timeout=1200)
+    told, _ = workflow.communicate(timeout=LONG)
     assert workflow.returncode == 1
     assert f"SLURM-job '{job}' failed, SLURM status is: 'CANCELLED'" in told
     assert not (case.results / RESULT).exists()

@@ -15,6 +15,7 @@ from tests.conftest import ROOT
 from equisection.run import launch, starter
 from equisection.run.answer import answer_of
 from equisection.run.command_line import main
+from equisection.store.made_from import write_record
 
 HEADER = (
     "model,incidence_deg,speed,speed_low,speed_high,mechanism,frequency_hz,k_star,margin,basis,"
@@ -181,6 +182,17 @@ class TestOnset:
         (run / "comparison" / "critical_speed.csv").write_text(text)
         assert main(["onset", str(run)]) == 1
         assert "critical_speed.csv: " in capsys.readouterr().err
+
+    def test_a_table_that_was_edited_is_no_answer(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        run = run_with(tmp_path / "run", "3d,1,25,24,26,flutter,2,1,1.2,time,,,")
+        table = run / "comparison" / "critical_speed.csv"
+        write_record(run / "logs" / "job.log", [], [table])
+        assert main(["onset", str(run)]) == 0
+        table.write_text(table.read_text().replace("24", "23"))
+        assert main(["onset", str(run)]) == 1
+        assert "critical_speed.csv: edited since its job made it" in capsys.readouterr().err
 
     def test_a_run_without_an_answer_says_where_to_look(
         self, tmp_path: Path, capsys: pytest.CaptureFixture[str]

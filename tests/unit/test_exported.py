@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 import shutil
 from pathlib import Path
 from typing import Any
@@ -281,15 +282,23 @@ def test_a_model_of_a_beam_has_its_prediction_without_a_polar_of_the_section(
     assert growth["growth_rate"].tolist() == [0.1, -0.1]
 
 
-@pytest.mark.parametrize("content", [b"", b'a,b\n1,2,3,4\n5\n"', b"\xff\xfe"], ids=repr)
+@pytest.mark.parametrize(
+    ("content", "why"),
+    [
+        (b"", ": no table"),
+        (b'a,b\n1,2,3,4\n5\n"', ", line 1: the first column is 'a'"),
+        (b"\xff\xfe", ": cannot be read"),
+    ],
+    ids=repr,
+)
 def test_a_broken_table_is_named(
-    run: Path, content: bytes, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    run: Path, content: bytes, why: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     copy = tmp_path / "run"
     shutil.copytree(run, copy)
     (copy / "derivatives" / "2d.csv").write_bytes(content)
     assert main(["export", str(copy), "--only", "derivatives"]) == 1
-    assert f"{copy / 'derivatives' / '2d.csv'}: cannot be read" in capsys.readouterr().err
+    assert f"{copy / 'derivatives' / '2d.csv'}{why}" in capsys.readouterr().err
 
 
 def test_a_configuration_without_a_key_that_is_needed_is_named(
@@ -303,18 +312,26 @@ def test_a_configuration_without_a_key_that_is_needed_is_named(
     assert "config.resolved.yaml: no key flow.sound_speed" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("value", ["fast", None, [9.0]], ids=repr)
+@pytest.mark.parametrize(
+    ("value", "what"),
+    [
+        ("fast", "'fast' is no number"),
+        (None, "null is no number"),
+        ([9.5], "[9.5] is no number"),
+        (math.nan, ".nan is no number"),
+        (0.0, "0 is not above 0"),
+    ],
+    ids=repr,
+)
 def test_a_configuration_with_a_word_for_a_number_is_named(
-    run: Path, value: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    run: Path, value: Any, what: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     copy = tmp_path / "run"
     shutil.copytree(run, copy)
     flow = {**CONFIGURATION["flow"], "sound_speed": value}
     (copy / "config.resolved.yaml").write_text(yaml.safe_dump({**CONFIGURATION, "flow": flow}))
     assert main(["export", str(copy), "--only", "openfast"]) == 1
-    assert (
-        f"config.resolved.yaml: flow.sound_speed: {value!r} is no number" in capsys.readouterr().err
-    )
+    assert f"config.resolved.yaml: flow.sound_speed: {what}" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

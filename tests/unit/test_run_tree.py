@@ -16,6 +16,7 @@ from equisection.config import load_config
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_attributes, read_dataset
 from equisection.store.index import write_index
+from equisection.store.made_from import write_record
 
 KEPT = ROOT / "results/reference"
 #: Cases by their places in a run; the two models have other intervals of output and other ends.
@@ -148,3 +149,12 @@ def test_what_is_broken_is_named_in_one_line(
     with pytest.raises(ResultFileError, match=words) as caught:
         open_run(run)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["comparison/summary.csv", "unsteady/2d/sweep.json"])
+def test_what_was_edited_since_its_job_made_it_is_refused(name: str, run: Path) -> None:
+    write_record(run / "logs" / "job.log", [], [run / name])
+    open_run(run)
+    (run / name).write_text((run / name).read_text().replace("5", "6"))
+    with pytest.raises(ResultFileError, match=rf"{name}: edited since its job made it"):
+        open_run(run)

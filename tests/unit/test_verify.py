@@ -212,3 +212,21 @@ def test_what_a_run_has_made_is_checked_at_its_end(run: Path) -> None:
     lines = verify_made(run, 0.0)
     assert any(line.startswith("broken") and RESULT in line for line in lines)
     assert any(line.startswith("foreign") and SUMMARY in line for line in lines)
+
+
+def test_broken_file_that_nothing_of_the_run_names_is_found(run: Path) -> None:
+    for name in ("stray.nc", ".tmp-written-now.nc"):
+        (run / "unsteady" / "2d" / name).write_bytes(b"no NetCDF")
+    faults = verify_run(run).faults
+    assert list(faults) == ["unsteady/2d/stray.nc"]
+    assert faults["unsteady/2d/stray.nc"][0] == Fault.BROKEN
+
+
+@pytest.mark.parametrize("name", [CASES, INDEX, "provenance/unsteady_2d_sweep.json"])
+def test_json_that_is_nested_without_end_is_one_broken_file(
+    name: str, run: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (run / name).write_text("[" * 100_000)
+    assert main(["verify", str(run)]) == 1
+    assert f"broken  beam/{name}: " in capsys.readouterr().out
+    assert main(["status", str(run)]) == 0

@@ -12,6 +12,8 @@ from typing import Any
 
 import yaml
 
+from tests.processes import LONG
+
 ROOT = Path(__file__).parents[2]
 #: What a clone holds that a run needs.
 PARTS = ("Snakefile", "config", "envs", "scripts", "workflow")
@@ -115,7 +117,7 @@ class Project:
             stderr=subprocess.STDOUT,
             text=True,
             check=False,
-            timeout=1800,
+            timeout=LONG,
         )
 
     def run(self, *arguments: str) -> str:

@@ -11,6 +11,7 @@ import pytest
 import yaml
 
 from equisection.cases import read_cases
+from tests.processes import LONG
 from tests.workflow.project import ROOT, Project, has_nothing_to_do, jobs_planned, small
 
 SWEEP = {"k_star": [6.0, 10.0], "models": ["2d"]}
@@ -37,7 +38,7 @@ def snakemake(
         stderr=subprocess.STDOUT,
         text=True,
         check=False,
-        timeout=600,
+        timeout=LONG,
     )
 
 

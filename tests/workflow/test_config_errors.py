@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 import yaml
 
+from tests.processes import LONG
+
 pytestmark = pytest.mark.workflow
 
 ROOT = Path(__file__).parents[2]
@@ -41,7 +43,7 @@ def snakemake(place, *arguments):
         capture_output=True,
         text=True,
         check=False,
-        timeout=120,
+        timeout=LONG,
         env={**os.environ, "PYTHONWARNINGS": "ignore"},
     )
 

@@ -9,6 +9,7 @@ import psutil
 import pytest
 import xarray as xr
 
+from tests.processes import LONG
 from tests.workflow.project import Project, has_nothing_to_do, small
 
 SUMMARY = "comparison/summary.csv"
@@ -33,7 +34,7 @@ def kill_family(run: subprocess.Popen[str]) -> None:
     family = psutil.Process(run.pid).children(recursive=True)
     os.killpg(run.pid, signal.SIGKILL)
     run.communicate()
-    survivors = psutil.wait_procs(family, timeout=60)[1]
+    survivors = psutil.wait_procs(family, timeout=LONG)[1]
     assert not survivors, f"the kill left {survivors} running"
 
 

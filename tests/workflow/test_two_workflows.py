@@ -8,7 +8,7 @@ import pytest
 from equisection.config.groups.openfoam_keys import PREFIX_VARIABLE
 from equisection.results.netcdf import read_dataset
 from tests.conftest import ROOT
-from tests.processes import wait_until
+from tests.processes import LONG, wait_until
 from tests.workflow.project import Project, small
 
 RESULT = "unsteady/2d/k5.nc"
@@ -43,7 +43,7 @@ def test_second_waits_for_the_first_and_takes_its_result(
     )
     tmp_path.joinpath("held.go").touch()
     for workflow in (ahead, behind):
-        said, _ = workflow.communicate(timeout=1200)
+        said, _ = workflow.communicate(timeout=LONG)
         assert workflow.returncode == 0, said
     assert "runs this case; waiting for its result" in said
     assert "Unlock" in second.run("--unlock")

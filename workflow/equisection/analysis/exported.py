@@ -14,18 +14,21 @@ import numpy as np
 import pandas as pd
 import xarray as xr
 
+from equisection.aerodynamics.generalised_forces import GeneralisedForces
 from equisection.aerodynamics.polar import Polar
 from equisection.analysis.exported_run import ExportedFile, ExportedRun
 from equisection.analysis.learnt_file import export, is_of_strips, require_model
 from equisection.beam.section import QUANTITIES, Section
-from equisection.errors import ResultFileError
+from equisection.errors import DerivativesFileError, ResultFileError
 from equisection.io.aerodyn_polar import aerodyn_text
+from equisection.io.derivative_table import read_derivative_rows
 from equisection.io.ua_driver import DriverSection, ua_driver_text
 from equisection.motion.static_branch import section_in_equilibrium
 from equisection.results.modes_dataset import modes_from_dataset
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import polar_at
 from equisection.results.section_dataset import no_section, section_from_dataset
+from equisection.store.made_from import recorded, require_as_made
 
 
 def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFile]:
@@ -61,11 +64,20 @@ def exported(run: Path, to: Path, kinds: Sequence[str] = ()) -> list[ExportedFil
     return files
 
 
+#: Variables and attributes that the files of a run have.
+_OF_POLAR = ("resolution", "incidence_deg", "cl", "cm", "cd")
+_OF_MODES = (
+    *("frequency", "kind", "span", "shape", "mode", "frequency_constant", "method", "elements"),
+)
+_OF_EQUIVALENT = ("reduction", *QUANTITIES)
+
+
 def _polars(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write each steady polar as an airfoil table of AeroDyn."""
     for dimension, whose in (("2d", "section"), ("3d", "beam")):
-        data = run.read(f"steady/polar_{dimension}.nc")
+        data = run.read(f"steady/polar_{dimension}.nc", _OF_POLAR)
         holds = f"polar of the {whose}, airfoil table of AeroDyn"
+        _ = data is None or run.reynolds_number  # a broken configuration leaves nothing out
         for resolution in [] if data is None else map(str, data["resolution"].values):
             name = f"polar_{dimension}_{resolution}.dat"
             try:
@@ -102,9 +114,11 @@ def _table(
 def _models(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write each learnt model as JSON, and its prediction as CSV."""
     found = sorted((run.folder / "rom").glob("*/model*.nc"))
-    polars = run.read("steady/polar_2d.nc") if found else None
+    polars = run.read("steady/polar_2d.nc", _OF_POLAR) if found else None
     for path in found:
         data = read_dataset(path)
+        if "rate" not in data and not data.attrs.get("refusal"):
+            raise ResultFileError(f"{path}: no learnt model; delete it and run again")
         stem = path.stem.replace("model", f"model_{path.parent.name}", 1)
         for suffix, holds in (
             (".json", "learnt model: coefficients, polar, equations"),
@@ -132,14 +146,14 @@ def _derivatives(run: ExportedRun) -> Iterator[ExportedFile]:
         path = run.folder / "derivatives" / f"{dimension}.csv"
         if not path.is_file():
             continue
+        require_as_made(run.folder, path, recorded(run.folder))
+        read = {"2d": read_derivative_rows, "3d": GeneralisedForces.read}[dimension]
         try:
-            text = path.read_text(encoding="utf-8")
-            columns = pd.read_csv(io.StringIO(text), comment="#").to_dict("list")
-        except (OSError, ValueError) as error:  # what pandas cannot parse is a ValueError
-            reason = " ".join(str(error).split())
-            raise ResultFileError(
-                f"{path}: cannot be read as a table ({reason}); delete it and run again"
-            ) from None
+            read(path)
+        except DerivativesFileError as error:
+            raise ResultFileError(f"{error}; delete it and run again") from None
+        text = path.read_text(encoding="utf-8")
+        columns = pd.read_csv(io.StringIO(text), comment="#").to_dict("list")
         said = [line.lstrip("# ") for line in text.splitlines() if line.startswith("#")]
         name = f"derivatives_{dimension}"
         yield run.wrote("derivatives", f"{name}.csv", text, holds)
@@ -149,7 +163,7 @@ def _derivatives(run: ExportedRun) -> Iterator[ExportedFile]:
 
 def _modes(run: ExportedRun) -> Iterator[ExportedFile]:
     """Write the modes of the beam: frequencies and shapes."""
-    data = run.read("structure/modes.nc")
+    data = run.read("structure/modes.nc", _OF_MODES)
     if data is None:
         return
     modes = modes_from_dataset(data)
@@ -180,7 +194,7 @@ def _modes(run: ExportedRun) -> Iterator[ExportedFile]:
 
 def _sections(run: ExportedRun) -> dict[str, Section]:
     """Return the equivalent section of each reduction that has one."""
-    data = run.read("structure/equivalent.nc")
+    data = run.read("structure/equivalent.nc", _OF_EQUIVALENT)
     if data is None:
         return {}
     reductions = map(str, data["reduction"].values)
@@ -227,8 +241,9 @@ def _openfast(run: ExportedRun) -> Iterator[ExportedFile]:
     if not sections:
         return
     kind, holds = "openfast", "airfoil table of the driver"
+    _ = run.reynolds_number, run.resolution
     try:
-        data = run.read("steady/polar_2d.nc")
+        data = run.read("steady/polar_2d.nc", _OF_POLAR)
         table = _table(run, data, run.resolution, unsteady=True)
     except ResultFileError as error:
         yield run.left_out(kind, _AIRFOIL, holds, error)
@@ -267,10 +282,10 @@ def _driver_section(run: ExportedRun, section: Section, polar: Polar) -> DriverS
         heave_rate=rate * section.deflection_recovery,
         density=run.density,
         kinematic_viscosity=run.kinematic_viscosity,
-        sound_speed=run.number("flow", "sound_speed"),
+        sound_speed=run.positive("flow", "sound_speed"),
         speed=run.speed,
-        duration=run.number("unsteady", "duration") * convective,
-        time_step=run.number("unsteady", "time_step") * convective,
+        duration=run.positive("unsteady", "duration") * convective,
+        time_step=run.positive("unsteady", "time_step") * convective,
     )
 
 

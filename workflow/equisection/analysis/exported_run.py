@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -14,6 +15,7 @@ import xarray as xr
 from equisection.analysis.run_tree import CONFIGURATION, configuration_of
 from equisection.errors import ResultFileError
 from equisection.files import write_text
+from equisection.keys.shown import shown
 from equisection.results.netcdf import read_dataset
 
 
@@ -75,46 +77,73 @@ class ExportedRun:
         Raises
         ------
         ResultFileError
-            The configuration has no such key, or what it has is no number.
+            The configuration has no such key, or what it has is no finite number.
         """
         value = self.value(*names)
-        try:
-            return float(value)
-        except (TypeError, ValueError):
-            raise ResultFileError(
-                f"{self.folder / CONFIGURATION}: {'.'.join(names)}: {value!r} is no number, as one "
-                "that was edited; run again"
-            ) from None
+        if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
+            raise self._edited(names, "no number")
+        return float(value)
+
+    def positive(self, *names: str) -> float:
+        """Return the number of a key that nothing has at or below 0, with its errors."""
+        value = self.number(*names)
+        if value <= 0.0:
+            raise self._edited(names, "not above 0")
+        return value
+
+    def _edited(self, names: Iterable[str], what: str) -> ResultFileError:
+        return ResultFileError(
+            f"{self.folder / CONFIGURATION}: {'.'.join(names)}: {shown(self.value(*names))} is "
+            f"{what}, as one that was edited; run again"
+        )
 
     @property
     def resolution(self) -> str:
         """Name of the resolution whose polar the run's sections have."""
-        return str(self.value("steady", "resolution"))
+        found = self.value("steady", "resolution")
+        if not isinstance(found, str):
+            raise self._edited(("steady", "resolution"), "no name")
+        return found
 
     @property
     def speed(self) -> float:
         """V (m/s)."""
-        return self.number("flow", "speed")
+        return self.positive("flow", "speed")
 
     @property
     def density(self) -> float:
         """Density rho (kg/m^3)."""
-        return self.number("flow", "density")
+        return self.positive("flow", "density")
 
     @property
     def reynolds_number(self) -> float:
         """Reynolds number V c/nu of the run's flow."""
-        return self.speed * self.number("beam", "chord") / self.kinematic_viscosity
+        return self.speed * self.positive("beam", "chord") / self.kinematic_viscosity
 
     @property
     def kinematic_viscosity(self) -> float:
         """Kinematic viscosity nu = mu/rho (m^2/s)."""
-        return self.number("flow", "dynamic_viscosity") / self.density
+        return self.positive("flow", "dynamic_viscosity") / self.density
 
-    def read(self, file: str) -> xr.Dataset | None:
-        """Return a data set of the run; None where the run does not have it."""
+    def read(self, file: str, needs: Iterable[str]) -> xr.Dataset | None:
+        """Return a data set of the run; None where the run does not have it.
+
+        Raises
+        ------
+        ResultFileError
+            It is broken, or lacks a variable or an attribute of ``needs``.
+        """
         path = self.folder / file
-        return read_dataset(path) if path.is_file() else None
+        if not path.is_file():
+            return None
+        data = read_dataset(path)
+        lacks = [name for name in needs if name not in data and name not in data.attrs]
+        if lacks:
+            raise ResultFileError(
+                f"{path}: has no '{lacks[0]}', as a file of another place or another version has; "
+                "delete it and run again"
+            )
+        return data
 
     def wrote(self, kind: str, name: str, text: str, holds: str) -> ExportedFile:
         """Write a text file to the folder of the export."""
@@ -132,6 +161,10 @@ class ExportedRun:
         """Write a JSON file; numbers that are not finite become null."""
         text = json.dumps(_finite(content), indent=1, allow_nan=False) + "\n"
         return self.wrote(kind, name, text, holds)
+
+
+def _is_finite(value: float) -> bool:
+    return isinstance(value, int) or math.isfinite(value)
 
 
 def _finite(content: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Course of learning: what a model says of its onset after the runs so far, what speaks against it."""
+"""Course of learning: what a model says of its onset after some runs, what speaks against it."""
 
 from __future__ import annotations
 

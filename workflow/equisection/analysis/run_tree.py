@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -14,10 +15,14 @@ import pandas as pd
 import xarray as xr
 import yaml
 
-from equisection.errors import ResultFileError
+from equisection.errors import ConfigError, ResultFileError
+from equisection.keys.config_file import read_config_file
+from equisection.keys.shown import shown
+from equisection.keys.values import NAME_PATTERN
 from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import VERDICT_ATTRIBUTES, VERDICT_UNITS
 from equisection.store.index import read_index, result_file
+from equisection.store.made_from import recorded, require_as_made
 
 CONFIGURATION = "config.resolved.yaml"
 SUMMARY = Path("comparison") / "summary.csv"
@@ -80,7 +85,7 @@ def open_run(folder: Path | str) -> xr.DataTree:
     Raises
     ------
     ResultFileError
-        The folder is no run, or a file in it is broken.
+        The folder is no run, a file in it is broken, or a table or an index was edited.
     """
     folder = Path(folder)
     configuration = configuration_of(folder)
@@ -89,11 +94,16 @@ def open_run(folder: Path | str) -> xr.DataTree:
         for node, file in DATASETS.items()
         if (folder / file).exists()
     }
-    histories = _histories(folder, float(configuration["flow"]["incidence_deg"]))
+    made = recorded(folder)
+    indices = sorted((folder / "unsteady").glob("*/*.json"))
+    for index in indices:
+        require_as_made(folder, index, made)
+    histories = _histories(folder, indices, float(configuration["flow"]["incidence_deg"]))
     if histories is not None:
         nodes["/histories"] = histories
     for kind in TABLES:
         for path in sorted((folder / kind).glob("*.csv")):
+            require_as_made(folder, path, made)
             nodes[f"/{kind}/{path.stem}"] = _table(path)
     root = xr.Dataset(
         attrs={"run": str(configuration["run"]), "configuration": yaml.safe_dump(configuration)}
@@ -110,16 +120,23 @@ def configuration_of(folder: Path) -> dict[str, Any]:
         The folder has none, or one that cannot be read.
     """
     path = folder / CONFIGURATION
-    try:
-        read = yaml.safe_load(path.read_text(encoding="utf-8"))
-        float(read["flow"]["incidence_deg"]), read["run"]
-    except FileNotFoundError:
+    if not path.exists():
         raise ResultFileError(
             f"{folder}: no folder of a run, which has a {CONFIGURATION} (looked from "
             f"{Path.cwd()}); give results/<run>"
-        ) from None
-    except (OSError, ValueError, KeyError, TypeError, yaml.YAMLError) as error:
-        reason = " ".join(str(error).split())
+        )
+    try:
+        read = read_config_file(path)
+        name, incidence = read["run"], read["flow"]["incidence_deg"]
+        if not isinstance(name, str) or not re.fullmatch(NAME_PATTERN, name):
+            raise ConfigError(f"{path}: run: {shown(name)}: no name of a run")
+        if isinstance(incidence, bool) or not isinstance(incidence, int | float):
+            raise ConfigError(f"{path}: flow.incidence_deg: {shown(incidence)}: no number")
+    except (ConfigError, KeyError, TypeError) as error:
+        lines = [line.removeprefix("config: ") for line in str(error).split("\n")]
+        reason = lines[0].removeprefix(f"{path}: ")
+        if not isinstance(error, ConfigError):
+            reason = "it lacks 'run' or 'flow.incidence_deg'"
         raise ResultFileError(
             f"{path}: cannot be read as the configuration of a run ({reason}); delete it and run "
             "again"
@@ -136,8 +153,8 @@ class _Case:
     attributes: Mapping[str, Any]
 
 
-def _cases(folder: Path, incidence_deg: float) -> Iterator[_Case]:
-    for index in sorted((folder / "unsteady").glob("*/*.json")):
+def _cases(indices: Iterable[Path], incidence_deg: float) -> Iterator[_Case]:
+    for index in indices:
         for name, attributes in read_index(index).items():
             try:
                 place = (index.parent.name, float(attributes["k_star"]), _incidence(attributes))
@@ -159,9 +176,9 @@ def _incidence(attributes: Mapping[str, Any]) -> float:
     return float(json.loads(case)["incidence_deg"]) if case else math.nan
 
 
-def _histories(folder: Path, incidence_deg: float) -> xr.Dataset | None:
+def _histories(folder: Path, indices: Iterable[Path], incidence_deg: float) -> xr.Dataset | None:
     """Return the histories of all cases on common axes; None of a run without any."""
-    cases = list(_cases(folder, incidence_deg))
+    cases = list(_cases(indices, incidence_deg))
     if not cases:
         return None
     read = [_of_time(read_dataset(case.path)) for case in cases]

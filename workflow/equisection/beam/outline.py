@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import logging
 import math
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -150,7 +151,7 @@ def naca(digits: str) -> Floats:
     OutlineError
         The digits are not those of a section with a thickness.
     """
-    if len(digits) != 4 or not digits.isdecimal() or int(digits[2:]) == 0:
+    if not re.fullmatch("[0-9]{4}", digits) or int(digits[2:]) == 0:
         raise OutlineError(
             "allowed are four digits in quotes such as '0012': camber, its place and the thickness"
         )

@@ -97,7 +97,7 @@ def read_cases(path: Path) -> dict[str, Case]:
     """
     try:
         document = json.loads(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+    except (OSError, ValueError, RecursionError) as error:
         raise CaseFileError(
             f"{path}: cannot be read as a case file ({error}); delete it and run again"
         ) from None

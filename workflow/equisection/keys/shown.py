@@ -1,4 +1,4 @@
-"""A value as an error message shows it: in one line, short, in YAML's words."""
+"""Values and text as a message shows them: a value in one line, short, in YAML's words."""
 
 from __future__ import annotations
 
@@ -63,3 +63,8 @@ def _float(value: float) -> str:
 def shown(value: object) -> str:
     """Return a value for a message, for instance ``null``, ``'abc'`` or ``[1, 2]``."""
     return " ".join(_Shown().repr1(value, 3).split())
+
+
+def printable(text: str) -> str:
+    """Return text without characters that would steer a terminal; line breaks stay."""
+    return "".join(c if c.isprintable() or c in "\n\t" else " " for c in text)

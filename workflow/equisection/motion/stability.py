@@ -31,6 +31,7 @@ from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
+from equisection.keys.written_number import LARGEST, SMALLEST
 from equisection.motion.derivative_flutter import (
     critical_speed_by_derivatives,
     stability_by_derivatives,
@@ -411,4 +412,8 @@ def _positive(name: str, given: ArrayLike, units: str) -> Floats:
     values = _finite(name, given)
     if not np.all(values > 0.0):
         raise ArgumentError(f"{name} is {given!r}; wanted numbers above 0 ({units})")
+    if not np.all((values >= SMALLEST) & (values <= LARGEST)):
+        raise ArgumentError(
+            f"{name} is {given!r}; wanted numbers from {SMALLEST:g} to {LARGEST:g} ({units})"
+        )
     return values

@@ -78,7 +78,7 @@ def elsewhere(arguments: Sequence[str]) -> Iterator[str]:
 def _runs() -> Iterator[tuple[Path, Process, float]]:
     """Give file, process and start (seconds since the epoch) of each run that is noted here."""
     for path in sorted(FOLDER.glob("*.json")):
-        with contextlib.suppress(OSError, ValueError, KeyError, TypeError):
+        with contextlib.suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
             raw = json.loads(path.read_text(encoding="utf-8"))
             since = float(raw.pop("since"))
             yield path, Process(**raw), since

@@ -12,12 +12,11 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from equisection.errors import EquisectionError
-
-if TYPE_CHECKING:  # what reads a table is imported where it is needed
-    import pandas as pd
+from equisection.errors import EquisectionError, ResultFileError
+from equisection.keys.shown import shown
+from equisection.keys.written_number import LARGEST, is_plain_number, number_in
 
 #: The table with the answer, as seen from the folder of a run.
 CRITICAL_SPEEDS = Path("comparison") / "critical_speed.csv"
@@ -29,9 +28,15 @@ _WITHOUT_VERDICT = {"failed_inside": "failed", "undecided_inside": "undecided"}
 _RUNS = ("cfd", "time", "experiment")
 #: Columns without which a table is none of critical speeds.
 _NEEDED = ("model", "incidence_deg", "speed", "speed_low", "speed_high", "mechanism", "basis")
-#: Columns of numbers.
-_NUMBERS = ("incidence_deg", "speed", "speed_low", "speed_high")
-_OPTIONAL_NUMBERS = ("frequency_hz", "k_star", "margin", "growth_error", "growth_error_rms")
+#: Columns of numbers, with the least and the largest that each may have; infinity is no bound.
+_BOUNDS = {
+    "incidence_deg": (-180.0, 180.0),
+    **dict.fromkeys(("speed_low", "frequency_hz", "margin", "growth_error_rms"), (0.0, LARGEST)),
+    **dict.fromkeys(("speed", "speed_high", "k_star"), (0.0, math.inf)),
+    "growth_error": (-LARGEST, LARGEST),
+}
+#: Columns of text.
+_TEXTS = ("model", "mechanism", "basis", "errs")
 #: What speeds rest on, in words, the nearest to the beam in its flow first.
 _BASES = {
     "experiment": "histories of an experiment",
@@ -42,6 +47,7 @@ _BASES = {
     "eigenvalue": "eigenvalues of small motions",
     "derivatives": "flutter derivatives",
 }
+_MECHANISMS = (*("none", "divergence", "flutter", "stall-flutter", "galloping", "unknown"),)
 _SIDES = {
     "unsafe": ", so that the speed is too high",
     "safe": ", so that the speed is too low",
@@ -151,7 +157,8 @@ def answer_of(run: Path) -> Answer:
     Raises
     ------
     AnswerError
-        There is no such folder, no table of critical speeds, or none that can be read.
+        There is no such folder, no table of critical speeds, none that can be read, or one that
+        is not as its job made it.
     """
     path = run / CRITICAL_SPEEDS
     if not run.is_dir():
@@ -161,61 +168,111 @@ def answer_of(run: Path) -> Answer:
             f"{path}: not there yet; 'equisection status {run}' says how far the run is, and the "
             f"same command of snakemake that started it goes on"
         )
-    table = _table(path)
-    rows = tuple(
-        {name: _known(value) for name, value in row.items()}
-        for row in table.astype(object).to_dict("records")
-    )
+    _require_as_made(run, path)
+    rows = tuple(_rows(path))
     chosen = _chosen(rows)
-    return Answer(run.resolve().name, rows, chosen, _inside(run / _BRACKETS, chosen))
+    return Answer(run.resolve().name, rows, chosen, _inside(run, chosen))
 
 
-def _inside(path: Path, chosen: Mapping[str, Any]) -> dict[str, int]:
+def _inside(run: Path, chosen: Mapping[str, Any]) -> dict[str, int]:
     """Return the numbers of runs without a verdict inside a bracket; none where no table is."""
+    path = run / _BRACKETS
     if chosen["basis"] not in _RUNS or not path.is_file():
         return {}
-    with path.open(encoding="utf-8", newline="") as lines:
-        for row in csv.DictReader(lines):
-            angle = row.get("incidence_deg")
-            if row.get("model") == chosen["model"] and (
-                angle is None or float(angle) == chosen["incidence_deg"]
-            ):
-                counts = {
-                    what: len((row.get(column) or "").split())
-                    for column, what in _WITHOUT_VERDICT.items()
-                }
-                return {what: number for what, number in counts.items() if number}
+    _require_as_made(run, path)
+    names, *lines = _cells(path) or [[]]
+    for number, cells in enumerate(lines, start=2):
+        row = dict(zip(names, cells, strict=False))
+        try:
+            angle = float(row.get("incidence_deg", chosen["incidence_deg"]))
+        except ValueError as error:
+            raise AnswerError(f"{path}: line {number}: {error}; delete it and run again") from None
+        if row.get("model") == chosen["model"] and angle == chosen["incidence_deg"]:
+            counts = {
+                what: len(row.get(column, "").split()) for column, what in _WITHOUT_VERDICT.items()
+            }
+            return {what: many for what, many in counts.items() if many}
     return {}
 
 
-def _known(value: Any) -> Any:
-    """Return a value of the table, None for an empty one and for a speed without a bound."""
-    return None if isinstance(value, float) and not math.isfinite(value) else value
-
-
-def _table(path: Path) -> pd.DataFrame:
+def _require_as_made(run: Path, path: Path) -> None:
+    """Refuse a table that differs from the record of its job; a copy without records has none."""
     # Imported here, so that --help and --version come at once.
-    import pandas as pd  # noqa: PLC0415
+    from equisection.store.made_from import recorded, require_as_made  # noqa: PLC0415
 
     try:
-        table = pd.read_csv(path, dtype={"model": str})
-    except (ValueError, OSError) as error:
-        raise AnswerError(f"{path}: no table that can be read ({error}); make it again") from None
-    missing = [name for name in _NEEDED if name not in table]
-    if missing or table.empty:
+        require_as_made(run, path, recorded(run))
+    except ResultFileError as error:
+        raise AnswerError(str(error)) from None
+
+
+def _rows(path: Path) -> Iterator[Mapping[str, Any]]:
+    """Yield the lines of the table: text, and numbers or None."""
+    names, *lines = _cells(path) or [[]]
+    missing = [name for name in _NEEDED if name not in names]
+    if missing or not lines:
         what = f"has no column {missing[0]!r}" if missing else "has no line"
         raise AnswerError(f"{path}: {what}; delete it and run again")
-    for name in (*_NUMBERS, *(one for one in _OPTIONAL_NUMBERS if one in table)):
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise AnswerError(f"{path}: has column {shown(twice)} twice; delete it and run again")
+    for number, cells in enumerate(lines, start=2):
         try:
-            table[name] = table[name].astype(float)
+            yield _row(names, cells)
         except ValueError as error:
             raise AnswerError(
-                f"{path}: column {name!r}: {error}; delete the file and run again"
+                f"{path}: line {number}: {error}; delete the file and run again"
             ) from None
+
+
+def _cells(path: Path) -> list[list[str]]:
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            return list(csv.reader(file, strict=True))
+    except (ValueError, OSError, csv.Error) as error:
+        raise AnswerError(f"{path}: no table that can be read ({error}); make it again") from None
+
+
+def _row(names: Sequence[str], cells: Sequence[str]) -> dict[str, Any]:
+    """Return a line of the table.
+
+    Raises
+    ------
+    ValueError
+        With what is wrong in it.
+    """
+    if len(cells) != len(names):
+        raise ValueError(f"{len(cells)} values for {len(names)} columns")
+    row = {name: _value(name, cell.strip(" ")) for name, cell in zip(names, cells, strict=True)}
+    for name, allowed in (("mechanism", _MECHANISMS), ("basis", tuple(_BASES))):
+        if row[name] not in allowed:
+            raise ValueError(f"{name}: {shown(row[name])}: allowed are {', '.join(allowed)}")
     for name in ("model", "incidence_deg"):
-        if table[name].isna().any():
-            raise AnswerError(f"{path}: a line has no {name}; delete the file and run again")
-    return table
+        if row[name] in ("", None):
+            raise ValueError(f"has no {name}")
+    low, high = row["speed_low"], row["speed_high"]
+    if low is not None and high is not None and low > high:
+        raise ValueError(f"speed_low {low:g} is above speed_high {high:g}")
+    return row
+
+
+def _value(name: str, cell: str) -> Any:
+    """Return text, or a number; None for an empty one and for a speed without a bound."""
+    if not cell.isprintable():
+        raise ValueError(f"{shown(name)}: {shown(cell)}: a character that cannot be shown")
+    if name in _TEXTS or (name not in _BOUNDS and not is_plain_number(cell)):
+        return cell
+    if not cell:
+        return None
+    try:
+        number = number_in(cell)
+    except ValueError:
+        raise ValueError(f"{name}: {shown(cell)}: allowed is a plain decimal number") from None
+    least, most = _BOUNDS.get(name, (-math.inf, math.inf))
+    is_huge = LARGEST < abs(number) < math.inf
+    if not math.isnan(number) and (is_huge or not least <= number <= most):
+        raise ValueError(f"{name}: {shown(cell)}: no {name} is that large or small")
+    return number if math.isfinite(number) else None
 
 
 def _chosen(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
@@ -322,7 +379,7 @@ def _sure(row: Mapping[str, Any]) -> str:
     known = row.get("growth_error_rms")
     if known is None:
         return f"{basis}; {error}, and not known"
-    side = _SIDES.get(row.get("errs") or "", "")
+    side = _SIDES.get(str(row.get("errs")), "")
     return (
         f"{basis}; {error}; of kept CFD, on one plate, such growth rates are off by "
         f"{known:.2g} V/c (rms){side}"

@@ -16,11 +16,14 @@ from typing import TYPE_CHECKING, Any
 
 import equisection
 from equisection.errors import ArgumentError, ConfigError, EquisectionError
+from equisection.keys.shown import printable
 from equisection.run.starter import (
+    DIMENSION,
     EXAMPLES,
     QUESTIONS,
     StarterError,
     asked,
+    dimension,
     examples_folder,
     starter,
 )
@@ -59,7 +62,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         return _COMMANDS[options.command](options) or 0
     except EquisectionError as error:
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {printable(str(error))}", file=sys.stderr)
         return 1
     except KeyboardInterrupt:
         return 130
@@ -221,7 +224,7 @@ def _add_start(commands: Any) -> None:
     init.add_argument("--like", choices=list(EXAMPLES), help="what the beam is like")
     for _, key, words, unit in QUESTIONS:
         option = f"--{key.replace('_', '-')}"
-        init.add_argument(option, type=float, metavar=unit.upper(), help=f"{words} ({unit})")
+        init.add_argument(option, metavar=unit.upper(), help=f"{words} ({unit})")
     run = commands.add_parser(
         "run",
         help="run the workflow",
@@ -292,8 +295,13 @@ def _init(options: argparse.Namespace) -> None:
     # Imported here, so that --help and --version come at once.
     from equisection.run import start  # noqa: PLC0415
 
-    given = {key: getattr(options, key) for _, key, _, _ in QUESTIONS}
-    values = {name: value for name, value in given.items() if value is not None}
+    values: dict[str, float] = {}
+    for _, key, _, _ in QUESTIONS:
+        given = getattr(options, key)
+        try:
+            values |= {} if given is None else {key: dimension(given)}
+        except ValueError:
+            raise StarterError(f"{key.replace('_', ' ')} {given}: {DIMENSION}") from None
     name = options.name.removesuffix(".yaml")
     file = Path(f"{name}.yaml")
     like = options.like
@@ -391,6 +399,9 @@ def _cost_model(folders: Sequence[Path], model: Path | None) -> None:
     from equisection.run.cost import read_cost_model  # noqa: PLC0415
     from equisection.run.cost_fit import fits, fitted, write_cost_model  # noqa: PLC0415
 
+    for folder in folders:
+        if not folder.is_dir():
+            raise ArgumentError(f"{folder}: no such folder; give one with results")
     found = fits(folders or [Path("results")])
     for fit in found:
         print(fit.words())

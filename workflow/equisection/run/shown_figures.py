@@ -29,7 +29,9 @@ def figures_of(run: Path, names: Sequence[str] = ()) -> list[Path]:
     """
     if not run.is_dir():
         raise NoFigureError(f"{run}: no such folder; 'equisection status' lists the runs")
-    there = {path.stem: path for path in sorted((run / FIGURES).glob(f"*{SHOWN}"))}
+    there = {
+        path.stem: path for path in sorted((run / FIGURES).glob(f"*{SHOWN}")) if path.is_file()
+    }
     if not there:
         raise NoFigureError(
             f"{run / FIGURES}: no figure yet; 'equisection status {run}' says how far the run is"

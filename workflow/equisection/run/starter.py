@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from equisection.errors import EquisectionError
+from equisection.keys.written_number import LARGEST, is_of_sensible_size, number_in
 
 #: What a beam may be like, and the example it starts from.
 EXAMPLES = {
@@ -23,6 +24,8 @@ QUESTIONS = (
     ("beam", "length", "length along the span", "m"),
     ("flow", "design_speed", "design wind speed, which it has to stand", "m/s"),
 )
+#: What is said of an answer that is no dimension.
+DIMENSION = f"allowed is a plain decimal number above 0, such as 12.5, up to {LARGEST:g}"
 
 
 class StarterError(EquisectionError):
@@ -59,15 +62,38 @@ def asked(known: Mapping[str, float]) -> tuple[str, dict[str, float]]:
         raise StarterError("no answer; nothing is written (--like asks for nothing)") from None
 
 
+def dimension(text: str) -> float:
+    """Return a dimension as a person writes it.
+
+    Raises
+    ------
+    ValueError
+        It is no plain decimal number above 0 of a size that a dimension has.
+    """
+    number = number_in(text)
+    if not (math.isfinite(number) and number > 0.0 and is_of_sensible_size(number)):
+        raise ValueError("no dimension")
+    return number
+
+
 def _answers(known: Mapping[str, float]) -> tuple[str, dict[str, float]]:
     # Imported here, for only a terminal needs it.
-    from rich.prompt import FloatPrompt, Prompt  # noqa: PLC0415
+    from rich.prompt import InvalidResponse, Prompt, PromptBase  # noqa: PLC0415
+
+    class _Dimension(PromptBase[float]):
+        """Question for a dimension; no answer is 0."""
+
+        def process_response(self, value: str) -> float:
+            try:
+                return dimension(value)
+            except ValueError:
+                raise InvalidResponse(f"[red]{DIMENSION}") from None
 
     like = Prompt.ask("What is the beam like?", choices=list(EXAMPLES), default="tracker")
     values = dict(known)
     for _, key, words, unit in QUESTIONS:
         if key not in values:
-            answer = FloatPrompt.ask(
+            answer = _Dimension.ask(
                 f"{words.capitalize()} ({unit}; Enter: as the example has it)",
                 default=0.0,
                 show_default=False,
@@ -96,12 +122,9 @@ def starter(like: str, name: str, file: Path, examples: Path, values: Mapping[st
     Raises
     ------
     StarterError
-        The name is no name of a folder, or a value is not above 0.
+        The name is no name of a folder.
     """
     _require_name(name)
-    for key, value in values.items():
-        if not (value > 0.0 and math.isfinite(value)):
-            raise StarterError(f"{key.replace('_', ' ')} {value:g}: allowed is a number above 0")
     text = (examples / EXAMPLES[like]).read_text(encoding="utf-8")
     old = re.search(r"^run: *([^ #\n]+)", text, flags=re.MULTILINE)
     assert old is not None, "an example names its run"

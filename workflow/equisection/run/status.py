@@ -16,15 +16,17 @@ import numpy as np
 
 from equisection.cases import Kind
 from equisection.errors import EquisectionError, ResultFileError
+from equisection.keys.shown import printable
 from equisection.results.failures import failure_of
 from equisection.results.loads_zigzag import warning_of_zigzag
 from equisection.results.netcdf import read_attributes
 from equisection.results.whole import is_whole
 from equisection.run.listing import Listed, cases_of_run, config_of_run
 from equisection.run.status_cost import CostOfRun
-from equisection.run.status_logs import LINES, JobsOfRun, last_lines, last_warning, printable
+from equisection.run.status_logs import LINES, JobsOfRun, last_lines, last_warning
 from equisection.store.index import indices_of_run, read_with_missing
 from equisection.store.lock import Owner, living_owner
+from equisection.store.made_from import recorded, require_as_made
 from equisection.store.progress import Snapshot
 from equisection.store.result_store import ResultStore, runs_batches, task_of
 
@@ -143,8 +145,10 @@ class _Indices:
         self._run = run
         self._of: dict[str, tuple[dict[str, Any], int]] = {}
         self._missing: dict[str, str] = {}
+        made = recorded(run)
         for index in indices_of_run(run):
             try:
+                require_as_made(run, index, made)
                 written = index.stat().st_mtime_ns
                 entries, missing = read_with_missing(index)
             except (OSError, ResultFileError):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+from equisection.keys.shown import printable
 from equisection.store.progress import SUFFIX, Snapshot, read_snapshot
 
 #: Lines of a log that are shown of what failed.
@@ -105,8 +106,3 @@ def last_lines(work: Path, log: Path | None) -> tuple[str, ...]:
         return ()
     lines = [printable(line) for line in text.splitlines() if line.strip()]
     return (f"{newest}:", *lines[-LINES:])
-
-
-def printable(text: str) -> str:
-    """Return text without characters that would steer a terminal; line breaks stay."""
-    return "".join(c if c.isprintable() or c in "\n\t" else " " for c in text)

@@ -16,6 +16,8 @@ from typing import Any
 
 from equisection.cases import KINDS
 from equisection.errors import ResultFileError
+from equisection.files import TEMPORARY
+from equisection.keys.shown import printable
 from equisection.provenance import file_hash
 from equisection.results.netcdf import read_attributes
 from equisection.results.whole import fault_of
@@ -96,7 +98,7 @@ def verify_folder(folder: Path) -> list[Verified]:
 def words(found: Verified) -> list[str]:
     """Return the findings: a line for each fault, then the remarks, then the sum."""
     lines = [
-        f"{fault:8}{found.name}/{name}: {why}"
+        printable(f"{fault:8}{found.name}/{name}: {why}")
         for name, (fault, why) in sorted(found.faults.items())
     ]
     if found.unrecorded:
@@ -130,6 +132,7 @@ def verify_run(run: Path) -> Verified:
     for record in records:
         _check_inputs(record, found, seen)
     _spread(records, found)
+    _check_others(run, found, {*seen, *listed})
     kept = [*indices_of_run(run), *(path for part in _MADE for path in run.glob(part))]
     there = {path.relative_to(run).as_posix() for path in kept}
     found.unrecorded = sorted(there - set(made))
@@ -242,6 +245,17 @@ def _check_cases(
             _check_result(run / name, name, case.hash, name in as_made, found)
         elif indexed[name] != case.hash:
             found.find(name, Fault.STALE, _CASE_CHANGED)
+
+
+def _check_others(run: Path, found: Verified, known: set[str]) -> None:
+    """Find NetCDF files that are broken among those that no record and no case names."""
+    for path in run.glob("**/*.nc"):
+        name = path.relative_to(run).as_posix()
+        if name in known or path.name.startswith(TEMPORARY):
+            continue
+        fault = fault_of(path)
+        if fault:
+            found.find(name, Fault.BROKEN, f"{fault}; delete it, nothing of the run names it")
 
 
 def _check_index(

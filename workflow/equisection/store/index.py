@@ -79,7 +79,14 @@ def read_with_missing(path: Path) -> tuple[dict[str, dict[str, Any]], dict[str, 
         results, missing = dict(document["results"]), dict(document.get("missing", {}))
         require_plain_names(results)
         require_plain_names(missing)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
+    except (
+        OSError,
+        ValueError,
+        KeyError,
+        TypeError,
+        AttributeError,
+        RecursionError,
+    ) as error:
         raise ResultFileError(
             f"{path}: cannot be read as an index of results ({error!r}); delete it and run again"
         ) from None

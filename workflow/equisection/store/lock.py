@@ -236,7 +236,7 @@ def _read(path: Path) -> Owner | None:
     try:
         raw = json.loads(path.read_text(encoding="utf-8"))
         return Owner(process=Process(**raw.pop("process")), **raw)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
 
 

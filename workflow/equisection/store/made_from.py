@@ -7,8 +7,9 @@ of them.
 
 from __future__ import annotations
 
+import contextlib
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -65,10 +66,45 @@ def read_record(path: Path) -> ProvenanceRecord:
         raw = json.loads(path.read_text(encoding="utf-8"))
         made_by, inputs, outputs = (dict(raw[name]) for name in ("made_by", "inputs", "outputs"))
         return ProvenanceRecord(made_by, inputs, outputs, float(raw["cpu_seconds"]))
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise ResultFileError(
             f"{path}: cannot be read as a record of what a job has made ({error!r}); delete it"
         ) from None
+
+
+def recorded(run: Path) -> dict[str, set[str]]:
+    """Return the SHA-256 that files of a run had when jobs made them, by name seen from there.
+
+    A file may be the output of several records: of a rule that had another name before.
+    """
+    found: dict[str, set[str]] = {}
+    for path in (run / FOLDER).glob("*.json"):
+        with contextlib.suppress(ResultFileError):  # 'equisection verify' names it
+            for name, digest in read_record(path).outputs.items():
+                found.setdefault(name, set()).add(digest)
+    return found
+
+
+def require_as_made(run: Path, path: Path, made: Mapping[str, set[str]]) -> None:
+    """Refuse a file of a run that differs from all records of it; one without a record passes.
+
+    Parameters
+    ----------
+    run
+        Folder of the run.
+    path
+        The file, in that folder.
+    made
+        What :func:`recorded` returns for the run.
+
+    Raises
+    ------
+    ResultFileError
+        The file was edited.
+    """
+    digests = made.get(path.relative_to(run).as_posix())
+    if digests and file_hash(path) not in digests:
+        raise ResultFileError(f"{path}: edited since its job made it; run again to make it anew")
 
 
 def _hashes(paths: Iterable[Path], run: Path) -> dict[str, str]:

@@ -208,7 +208,7 @@ def read_snapshot(path: Path) -> Snapshot | None:
         raw = json.loads(path.read_text(encoding="utf-8"))
         process = Process(**raw.pop("process"))
         return Snapshot(tuple(raw.pop("cases")), process=process, **raw)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
 
 

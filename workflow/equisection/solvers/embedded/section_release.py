@@ -11,8 +11,10 @@ from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.config.groups import Unsteady
+from equisection.config.groups.unsteady import MOST_STEPS
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
+from equisection.keys.written_number import LARGEST, SMALLEST
 from equisection.solvers.embedded.releases import ReleaseSettings, release_judged
 from equisection.solvers.verdicts import WITHOUT_EQUILIBRIUM, Judge
 from equisection.verdict import Criteria
@@ -95,15 +97,20 @@ def release(
         ("density", density, "kg/m3"),
         ("duration", duration, "c/V"),
     ):
-        if not (0.0 < value < math.inf):
-            raise ArgumentError(f"{name} is {value!r}; wanted a number above 0 ({units})")
-    for name, value, units in (
-        ("incidence_deg", incidence_deg, "deg"),
-        ("start_twist_deg", start_twist_deg, "deg"),
-        ("start_heave_rate", start_heave_rate, "over V"),
+        if not (SMALLEST <= value <= LARGEST):
+            raise ArgumentError(
+                f"{name} is {value!r}; wanted a number above 0 ({units}), from {SMALLEST:g} to "
+                f"{LARGEST:g}"
+            )
+    for name, value, most, units in (
+        ("incidence_deg", incidence_deg, 180.0, "deg"),
+        ("start_twist_deg", start_twist_deg, 90.0, "deg"),
+        ("start_heave_rate", start_heave_rate, 1.0, "over V"),
     ):
-        if not math.isfinite(value):
-            raise ArgumentError(f"{name} is {value!r}; wanted a number ({units})")
+        if not abs(value) <= most:
+            raise ArgumentError(
+                f"{name} is {value!r}; wanted a number ({units}) from {-most:g} to {most:g}"
+            )
     if from_equilibrium and not (start_twist_deg or start_heave_rate):
         raise ArgumentError(
             "from_equilibrium is True; wanted start_twist_deg, such as 0.2, or start_heave_rate "
@@ -119,6 +126,12 @@ def release(
         raise ArgumentError(
             f"duration is {duration:g}; wanted {FEWEST_SAMPLES * interval:.3g} c/V or more, ten "
             "samples of the history"
+        )
+    if duration > MOST_STEPS * step:
+        raise ArgumentError(
+            f"duration is {duration:g}; wanted up to {MOST_STEPS * step:.3g} c/V, "
+            f"{MOST_STEPS:,} time steps of {step:.3g} c/V, which follow the natural motion of the "
+            "section at this speed"
         )
     settings = ReleaseSettings(
         incidence_rad=rigid,
