@@ -66,7 +66,7 @@ class Answer:
     Attributes
     ----------
     run
-        Name of the run.
+        Folder of the run.
     rows
         Lines of the table: names of columns and values (speeds in m/s, frequencies in Hz), None
         where a value is not there.
@@ -79,7 +79,7 @@ class Answer:
         Numbers of runs inside its bracket that have no verdict, by what they are.
     """
 
-    run: str
+    run: Path
     rows: tuple[Mapping[str, Any], ...]
     chosen: Mapping[str, Any]
     inside: Mapping[str, int] = field(default_factory=dict)
@@ -104,9 +104,8 @@ class Answer:
 
     def as_json(self) -> str:
         """Return run, the line that answers, and all lines of the table as JSON."""
-        return json.dumps(
-            {"run": self.run, "answer": self.chosen, "all": self.rows}, indent=2, allow_nan=False
-        )
+        content = {"run": self.run.resolve().name, "answer": self.chosen, "all": self.rows}
+        return json.dumps(content, indent=2, allow_nan=False)
 
     def _incidence(self) -> str:
         answers = _answers(self.rows, self.chosen["model"])
@@ -171,7 +170,7 @@ def answer_of(run: Path) -> Answer:
     _require_as_made(run, path)
     rows = tuple(_rows(path))
     chosen = _chosen(rows)
-    return Answer(run.resolve().name, rows, chosen, _inside(run, chosen))
+    return Answer(run, rows, chosen, _inside(run, chosen))
 
 
 def _inside(run: Path, chosen: Mapping[str, Any]) -> dict[str, int]:
