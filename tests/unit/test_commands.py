@@ -59,7 +59,7 @@ class TestOnset:
         )
         how_sure = list(answer_of(run).lines())[3]
         assert "of the runs between these speeds 3 failed and 1 undecided" in how_sure
-        assert "'equisection status run' says why of each" in how_sure
+        assert f"'equisection status {run}' says why of each" in how_sure
 
     @pytest.mark.parametrize("reduction", ["", "-paper", "-consistent"])
     def test_a_corrected_section_answers_before_one_that_is_not(

@@ -6,17 +6,20 @@ import shutil
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 import yaml
 from tests.conftest import ROOT
 
 from equisection.analysis.run_tree import open_run
+from equisection.analysis.summary import with_both
 from equisection.config import load_config
 from equisection.errors import ResultFileError
 from equisection.results.netcdf import read_attributes, read_dataset
 from equisection.store.index import write_index
 from equisection.store.made_from import write_record
+from equisection.study.axes import AsGiven
 
 KEPT = ROOT / "results/reference"
 #: Cases by their places in a run; the two models have other intervals of output and other ends.
@@ -67,13 +70,13 @@ def test_each_history_is_found_by_its_coordinates(run: Path) -> None:
     assert str(missing["regime"].values[0]) == ""
 
 
-@pytest.mark.parametrize(("speeds", "is_found"), [((28.3, 20.0), True), ((20.0, 20.0), False)])
-def test_histories_of_a_sweep_over_speed_are_found_by_it(
-    run: Path, speeds: tuple[float, float], is_found: bool
-) -> None:
-    """And those of one over k*, at one speed, are not."""
-    lines = (f"2d,{speed},{k}" for speed, k in zip(speeds, (5.0000001, 10.0), strict=True))
-    (run / "comparison" / "summary.csv").write_text("\n".join(["model,speed,k_star", *lines]))
+@pytest.mark.parametrize("axis", ["speed", "k_star"])
+def test_histories_of_a_sweep_over_speed_are_found_by_it(run: Path, axis: str) -> None:
+    """And those of one over k*, of which the summary has speeds at its end, are not."""
+    values = {"speed": [28.2842712, 20.0], "k_star": [5.0, 10.0]}[axis]
+    summary = with_both(pd.DataFrame({"model": "2d", axis: values}), AsGiven(10.0, 20.0))
+    summary.to_csv(run / "comparison" / "summary.csv", index=False)
+    is_found = axis == "speed"
     histories = open_run(run)["histories"].to_dataset()
     assert ("speed" in histories.coords) == is_found
     if is_found:

@@ -23,6 +23,7 @@ from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import VERDICT_ATTRIBUTES, VERDICT_UNITS
 from equisection.store.index import read_index, result_file
 from equisection.store.made_from import recorded, require_as_made
+from equisection.study.axes import SPEED, onset_axis_among
 
 CONFIGURATION = "config.resolved.yaml"
 SUMMARY = Path("comparison") / "summary.csv"
@@ -214,8 +215,9 @@ def _speeds(folder: Path, k_star: Any) -> Any:
     if not (folder / SUMMARY).is_file():
         return None
     summary = _table(folder / SUMMARY)
-    if not {"speed", "k_star"} <= set(summary.data_vars):
-        return None
+    names = [str(name) for name in summary.data_vars]
+    if not {"speed", "k_star"} <= set(names) or onset_axis_among(names) is not SPEED:
+        return None  # speeds of a sweep over k* are those of the beam as given, and of no run
     given, known = summary["speed"].values, summary["k_star"].values
     found = [np.unique(given[np.isclose(known, value, rtol=_SAME)]) for value in k_star]
     if any(one.size != 1 for one in found):

@@ -66,7 +66,7 @@ class Answer:
     Attributes
     ----------
     run
-        Name of the run.
+        Folder of the run.
     rows
         Lines of the table: names of columns and values (speeds in m/s, frequencies in Hz), None
         where a value is not there.
@@ -79,7 +79,7 @@ class Answer:
         Numbers of runs inside its bracket that have no verdict, by what they are.
     """
 
-    run: str
+    run: Path
     rows: tuple[Mapping[str, Any], ...]
     chosen: Mapping[str, Any]
     inside: Mapping[str, int] = field(default_factory=dict)
@@ -104,9 +104,8 @@ class Answer:
 
     def as_json(self) -> str:
         """Return run, the line that answers, and all lines of the table as JSON."""
-        return json.dumps(
-            {"run": self.run, "answer": self.chosen, "all": self.rows}, indent=2, allow_nan=False
-        )
+        content = {"run": self.run.resolve().name, "answer": self.chosen, "all": self.rows}
+        return json.dumps(content, indent=2, allow_nan=False)
 
     def _incidence(self) -> str:
         answers = _answers(self.rows, self.chosen["model"])
@@ -168,18 +167,19 @@ def answer_of(run: Path) -> Answer:
             f"{path}: not there yet; 'equisection status {run}' says how far the run is, and the "
             f"same command of snakemake that started it goes on"
         )
-    _require_as_made(run, path)
+    made = _recorded(run)
+    _require_as_made(run, path, made)
     rows = tuple(_rows(path))
     chosen = _chosen(rows)
-    return Answer(run.resolve().name, rows, chosen, _inside(run, chosen))
+    return Answer(run, rows, chosen, _inside(run, chosen, made))
 
 
-def _inside(run: Path, chosen: Mapping[str, Any]) -> dict[str, int]:
+def _inside(run: Path, chosen: Mapping[str, Any], made: Mapping[str, set[str]]) -> dict[str, int]:
     """Return the numbers of runs without a verdict inside a bracket; none where no table is."""
     path = run / _BRACKETS
     if chosen["basis"] not in _RUNS or not path.is_file():
         return {}
-    _require_as_made(run, path)
+    _require_as_made(run, path, made)
     names, *lines = _cells(path) or [[]]
     for number, cells in enumerate(lines, start=2):
         row = dict(zip(names, cells, strict=False))
@@ -195,13 +195,21 @@ def _inside(run: Path, chosen: Mapping[str, Any]) -> dict[str, int]:
     return {}
 
 
-def _require_as_made(run: Path, path: Path) -> None:
+def _recorded(run: Path) -> Mapping[str, set[str]]:
+    """Return the hashes that files had when jobs made them, from one record a job."""
+    # Imported here, so that --help and --version come at once.
+    from equisection.store.made_from import recorded  # noqa: PLC0415
+
+    return recorded(run)
+
+
+def _require_as_made(run: Path, path: Path, made: Mapping[str, set[str]]) -> None:
     """Refuse a table that differs from the record of its job; a copy without records has none."""
     # Imported here, so that --help and --version come at once.
-    from equisection.store.made_from import recorded, require_as_made  # noqa: PLC0415
+    from equisection.store.made_from import require_as_made  # noqa: PLC0415
 
     try:
-        require_as_made(run, path, recorded(run))
+        require_as_made(run, path, made)
     except ResultFileError as error:
         raise AnswerError(str(error)) from None
 
