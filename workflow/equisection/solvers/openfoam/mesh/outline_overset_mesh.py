@@ -37,8 +37,8 @@ _MESHER = "outline_overset_mesher"
 #: Even cells of the background (chords) at refinement 1, and their growth beyond.
 _EVEN, _GROWTH = 0.06, 1.2
 #: Where the background has even cells, from the disc at rest on: ahead, behind and to either side
-#: (chords), the last as a part of the room up to the wall at the most.
-_AHEAD, _BEHIND, _ASIDE, _ASIDE_PART = 0.2, 1.4, 0.7, 0.85
+#: (chords), each as a part of the room up to the end or wall at the most.
+_AHEAD, _BEHIND, _ASIDE, _PART = 0.2, 1.4, 0.7, 0.85
 
 
 @dataclass(frozen=True)
@@ -70,18 +70,18 @@ class OutlineOversetMesh:
         radius = section.disc_radius + math.hypot(*section.centre)
         size, growth = _EVEN / section.refinement, _GROWTH ** (1 / section.refinement)
 
-        def aside(room: float) -> float:
-            return min(radius + _ASIDE, max(_ASIDE_PART * room, section.disc_radius))
+        def even(beyond: float, room: float) -> float:
+            return min(radius + beyond, max(_PART * room, section.disc_radius))
 
         along = _lines(
             (-channel.upstream, channel.downstream),
-            (-radius - _AHEAD, radius + _BEHIND),
+            (-even(_AHEAD, channel.upstream), even(_BEHIND, channel.downstream)),
             size,
             growth,
         )
         across = _lines(
             (channel.floor, channel.ceiling),
-            (-aside(-channel.floor), aside(channel.ceiling)),
+            (-even(_ASIDE, -channel.floor), even(_ASIDE, channel.ceiling)),
             size,
             growth,
         )
