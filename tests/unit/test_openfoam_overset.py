@@ -165,6 +165,14 @@ def test_section_whose_mesh_has_left_the_channel_is_refused(tmp_path: Path) -> N
     out = replace(history, deflection=rows[2])
     with pytest.raises(BlowUpError, match=r"^at 0\.02 c/V the section's mesh reaches 2\.\d+ c off"):
         run.require_room(out)
+    # neither at its largest twist nor at its largest deflection, and again inside at the end
+    turned = replace(
+        history, twist=np.array([0.0, 0.7, 1.0]), deflection=np.array([-1.3, -1.1, 0.1])
+    )
+    with pytest.raises(BlowUpError, match=r"^at 0\.02 c/V"):
+        run.require_room(turned)
+    assert run.within_room(turned).time.tolist() == [0.0]
+    assert run.within_room(history).time.size == 3
     # a disc reaches as far at any twist
     assert around_airfoil().reach(0.3, 0.5) == pytest.approx(1.5, abs=0.02)
 

@@ -24,7 +24,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from equisection.errors import SolverError
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, expansion
@@ -87,15 +87,15 @@ class OutlineOversetMesh:
         )
         return along, across
 
-    def reach(self, twist: float, deflection: float) -> float:
+    def reach(self, twist: ArrayLike, deflection: ArrayLike) -> Floats:
         """Return the reach of the disc from the middle of the channel (chords).
 
-        The section is at a twist (rad) and a deflection of mid-chord (chords) beyond those of the
+        The section is at twists (rad) and deflections of mid-chord (chords) beyond those of the
         mesh.
         """
-        (x, y), angle = self.section.centre, self.section.incidence + twist
-        height = self.channel.section_height + deflection
-        return abs(height + y * math.cos(angle) - x * math.sin(angle)) + self.section.disc_radius
+        (x, y), angle = self.section.centre, self.section.incidence + np.asarray(twist)
+        height = self.channel.section_height + np.asarray(deflection)
+        return np.abs(height + y * np.cos(angle) - x * np.sin(angle)) + self.section.disc_radius
 
     def write(self, folder: Path, time_limit: float = TIME_LIMIT) -> int:
         """Make both meshes, write ``constant/polyMesh``, and return their number of cells.

@@ -17,8 +17,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from equisection.errors import SolverError
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, both_ends, expansion
+
+Floats = NDArray[np.float64]
 
 #: Patch at which the component ends.
 OVERSET = "overset"
@@ -148,23 +153,29 @@ class OversetMesh:
             f"\n\nedges ();\n\nboundary\n(\n{_lines(patches)}\n);\n"
         )
 
-    def reach(self, twist: float, deflection: float) -> float:
+    def reach(self, twist: ArrayLike, deflection: ArrayLike) -> Floats:
         """Return the reach of the component from the middle of the channel (chords).
 
-        The section is at a twist (rad) and a deflection (chords) beyond those of the mesh.
+        The section is at twists (rad) and deflections (chords) beyond those of the mesh.
         """
-        turned = OversetMesh(self.channel, self.incidence + twist, self.refinement)
-        above = self.channel.section_height + deflection
-        return max(abs(y + above) for _, y in turned._component_points())
+        angle = self.incidence + np.asarray(twist)
+        above = self.channel.section_height + np.asarray(deflection)
+        heights = [
+            above + eta * np.cos(angle) - xi * np.sin(angle) for xi, eta in self._level_points()
+        ]
+        return np.asarray(np.abs(heights).max(axis=0))
 
     def _component_points(self) -> list[tuple[float, float]]:
-        half = self.channel.thickness / 2
-        along = (-0.5 - _AHEAD, -0.5, 0.5, 0.5 + _BEHIND)
-        across = (-self._aside, -half, half, self._aside)
         cosine, sine = math.cos(self.incidence), math.sin(self.incidence)
         return [
-            (xi * cosine + eta * sine, eta * cosine - xi * sine) for xi in along for eta in across
+            (xi * cosine + eta * sine, eta * cosine - xi * sine) for xi, eta in self._level_points()
         ]
+
+    def _level_points(self) -> list[tuple[float, float]]:
+        """Return the crossings of the component's lines along and across the plate (chords)."""
+        half = self.channel.thickness / 2
+        along = (-0.5 - _AHEAD, -0.5, 0.5, 0.5 + _BEHIND)
+        return [(xi, eta) for xi in along for eta in (-self._aside, -half, half, self._aside)]
 
     def _block(self, corners: list[int], column: Row, row: Row, across: Sequence[str]) -> str:
         corners = [*corners, *(corner + _LAYER for corner in corners)]
