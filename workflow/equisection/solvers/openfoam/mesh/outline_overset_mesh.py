@@ -87,6 +87,16 @@ class OutlineOversetMesh:
         )
         return along, across
 
+    def require_room(self) -> None:
+        """Refuse a channel that the disc does not fit into.
+
+        Raises
+        ------
+        SolverError
+            With the channel and what the disc needs.
+        """
+        self.section.require_room()
+
     def reach(self, twist: ArrayLike, deflection: ArrayLike) -> Floats:
         """Return the reach of the disc from the middle of the channel (chords).
 
@@ -109,7 +119,7 @@ class OutlineOversetMesh:
         SolverError
             The disc has no room; gmsh is missing, crashed, or did not end in time (s).
         """
-        self.section.require_room()
+        self.require_room()
         made_by(_MESHER, folder, asdict(self.section), time_limit)
         found = re.match(r"\d+", (folder / LOG).read_text(encoding="utf-8").splitlines()[-1])
         if found is None:

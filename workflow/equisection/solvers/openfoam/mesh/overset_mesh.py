@@ -117,6 +117,23 @@ class OversetMesh:
         columns = [_reversed(ahead), (_ALONG_PLATE, plate), behind]
         return columns, [_reversed(aside), (_ACROSS_PLATE, across), aside]
 
+    def require_room(self) -> None:
+        """Refuse a channel that either mesh does not fit into.
+
+        Raises
+        ------
+        SolverError
+            With the channel.
+        """
+        self._background_lines()
+        channel = self.channel
+        _, grown = _growing(_AT_WALL)
+        if self._aside - channel.thickness / 2 <= grown:
+            raise SolverError(
+                f"the overset mesh around the plate does not fit into a channel of "
+                f"{channel.height:g} c{channel.words}; enlarge flow.channel"
+            )
+
     def block_mesh_dict(self) -> str:
         """Return the text of ``blockMeshDict``, for one layer of cells of depth 1."""
         x, y = self._background_lines()
@@ -197,12 +214,17 @@ _PLATE = [(1, 1, 1, 2), (2, 1, 2, 2), (1, 1, 2, 1), (1, 2, 2, 2)]
 
 def _off(first: float, length: float) -> Row:
     """Return cells that grow from the plate to the even size and stay there."""
-    cells = round(math.log(_EVEN / first) / math.log(_GROWTH))
-    reach = first * (_GROWTH**cells - 1) / (_GROWTH - 1)
+    cells, reach = _growing(first)
     even = max(1, round((length - reach) / _EVEN))
     ratio = _GROWTH ** (cells - 1)
     text = f"(({reach:.8g} {cells} {ratio:.8g}) ({length - reach:.8g} {even} 1))"
     return _even(cells + even), text
+
+
+def _growing(first: float) -> tuple[int, float]:
+    """Return the cells from a first one to the even size, and their length (chords)."""
+    cells = round(math.log(_EVEN / first) / math.log(_GROWTH))
+    return cells, first * (_GROWTH**cells - 1) / (_GROWTH - 1)
 
 
 def _outward(length: float) -> Row:

@@ -190,6 +190,16 @@ class SectionRun(FreeRun[SectionCells]):
             return ""
         return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
 
+    def require_room_at_release(self) -> None:
+        """Refuse a channel that the mesh at the release does not fit into.
+
+        Raises
+        ------
+        SolverError
+            With the channel.
+        """
+        self.mesh.require_room()
+
     def within_room(self, so_far: SectionHistory) -> SectionHistory:
         """Return what the mesh could follow of a history; one that morphs tangles by itself."""
         return so_far

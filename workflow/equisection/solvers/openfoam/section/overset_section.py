@@ -148,6 +148,10 @@ class OversetRun(SectionRun):
             return ""
         return f"the section's mesh reaches {reach:.3g} c off the middle of a channel of {half:g} c"
 
+    def require_room_at_release(self) -> None:
+        """Refuse a channel that both meshes at the release do not fit into."""
+        self.meshes.require_room()
+
     def within_room(self, so_far: SectionHistory) -> SectionHistory:
         """Return the part of a history before the section's mesh has left the channel.
 
