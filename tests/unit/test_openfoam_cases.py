@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from tests.sample_cases import GEOMETRY, MEDIUM, STEADY, UNSTEADY, UNSTEADY_PLATE
+from tests.sample_outlines import SHAPES
 from tests.watching import nothing
 
 from equisection.beam.section import Section
@@ -36,6 +37,7 @@ from equisection.solvers.openfoam.flow_setup import (
     write_flow,
 )
 from equisection.solvers.openfoam.installation import Installation
+from equisection.solvers.openfoam.mesh import outline_mesh
 from equisection.solvers.openfoam.section.body_axes import BodyAxes
 from equisection.solvers.openfoam.section.rigid_section import mesh_of, require_sound_mesh
 from equisection.solvers.openfoam.section.section_history import read_section
@@ -527,6 +529,7 @@ def test_what_the_solver_cannot_do_is_refused(changes: dict[str, Any], key: str)
         ({"height_chords": 1.5}, "morph", "turned to 10 deg, does not fit into a channel of 1.5 c"),
         ({"downstream_chords": 3.0}, "morph", "a channel of 4 c from -5 c to 3 c"),
         ({"upstream_chords": 1.5}, "overset", "a channel of 4 c from -1.5 c to 15 c"),
+        ({"height_chords": 2.4}, "overset", "the overset mesh around the plate does not fit"),
     ],
 )
 def test_channel_without_room_for_the_mesh_is_refused(
@@ -540,14 +543,30 @@ def test_channel_without_room_for_the_mesh_is_refused(
     assert reason in line
 
 
-def test_mesh_without_room_at_the_equilibrium_is_a_result(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("motion", "outline", "height"),
+    [
+        ("morph", False, 1.9),
+        ("overset", False, 0.8),
+        ("overset", False, 2.1),
+        ("overset", True, 1.2),
+    ],
+)
+def test_mesh_without_room_at_the_equilibrium_is_a_result(
+    motion: str, outline: bool, height: float, tmp_path: Path
+) -> None:
     """Its height is known with the case alone, and other cases of the sweep may have the room."""
-    start = Start(state="equilibrium", twist_deg=0.3, equilibrium=(0.01, 1.9))
-    case = UNSTEADY.model_copy(update={"start": start})
-    solver = Adapter(Settings("coarse", 2))
+    start = Start(state="equilibrium", twist_deg=0.3, equilibrium=(0.01, height))
+    case, mesher = UNSTEADY.model_copy(update={"start": start}), ""
+    if outline:
+        pairs = SHAPES["naca 0012"].as_pairs()
+        geometry = case.geometry.model_copy(update={"outline": pairs})
+        case = case.model_copy(update={"geometry": geometry})
+        mesher = outline_mesh.mesher(reynolds_number(case.geometry, case.medium))
+    solver = Adapter(Settings("coarse", 2, mesh_motion=motion, mesher=mesher))
     found = solver._free_section(cast(Installation, None), case, tmp_path, nothing)
     assert found.verdict["regime"] == "failed"
-    assert "with the section 1.9 c above its middle" in found.verdict["reason"]
+    assert f"with the section {height:g} c above its middle" in found.verdict["reason"]
 
 
 def test_wide_channel_in_the_place_of_free_air_has_room() -> None:

@@ -123,6 +123,16 @@ def test_background_of_an_outline_is_even_where_its_disc_comes(height: float) ->
         assert 1 / 1.25 < ratio.min() < ratio.max() < 1.25
 
 
+def test_background_of_an_outline_ends_with_a_short_channel() -> None:
+    """Its disc has the room, its even cells would reach beyond the outlet."""
+    box = ChannelBox(0.12, 4.0, 2.1, 2.2)
+    mesh = OutlineOversetMesh(OutlineMesh(SHAPES["naca 0012"].as_pairs(), box, 0.0, 1.0))
+    mesh.section.require_room()
+    along, _ = mesh.background_lines()
+    assert (along[0], along[-1]) == pytest.approx((-2.1, 2.2))
+    assert np.diff(along).min() > 0.04
+
+
 def test_refinement_divides_the_background_of_an_outline() -> None:
     cells = around_airfoil().background_cells
     assert around_airfoil(refinement=2.0).background_cells == pytest.approx(4 * cells, rel=0.03)
@@ -155,6 +165,14 @@ def test_section_whose_mesh_has_left_the_channel_is_refused(tmp_path: Path) -> N
     out = replace(history, deflection=rows[2])
     with pytest.raises(BlowUpError, match=r"^at 0\.02 c/V the section's mesh reaches 2\.\d+ c off"):
         run.require_room(out)
+    # neither at its largest twist nor at its largest deflection, and again inside at the end
+    turned = replace(
+        history, twist=np.array([0.0, 0.7, 1.0]), deflection=np.array([-1.3, -1.1, 0.1])
+    )
+    with pytest.raises(BlowUpError, match=r"^at 0\.02 c/V"):
+        run.require_room(turned)
+    assert run.within_room(turned).time.tolist() == [0.0]
+    assert run.within_room(history).time.size == 3
     # a disc reaches as far at any twist
     assert around_airfoil().reach(0.3, 0.5) == pytest.approx(1.5, abs=0.02)
 

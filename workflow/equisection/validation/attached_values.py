@@ -21,7 +21,7 @@ from equisection.validation.known_values import DIGITS, KnownValue, Source
 _CONFIGURATION = Path(__file__).parents[3] / "config" / "validation" / "patil_wing.yaml"
 _HIGH_AIR = 0.0889
 _PATIL = Source(
-    "published",
+    "unconfirmed",
     "Patil, Hodges and Cesnik, Journal of Aircraft 38, 2001, undeformed wing, as AeroBeams.jl "
     "quotes their solution: mixed finite elements, loads by finite states",
 )

@@ -296,14 +296,14 @@ class Adapter:
         _require_own_loads(case)  # before the steady flow, which takes long
         mesh = self._mesh(case)
         kind = SectionRun if self._settings.mesh_motion == MORPH else OversetRun
-        if case.start.equilibrium and kind is SectionRun:
-            # its height is known by now alone, and other cases of the sweep may have the room
-            try:
-                mesh.require_room()
-            except SolverError as error:
-                return refused(case.model_copy(update={"refusal": str(error)}))
         settings = self._settings
         run = kind(installation, case, mesh, settings.coupling, place, turbulence=settings.stream)
+        if case.start.equilibrium:
+            # its height is known by now alone, and other cases of the sweep may have the room
+            try:
+                run.require_room_at_release()
+            except SolverError as error:
+                return refused(case.model_copy(update={"refusal": str(error)}))
         _ = run.axes  # refuses what it does not have, the same
         return run.run(tell)
 

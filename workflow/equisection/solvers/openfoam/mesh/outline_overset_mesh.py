@@ -24,7 +24,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from equisection.errors import SolverError
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, expansion
@@ -37,8 +37,8 @@ _MESHER = "outline_overset_mesher"
 #: Even cells of the background (chords) at refinement 1, and their growth beyond.
 _EVEN, _GROWTH = 0.06, 1.2
 #: Where the background has even cells, from the disc at rest on: ahead, behind and to either side
-#: (chords), the last as a part of the room up to the wall at the most.
-_AHEAD, _BEHIND, _ASIDE, _ASIDE_PART = 0.2, 1.4, 0.7, 0.85
+#: (chords), each as a part of the room up to the end or wall at the most.
+_AHEAD, _BEHIND, _ASIDE, _PART = 0.2, 1.4, 0.7, 0.85
 
 
 @dataclass(frozen=True)
@@ -70,32 +70,42 @@ class OutlineOversetMesh:
         radius = section.disc_radius + math.hypot(*section.centre)
         size, growth = _EVEN / section.refinement, _GROWTH ** (1 / section.refinement)
 
-        def aside(room: float) -> float:
-            return min(radius + _ASIDE, max(_ASIDE_PART * room, section.disc_radius))
+        def even(beyond: float, room: float) -> float:
+            return min(radius + beyond, max(_PART * room, section.disc_radius))
 
         along = _lines(
             (-channel.upstream, channel.downstream),
-            (-radius - _AHEAD, radius + _BEHIND),
+            (-even(_AHEAD, channel.upstream), even(_BEHIND, channel.downstream)),
             size,
             growth,
         )
         across = _lines(
             (channel.floor, channel.ceiling),
-            (-aside(-channel.floor), aside(channel.ceiling)),
+            (-even(_ASIDE, -channel.floor), even(_ASIDE, channel.ceiling)),
             size,
             growth,
         )
         return along, across
 
-    def reach(self, twist: float, deflection: float) -> float:
+    def require_room(self) -> None:
+        """Refuse a channel that the disc does not fit into.
+
+        Raises
+        ------
+        SolverError
+            With the channel and what the disc needs.
+        """
+        self.section.require_room()
+
+    def reach(self, twist: ArrayLike, deflection: ArrayLike) -> Floats:
         """Return the reach of the disc from the middle of the channel (chords).
 
-        The section is at a twist (rad) and a deflection of mid-chord (chords) beyond those of the
+        The section is at twists (rad) and deflections of mid-chord (chords) beyond those of the
         mesh.
         """
-        (x, y), angle = self.section.centre, self.section.incidence + twist
-        height = self.channel.section_height + deflection
-        return abs(height + y * math.cos(angle) - x * math.sin(angle)) + self.section.disc_radius
+        (x, y), angle = self.section.centre, self.section.incidence + np.asarray(twist)
+        height = self.channel.section_height + np.asarray(deflection)
+        return np.abs(height + y * np.cos(angle) - x * np.sin(angle)) + self.section.disc_radius
 
     def write(self, folder: Path, time_limit: float = TIME_LIMIT) -> int:
         """Make both meshes, write ``constant/polyMesh``, and return their number of cells.
@@ -109,7 +119,7 @@ class OutlineOversetMesh:
         SolverError
             The disc has no room; gmsh is missing, crashed, or did not end in time (s).
         """
-        self.section.require_room()
+        self.require_room()
         made_by(_MESHER, folder, asdict(self.section), time_limit)
         found = re.match(r"\d+", (folder / LOG).read_text(encoding="utf-8").splitlines()[-1])
         if found is None:

@@ -17,8 +17,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from equisection.errors import SolverError
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, both_ends, expansion
+
+Floats = NDArray[np.float64]
 
 #: Patch at which the component ends.
 OVERSET = "overset"
@@ -112,6 +117,23 @@ class OversetMesh:
         columns = [_reversed(ahead), (_ALONG_PLATE, plate), behind]
         return columns, [_reversed(aside), (_ACROSS_PLATE, across), aside]
 
+    def require_room(self) -> None:
+        """Refuse a channel that either mesh does not fit into.
+
+        Raises
+        ------
+        SolverError
+            With the channel.
+        """
+        self._background_lines()
+        channel = self.channel
+        _, grown = _growing(_AT_WALL)
+        if self._aside - channel.thickness / 2 <= grown:
+            raise SolverError(
+                f"the overset mesh around the plate does not fit into a channel of "
+                f"{channel.height:g} c{channel.words}; enlarge flow.channel"
+            )
+
     def block_mesh_dict(self) -> str:
         """Return the text of ``blockMeshDict``, for one layer of cells of depth 1."""
         x, y = self._background_lines()
@@ -148,23 +170,29 @@ class OversetMesh:
             f"\n\nedges ();\n\nboundary\n(\n{_lines(patches)}\n);\n"
         )
 
-    def reach(self, twist: float, deflection: float) -> float:
+    def reach(self, twist: ArrayLike, deflection: ArrayLike) -> Floats:
         """Return the reach of the component from the middle of the channel (chords).
 
-        The section is at a twist (rad) and a deflection (chords) beyond those of the mesh.
+        The section is at twists (rad) and deflections (chords) beyond those of the mesh.
         """
-        turned = OversetMesh(self.channel, self.incidence + twist, self.refinement)
-        above = self.channel.section_height + deflection
-        return max(abs(y + above) for _, y in turned._component_points())
+        angle = self.incidence + np.asarray(twist)
+        above = self.channel.section_height + np.asarray(deflection)
+        heights = [
+            above + eta * np.cos(angle) - xi * np.sin(angle) for xi, eta in self._level_points()
+        ]
+        return np.asarray(np.abs(heights).max(axis=0))
 
     def _component_points(self) -> list[tuple[float, float]]:
-        half = self.channel.thickness / 2
-        along = (-0.5 - _AHEAD, -0.5, 0.5, 0.5 + _BEHIND)
-        across = (-self._aside, -half, half, self._aside)
         cosine, sine = math.cos(self.incidence), math.sin(self.incidence)
         return [
-            (xi * cosine + eta * sine, eta * cosine - xi * sine) for xi in along for eta in across
+            (xi * cosine + eta * sine, eta * cosine - xi * sine) for xi, eta in self._level_points()
         ]
+
+    def _level_points(self) -> list[tuple[float, float]]:
+        """Return the crossings of the component's lines along and across the plate (chords)."""
+        half = self.channel.thickness / 2
+        along = (-0.5 - _AHEAD, -0.5, 0.5, 0.5 + _BEHIND)
+        return [(xi, eta) for xi in along for eta in (-self._aside, -half, half, self._aside)]
 
     def _block(self, corners: list[int], column: Row, row: Row, across: Sequence[str]) -> str:
         corners = [*corners, *(corner + _LAYER for corner in corners)]
@@ -186,12 +214,17 @@ _PLATE = [(1, 1, 1, 2), (2, 1, 2, 2), (1, 1, 2, 1), (1, 2, 2, 2)]
 
 def _off(first: float, length: float) -> Row:
     """Return cells that grow from the plate to the even size and stay there."""
-    cells = round(math.log(_EVEN / first) / math.log(_GROWTH))
-    reach = first * (_GROWTH**cells - 1) / (_GROWTH - 1)
+    cells, reach = _growing(first)
     even = max(1, round((length - reach) / _EVEN))
     ratio = _GROWTH ** (cells - 1)
     text = f"(({reach:.8g} {cells} {ratio:.8g}) ({length - reach:.8g} {even} 1))"
     return _even(cells + even), text
+
+
+def _growing(first: float) -> tuple[int, float]:
+    """Return the cells from a first one to the even size, and their length (chords)."""
+    cells = round(math.log(_EVEN / first) / math.log(_GROWTH))
+    return cells, first * (_GROWTH**cells - 1) / (_GROWTH - 1)
 
 
 def _outward(length: float) -> Row:

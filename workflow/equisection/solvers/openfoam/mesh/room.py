@@ -7,17 +7,18 @@ from collections.abc import Iterator
 
 from equisection.beam.outline import outline_of, rectangle
 from equisection.config import Config
-from equisection.config.groups.openfoam_keys import OUTLINE
+from equisection.config.groups.openfoam_keys import OUTLINE, OVERSET
 from equisection.errors import SolverError
 from equisection.keys.checks import Problem
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox, Mesh
 from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
+from equisection.solvers.openfoam.mesh.overset_mesh import OversetMesh
 
 
 def problems(config: Config) -> Iterator[Problem]:
     """Yield the problem of the first mesh that does not fit, from the largest incidence down.
 
-    An overset mesh needs less room than that of the rigid section, which every run has.
+    Every run has that of the rigid section; overset meshes of an outline need no more.
     """
     given, beam = config.flow.channel, config.beam
     if given is None:  # in free air, whose far field is further than any mesh around a section
@@ -42,6 +43,8 @@ def problems(config: Config) -> Iterator[Problem]:
                 Mesh(channel, incidence, 1.0).points()
             else:
                 OutlineMesh(outline.as_pairs(), channel, incidence, 1.0).require_room()
+        if outline is None and config.openfoam.mesh_motion == OVERSET:
+            OversetMesh(channel, math.radians(released), 1.0).require_room()
     except SolverError as error:
         yield Problem(
             "flow.channel",

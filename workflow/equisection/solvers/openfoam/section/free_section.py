@@ -137,7 +137,7 @@ class SectionRun(FreeRun[SectionCells]):
             failure = str(error)
             if not is_ready(self.folder) or not has_loads(self.folder):
                 return refused(case.model_copy(update={"refusal": failure}))
-        so_far = self.history()
+        so_far = self.within_room(self.history())
         if failure and self._is_over():
             logger.info("what went wrong is later than the verdict: %s", failure)
             failure = ""
@@ -148,7 +148,8 @@ class SectionRun(FreeRun[SectionCells]):
 
     def _is_over(self) -> bool:
         """Tell whether the verdict is in."""
-        history = _from_release(self.folder, self.history(), self.case, self.case.duration)
+        so_far = self.within_room(self.history())
+        history = _from_release(self.folder, so_far, self.case, self.case.duration)
         return math.isfinite(decided_at(self.case, _tip(self.case.section, history)))
 
     def mesh_fault_at(self, so_far: SectionHistory, sample: int) -> str:
@@ -189,8 +190,32 @@ class SectionRun(FreeRun[SectionCells]):
             return ""
         return f"the mesh has tangled ({faults}); openfoam.mesh_motion: overset goes further"
 
+    def require_room_at_release(self) -> None:
+        """Refuse a channel that the mesh at the release does not fit into.
+
+        Raises
+        ------
+        SolverError
+            With the channel.
+        """
+        self.mesh.require_room()
+
+    def within_room(self, so_far: SectionHistory) -> SectionHistory:
+        """Return what the mesh could follow of a history; one that morphs tangles by itself."""
+        return so_far
+
     def require_room(self, so_far: SectionHistory) -> None:
-        """Refuse a motion that the mesh cannot follow; one that morphs tangles by itself."""
+        """Refuse a motion that the mesh cannot follow.
+
+        Raises
+        ------
+        BlowUpError
+            With the time and the fault of the mesh.
+        """
+        followed = self.within_room(so_far).time.size
+        if followed < so_far.time.size:
+            fault = self.mesh_fault_at(so_far, followed)
+            raise BlowUpError(f"at {so_far.time[followed]:g} c/V {fault}")
 
     def _watch(self, start: float, tell: Tell) -> Watch:
         case, due, iterations = self.case, Every(LOOKS_EVERY, last_look(start)), IterationsCheck()

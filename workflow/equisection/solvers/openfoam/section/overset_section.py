@@ -32,7 +32,6 @@ from equisection.solvers.openfoam.free_run import STATE_INTERVAL
 from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 from equisection.solvers.openfoam.mesh.outline_overset_mesh import OutlineOversetMesh
 from equisection.solvers.openfoam.mesh.overset_mesh import OVERSET, OversetMesh
-from equisection.solvers.openfoam.process import BlowUpError
 from equisection.solvers.openfoam.reading.loads import Loads
 from equisection.solvers.openfoam.rigid_flow import (
     MOST,
@@ -143,28 +142,25 @@ class OversetRun(SectionRun):
 
     def mesh_fault(self, rotation: float, height: float) -> str:
         """Return the fault of the section's mesh where it has left the channel, else ''."""
-        reach, half = self.meshes.reach(rotation, height), self.mesh.channel.height / 2
+        half = self.mesh.channel.height / 2
+        reach = float(self.meshes.reach(rotation, height))
         if reach < half:
             return ""
         return f"the section's mesh reaches {reach:.3g} c off the middle of a channel of {half:g} c"
 
-    def require_room(self, so_far: SectionHistory) -> None:
-        """Refuse a motion in which the section's mesh has left the channel.
+    def require_room_at_release(self) -> None:
+        """Refuse a channel that both meshes at the release do not fit into."""
+        self.meshes.require_room()
+
+    def within_room(self, so_far: SectionHistory) -> SectionHistory:
+        """Return the part of a history before the section's mesh has left the channel.
 
         What is beyond it takes no values from the channel's mesh, and the loads are wrong.
-
-        Raises
-        ------
-        BlowUpError
-            With the reach.
         """
-        if not so_far.time.size:
-            return
-        motion = so_far.deflection, so_far.twist
-        furthest = {int(find(values)) for values in motion for find in (np.argmin, np.argmax)}
-        for sample in sorted(furthest):
-            if fault := self.mesh_fault_at(so_far, sample):
-                raise BlowUpError(f"at {so_far.time[sample]:g} c/V {fault}")
+        _, height = self.axes.mid_chord_places(so_far.twist, so_far.deflection)
+        reach = self.meshes.reach(so_far.twist - self.axes.start_twist, height)
+        outside = np.flatnonzero(reach >= self.mesh.channel.height / 2)
+        return so_far.first(int(outside[0])) if outside.size else so_far
 
     def history(self, loads: Loads | None = None) -> SectionHistory:
         """Return the history so far, its motion from the log."""

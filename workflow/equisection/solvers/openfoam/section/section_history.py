@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +40,10 @@ class SectionHistory:
     lift: Floats
     moment: Floats
     axis_moment: Floats
+
+    def first(self, samples: int) -> SectionHistory:
+        """Return the first samples."""
+        return SectionHistory(*(getattr(self, one.name)[:samples] for one in fields(self)))
 
     def sampled(self, step: float, interval: float, end: float = math.inf) -> SectionHistory:
         """Return the samples up to an end at multiples of an interval, which is one of the step."""
