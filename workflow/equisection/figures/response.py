@@ -180,39 +180,34 @@ def draw(response: Response) -> Figure:
     """
     models = list(dict.fromkeys(response.summary["model"]))
     section, beam = section_model(models), beam_model(models)
-    rows = [
-        (model, letters, places)
-        for model, letters, places in (
-            (section, SECTION_LETTERS, "cde"),
-            (beam, BEAM_LETTERS, "fgh"),
-        )
-        if model is not None
-    ]
+    rows = [model for model in (section, beam) if model is not None]
     count = max(len(rows), 1)
     figure = Figure(figsize=(PAGE_WIDTH, 7.6 - 2.07 * (2 - count)))
     halves = figure.add_gridspec(2, 1, height_ratios=(1.0, 0.6 * count))
-    above, below = halves[0].subgridspec(1, 2), halves[1].subgridspec(count, 3)
+    above, below = halves[0].subgridspec(1, 2), halves[1].subgridspec(count, 1)
     top = [figure.add_subplot(above[0]), figure.add_subplot(above[1])]
     for axes, name, place in zip(top, _QUANTITIES, "ab", strict=True):
         _means(axes, response, name)
         letter(axes, place, _agreement(response.summary, section, beam, name))
-    for row, (model, letters, places) in enumerate(rows):
-        shown = {case.letter: case for case in response.cases[model]}
-        drawn: dict[float, str] = {}
-        for column, (name, place) in enumerate(zip(letters, places, strict=True)):
-            axes, case = figure.add_subplot(below[row, column]), shown[name]
-            first = drawn.setdefault(case.value, name)
-            if first != name and case.exists:
-                letter(axes, place, f"{name}: {LOOKS[model].label}")
-                say(axes, f"The same run as {first}.", 24)
-            else:
-                _history(axes, place, case, response.histories.get(name), LOOKS[model])
+    places = iter("cdefgh")
+    for row, model in enumerate(rows):
+        shown = _once(response.cases[model])
+        across = below[row].subgridspec(1, len(shown))
+        for column, case in enumerate(shown):
+            axes = figure.add_subplot(across[column])
+            _history(axes, next(places), case, response.histories.get(case.letter), LOOKS[model])
     figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
     sections = {"2d", "2d-corrected"} & set(models)
     of_reduction = f"2D: reduction '{response.reduction}'"
     notes = [*([of_reduction] if sections else []), *_known_errors(response.onset)]
     add_provenance(figure, *_sources(response), *notes)
     return figure
+
+
+def _once(cases: Sequence[ShownCase]) -> list[ShownCase]:
+    """Return each run by its first letter: the stiffest may be the one next to the onset."""
+    by_run = {case.value if case.exists else case.letter: case for case in reversed(cases)}
+    return sorted(by_run.values(), key=lambda case: case.letter)
 
 
 def _means(axes: Axes, response: Response, name: str) -> None:
@@ -255,7 +250,7 @@ def _means(axes: Axes, response: Response, name: str) -> None:
                 zorder=5,
             )
     for shown in response.cases.values():
-        _letters(axes, shown, name)
+        _letters(axes, _once(shown), name)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
     low, high = axes.get_ylim()
     height = high - low
