@@ -239,13 +239,13 @@ class _Reader:
         lines = last_lines(self._store.work(task), log)
         if error:
             return replace(entry, state=State.FAILED, text=printable(error), last_lines=lines)
-        if self._store.result(task).exists():
-            return replace(entry, state=State.WAITING, text="its result is in the store")
-        if job is not None:
+        waits_for = self._indices.why_missing(listed.result)
+        if not waits_for and self._store.result(task).exists():
+            waits_for = "its result is in the store"
+        if job is not None and not waits_for:
             text = f"its process ended at {100 * done:.0f} % without a word; run again"
             return replace(entry, state=State.STOPPED, text=text, last_lines=lines)
-        why = self._indices.why_missing(listed.result)
-        return replace(entry, state=State.WAITING, text=printable(why))
+        return replace(entry, state=State.WAITING, text=printable(waits_for))
 
 
 def _finished(entry: CaseStatus, attributes: dict[str, Any]) -> CaseStatus:
