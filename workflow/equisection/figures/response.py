@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -180,21 +181,21 @@ def draw(response: Response) -> Figure:
     """
     models = list(dict.fromkeys(response.summary["model"]))
     section, beam = section_model(models), beam_model(models)
-    rows = [model for model in (section, beam) if model is not None]
+    rows = {model: _once(response.cases[model]) for model in (section, beam) if model is not None}
     count = max(len(rows), 1)
+    columns = math.lcm(*map(len, rows.values()))
     figure = Figure(figsize=(PAGE_WIDTH, 7.6 - 2.07 * (2 - count)))
     halves = figure.add_gridspec(2, 1, height_ratios=(1.0, 0.6 * count))
-    above, below = halves[0].subgridspec(1, 2), halves[1].subgridspec(count, 1)
+    above, below = halves[0].subgridspec(1, 2), halves[1].subgridspec(count, columns)
     top = [figure.add_subplot(above[0]), figure.add_subplot(above[1])]
     for axes, name, place in zip(top, _QUANTITIES, "ab", strict=True):
         _means(axes, response, name)
         letter(axes, place, _agreement(response.summary, section, beam, name))
     places = iter("cdefgh")
-    for row, model in enumerate(rows):
-        shown = _once(response.cases[model])
-        across = below[row].subgridspec(1, len(shown))
+    for row, (model, shown) in enumerate(rows.items()):
+        width = columns // len(shown)
         for column, case in enumerate(shown):
-            axes = figure.add_subplot(across[column])
+            axes = figure.add_subplot(below[row, column * width : (column + 1) * width])
             _history(axes, next(places), case, response.histories.get(case.letter), LOOKS[model])
     figure.legend(handles=_handles(response, models), loc="outside upper center", ncols=4)
     sections = {"2d", "2d-corrected"} & set(models)
