@@ -121,7 +121,7 @@ gallery: drawing
 
 # Every other picture of the pages that a run draws; those of the paper are drawn by `make paper`.
 PICTURES := $(SNAKEMAKE) --configfile
-pictures: gallery
+pictures: $(ENV)/openfoam gallery # outlines need gmsh, also where their results are kept
 	$(PICTURES) config/examples/plate_over_incidence.yaml -- results/plate-over-incidence/figures/modes-over-speed.png
 	$(PICTURES) config/examples/openfoam_deck.yaml --config compute=false \
 		-- results/openfoam-deck/figures/response.png results/openfoam-deck/figures/mesh-of-section.png
