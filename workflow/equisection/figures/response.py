@@ -84,7 +84,8 @@ class Response:
     summary, onset
         ``comparison/summary.csv`` and ``comparison/onset.csv``.
     cases
-        The cases of each model whose histories are shown: of the section, then of the beam.
+        The cases of each model whose histories are shown, each run once: of the section, then of
+        the beam.
     histories
         Histories by the letters of the cases.
     extents
@@ -132,7 +133,7 @@ def read_response(
         if model is None:
             continue
         files = results_of(results, model)
-        cases[model] = cases_shown(summary, onset, model, letters)
+        cases[model] = _once(cases_shown(summary, onset, model, letters))
         histories |= {
             case.letter: read_history(result_at(files, case.value, case.axis), i_star)
             for case in cases[model]
@@ -191,7 +192,7 @@ def draw(response: Response) -> Figure:
         letter(axes, place, _agreement(response.summary, section, beam, name))
     places = iter("cdefgh")
     for row, model in enumerate(rows):
-        shown = _once(response.cases[model])
+        shown = response.cases[model]
         across = below[row].subgridspec(1, len(shown))
         for column, case in enumerate(shown):
             axes = figure.add_subplot(across[column])
@@ -250,7 +251,7 @@ def _means(axes: Axes, response: Response, name: str) -> None:
                 zorder=5,
             )
     for shown in response.cases.values():
-        _letters(axes, _once(shown), name)
+        _letters(axes, shown, name)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
     low, high = axes.get_ylim()
     height = high - low
