@@ -210,6 +210,29 @@ def test_incidence_without_a_model_says_why_and_the_others_go_on(
     assert (np.sign(released) == np.sign(SPEEDS - table["speed"].iloc[0])).all()
 
 
+def test_refit_without_an_equilibrium_is_unstable_and_the_others_still_count(
+    line: LearntLine, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The slope of a refit of a beam may end its branch at a lower speed than the model's."""
+    small, low, high = line.small
+    below = LearntLine.spectrum
+
+    def ends(at: float) -> tuple[float, float, float]:
+        def spectrum(of: LearntLine, speeds: Any, fit: int = 0) -> Any:
+            found = below(of, speeds, fit)
+            if fit == 1:
+                found.values[speeds > at] = np.nan
+            return found
+
+        monkeypatch.setattr(LearntLine, "spectrum", spectrum)
+        return LearntLine(line.lessons, line.data, line.given, line.speeds).small
+
+    early = 0.5 * (SPEEDS[0] + low)
+    assert ends(early)[0] == small
+    assert 0.95 * early < ends(early)[1] <= early
+    assert ends(0.5 * (small + high))[:2] == (small, low)
+
+
 def test_small_release_at_zero_incidence_goes_as_the_eigenvalue() -> None:
     """A symmetric section moves from a start alone, and then as small motions do."""
     loads, speeds = known(0.0), np.array([28.0, 38.0])

@@ -23,11 +23,7 @@ from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.reference_history import ReferenceHistory
 from equisection.aerodynamics.strip_polars import StripPolars
 from equisection.analysis.learnt_course import Course, Learnt
-from equisection.analysis.learnt_cycles import (
-    LimitCycles,
-    cycles_of,
-    no_cycles,
-)
+from equisection.analysis.learnt_cycles import LimitCycles, cycles_of, no_cycles
 from equisection.analysis.onset import is_unstable
 from equisection.analysis.recorded_beam import on_strips, release_of
 from equisection.analysis.reduced_beam import ReducedBeam, learnt_beam, predicted_beams

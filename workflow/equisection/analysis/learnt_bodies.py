@@ -188,10 +188,7 @@ class LearntBeamBodies:
 
     def influence(self, loads: LearntStrips, states: Floats) -> InfluenceOf:
         """Return the loads of small motions about states of equilibrium."""
-        torsion, bending = self._modes
-        rest = np.concatenate(
-            [states[:, :torsion], states[:, 2 * torsion : 2 * torsion + bending]], axis=1
-        )
+        rest = np.concatenate(self._on_modes(states), axis=1)
         return LearntBeams(self.parameters, loads).influence(rest)
 
     def attached(self, loads: LearntStrips) -> StripSystem:

@@ -20,7 +20,7 @@ from equisection.aerodynamics.unsteady_loads import APPARENT_INERTIA, APPARENT_M
 from equisection.analysis.reduced_beam import ReducedBeam
 from equisection.analysis.reduced_model import ReducedModel
 from equisection.errors import ArgumentError, ResultFileError
-from equisection.files import write_text, written_whole
+from equisection.files import write_text
 
 #: Version of the layout of the JSON file.
 LAYOUT = 1
@@ -266,8 +266,6 @@ def export(data: xr.Dataset, polar: Polar | None, output: Path) -> None:
     elif output.suffix == ".csv":
         require_model(data)
         words = f"# {data.attrs['words']}; {data.attrs['confirmation']}\n"
-        with written_whole(output) as aside:
-            table = as_table(data).to_csv(index=False, float_format="%.6g")
-            aside.write_text(words + table, encoding="utf-8")
+        write_text(output, words + as_table(data).to_csv(index=False, float_format="%.6g"))
     else:
         raise ArgumentError(f"{output}: allowed is a name that ends in .json or .csv")

@@ -23,7 +23,7 @@ from equisection.analysis.learnt_course import Learnt
 from equisection.analysis.learnt_file import beam_model_of, is_of_strips, model_of
 from equisection.analysis.recorded_beam import on_strips
 from equisection.analysis.reduced_beam import SMALLEST_BAND_OF_BEAM, ReducedBeam
-from equisection.analysis.reduced_model import SMALLEST_BAND
+from equisection.analysis.reduced_model import SMALLEST_BAND, spread_of_refits
 from equisection.cases import UnsteadyCase
 from equisection.motion.mechanism import Instabilities, influence_of, instabilities
 from equisection.motion.mode_tracking import FollowedModes, Spectrum, follow_modes, no_modes
@@ -157,21 +157,23 @@ class LearntLine:
         """Speed (m/s) at which a small motion ceases to decay, with its interval; NaN without.
 
         The interval is where the growth rate, less or more the farthest of the refits but no less
-        than :data:`~equisection.analysis.reduced_model.SMALLEST_BAND`, is zero.
+        than :data:`~equisection.analysis.reduced_model.SMALLEST_BAND`, is zero. At the latest it
+        begins where a refit has no equilibrium.
         """
         spectrum = self.modes.spectrum
         if spectrum.speed.size < 2:
             return math.nan, math.nan, math.nan
         growth = spectrum.least_stable.real
-        refits = [
+        refits = (
             self.spectrum(spectrum.speed, fit).least_stable.real
             for fit in range(1, len(self._fits))
-        ]
-        spread = np.max([np.abs(one - growth) for one in refits], axis=0, initial=0.0)
-        band = np.maximum(np.where(np.isfinite(spread), spread, 0.0), self.smallest_band)
+        )
+        rates = np.array([growth, *refits])
+        band = np.maximum(spread_of_refits(rates), self.smallest_band)
+        lost = np.isfinite(growth) & np.isnan(rates).any(axis=0)
         return (
             _first_rise(spectrum.speed, growth),
-            _first_rise(spectrum.speed, growth + band),
+            _first_rise(spectrum.speed, np.where(lost, np.inf, growth + band)),
             _first_rise(spectrum.speed, growth - band),
         )
 
@@ -216,9 +218,9 @@ def learnt_lines(
 def _first_rise(speed: Floats, growth: Floats) -> float:
     """Return the speed of the first zero of a growth from below, by a straight line; NaN without.
 
-    Where it grows already at the lowest speed there is none.
+    Where it grows already at the lowest speed there is none. An infinite growth begins right away.
     """
-    known = np.isfinite(growth)
+    known = ~np.isnan(growth)
     speed, growth = speed[known], growth[known]
     rises = np.flatnonzero((growth[:-1] <= 0.0) & (growth[1:] > 0.0))
     if not growth.size or growth[0] > 0.0 or not rises.size:

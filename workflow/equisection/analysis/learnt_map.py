@@ -25,13 +25,10 @@ from equisection.analysis.learnt_lines import LearntLine
 from equisection.errors import EquisectionError
 from equisection.motion.learnt_beams import SWINGS_ALONG
 from equisection.motion.map_dataset import described, maps_of_models
-from equisection.motion.mechanism import (
-    Mechanism,
-)
+from equisection.motion.mechanism import Mechanism
 from equisection.motion.mode_tracking import Spectrum
 
 Floats = NDArray[np.float64]
-Complexes = NDArray[np.complex128]
 
 _OVER_BOTH = (
     "growth_rate",

@@ -207,8 +207,8 @@ def prediction_of(
     """
     rates = np.array([row.rates for row in rows])
     frequencies = np.array([row.frequencies for row in rows])
-    band = np.maximum(_spread(rates), smallest_band)
-    spread = _spread(frequencies)
+    band = np.maximum(spread_of_refits(rates), smallest_band)
+    spread = spread_of_refits(frequencies)
     away = np.isinf(rates).any(axis=0)  # a refit that runs away
     least, most = rows[0].farthest.T
     return pd.DataFrame(
@@ -226,7 +226,7 @@ def prediction_of(
     )
 
 
-def _spread(values: Floats) -> Floats:
+def spread_of_refits(values: Floats) -> Floats:
     """Return the largest finite distance of refits (1, 2, ...) from the model (0), shape (N,)."""
     with np.errstate(invalid="ignore"):  # infinite rates have no distance
         distance = np.abs(values - values[0])

@@ -85,7 +85,8 @@ class Response:
     summary, onset
         ``comparison/summary.csv`` and ``comparison/onset.csv``.
     cases
-        The cases of each model whose histories are shown: of the section, then of the beam.
+        The cases of each model whose histories are shown, each run once: of the section, then of
+        the beam.
     histories
         Histories by the letters of the cases.
     extents
@@ -133,7 +134,7 @@ def read_response(
         if model is None:
             continue
         files = results_of(results, model)
-        cases[model] = cases_shown(summary, onset, model, letters)
+        cases[model] = _once(cases_shown(summary, onset, model, letters))
         histories |= {
             case.letter: read_history(result_at(files, case.value, case.axis), i_star)
             for case in cases[model]
@@ -181,7 +182,7 @@ def draw(response: Response) -> Figure:
     """
     models = list(dict.fromkeys(response.summary["model"]))
     section, beam = section_model(models), beam_model(models)
-    rows = {model: _once(response.cases[model]) for model in (section, beam) if model is not None}
+    rows = {model: response.cases[model] for model in (section, beam) if model is not None}
     count = max(len(rows), 1)
     columns = math.lcm(*map(len, rows.values()))
     figure = Figure(figsize=(PAGE_WIDTH, 7.6 - 2.07 * (2 - count)))
@@ -251,7 +252,7 @@ def _means(axes: Axes, response: Response, name: str) -> None:
                 zorder=5,
             )
     for shown in response.cases.values():
-        _letters(axes, _once(shown), name)
+        _letters(axes, shown, name)
     axes.xaxis.set_major_locator(MaxNLocator(nbins=8, steps=[1, 2, 5, 10]))
     low, high = axes.get_ylim()
     height = high - low
