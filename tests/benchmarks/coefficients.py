@@ -10,6 +10,7 @@ import pandas as pd
 
 from equisection.analysis.bubble import bubble_table
 from equisection.results.netcdf import read_dataset
+from tests.benchmarks.needed import needed
 
 
 def line(path: Path) -> dict[str, object]:
@@ -33,5 +34,7 @@ def line(path: Path) -> dict[str, object]:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.coefficients")
     parser.add_argument("results", nargs="+", type=Path, metavar="result.nc")
-    table = pd.DataFrame([line(path) for path in parser.parse_args().results])
+    paths = parser.parse_args().results
+    with needed("the run that it is a result of"):
+        table = pd.DataFrame([line(path) for path in paths])
     print(table.to_string(index=False, float_format="%.4f"))

@@ -10,13 +10,15 @@ import numpy as np
 
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_mesh import share_below
+from tests.benchmarks.needed import needed
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(prog="python -m tests.benchmarks.courant")
     parser.add_argument("mesh", type=Path, metavar="section_mesh.nc")
     parser.add_argument("--steps", nargs="*", type=float, metavar="C/V")
     chosen = parser.parse_args()
-    mesh = read_dataset(chosen.mesh)
+    with needed("the run of the mesh, which docs/openfoam-polar.md has"):
+        mesh = read_dataset(chosen.mesh)
     area, unit = mesh["area"].values, mesh["courant"].values / mesh.attrs["time_step"]
     ones = np.ones_like(area)
     corner = mesh["corners"].values[unit.argmax()]

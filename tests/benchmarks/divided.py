@@ -3,7 +3,6 @@
 python -m tests.benchmarks.divided
 """
 
-import resource
 from pathlib import Path
 
 from equisection.solvers.openfoam.beam.rigid_beam import PlateFlow, plate_mesh_of
@@ -11,13 +10,13 @@ from equisection.solvers.openfoam.flow_setup import Coupling
 from equisection.solvers.openfoam.installation import find
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.ranks import divide
+from tests.benchmarks.measure import most_megabytes, processor_seconds
 from tests.sample_cases import STEADY_PLATE
 
 
 def used() -> str:
     """Return processor time and largest memory of the programs so far."""
-    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return f"{usage.ru_utime + usage.ru_stime:.0f} s, {usage.ru_maxrss / 1024:.0f} MB"
+    return f"{processor_seconds():.0f} s, {most_megabytes():.0f} MB"
 
 
 if __name__ == "__main__":

@@ -30,6 +30,7 @@ from equisection.cases import BeamModes, UnsteadyCase
 from equisection.results.netcdf import read_dataset
 from equisection.structure.span import gram, integrate
 from tests.benchmarks.early_verdict import KEPT, case_of
+from tests.benchmarks.needed import needed
 
 Floats = NDArray[np.float64]
 
@@ -191,8 +192,9 @@ if __name__ == "__main__":
         "--surplus", action="store_true", help="as a growth rate (V/c): largest and last of a run"
     )
     chosen = parser.parse_args()
-    if chosen.surplus:
-        for path in chosen.results:
-            print(surplus(path))
-    else:
-        print(table(chosen.results).to_string(index=False, float_format="%.3g"))
+    with needed("the run that it is a result of"):
+        if chosen.surplus:
+            for path in chosen.results:
+                print(surplus(path))
+        else:
+            print(table(chosen.results).to_string(index=False, float_format="%.3g"))

@@ -23,6 +23,7 @@ import pandas as pd
 import xarray as xr
 
 from equisection.verdict.zigzag import zigzag_of
+from tests.benchmarks.needed import needed
 
 
 @dataclass(frozen=True)
@@ -205,7 +206,8 @@ if __name__ == "__main__":
     options = parser.parse_args()
     chosen = PLATE_MEDIUM if options.plate_medium else PLATE if options.plate else SECTION
     if options.of:
-        print(*oscillation(xr.load_dataset(options.of).sel(time=slice(0.0, chosen.duration))))
+        with needed("the run that it is a result of"):
+            print(*oscillation(xr.load_dataset(options.of).sel(time=slice(0.0, chosen.duration))))
         raise SystemExit
     at = options.k_star or chosen.k_star
     for each in chosen.variants:

@@ -13,6 +13,7 @@ from equisection.results.netcdf import read_dataset
 from equisection.solvers.verdicts import judge
 from equisection.store.judged_again import tip_motion
 from tests.benchmarks.early_verdict import case_of
+from tests.benchmarks.needed import needed
 
 NUMBERS = (
     "growth_rate",
@@ -45,5 +46,6 @@ if __name__ == "__main__":
     parser.add_argument("--until", type=float, default=math.inf, metavar="C/V")
     parser.add_argument("results", nargs="+", type=Path, metavar="result.nc")
     chosen = parser.parse_args()
-    table = pd.DataFrame([line(path, chosen.until) for path in chosen.results])
+    with needed("the run that it is a result of"):
+        table = pd.DataFrame([line(path, chosen.until) for path in chosen.results])
     print(table.to_string(index=False, float_format="%.4f"))

@@ -74,6 +74,11 @@ def processor_seconds() -> float:
     return usage.ru_utime + usage.ru_stime
 
 
+def most_megabytes() -> float:
+    """Return the memory of the largest child that has ended."""
+    return resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
+
+
 def _resident(process: psutil.Process) -> int:
     total = 0
     try:

@@ -9,8 +9,6 @@ either; no flow is run. Beside them is the memory that a job of that mesh asks f
 
 from __future__ import annotations
 
-import re
-import resource
 import subprocess
 import sys
 import tempfile
@@ -19,16 +17,13 @@ from pathlib import Path
 
 from equisection.errors import EquisectionError
 from equisection.run.cost import megabytes, read_cost_model
-from equisection.solvers.openfoam import flow_setup as flow
 from equisection.solvers.openfoam.beam.rigid_beam import outline_beam_mesh_of
-from equisection.solvers.openfoam.dictionaries import control, write_system
 from equisection.solvers.openfoam.installation import find
-from equisection.solvers.openfoam.mesh.outline_mesh import LOG
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.reading.meshed_section import quality
-from equisection.solvers.openfoam.section.rigid_section import check_mesh
 from equisection.solvers.work import Work
-from tests.benchmarks.measure import Row
+from tests.benchmarks.measure import Row, most_megabytes, processor_seconds
+from tests.benchmarks.outlines import checked
 from tests.sample_cases import GEOMETRY, STEADY_PLATE
 from tests.sample_outlines import SHAPES
 from tests.workflow.project import ROOT
@@ -61,27 +56,18 @@ def made(beam: str, mesh: str) -> str:
         folder = Path(place)
         try:
             outline_beam_mesh_of(case, PRESETS[mesh].plate).write(folder)
-            of_mesher = _spent()
-            entries = control("simpleFoam", 1, 1, 1)
-            write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
-            check_mesh(find(), folder)
+            of_mesher = processor_seconds()
+            cells = checked(find(), folder)
         except EquisectionError as error:
             return str(error)
-        found = re.match(r"\d+", (folder / LOG).read_text().splitlines()[-1])
-        assert found
         oblique = quality(folder / "log.checkMesh")["max_non_orthogonality_deg"]
-    cells, (seconds, memory) = int(found[0]), _spent()
     costs = read_cost_model(ROOT / "workflow/profiles/cost.yaml").of("openfoam", "3d")
     asked = megabytes(Work(cells), costs, 1)
     return (
-        f"sound, {cells:,} cells, {oblique:.0f} deg oblique at most; {of_mesher[0]:.0f} processor "
-        f"s, {seconds:.0f} with the check; {memory:.0f} MB of the {asked} that a job asks for"
+        f"sound, {cells:,} cells, {oblique:.0f} deg oblique at most; {of_mesher:.0f} processor "
+        f"s, {processor_seconds():.0f} with the check; {most_megabytes():.0f} MB of the {asked} "
+        "that a job asks for"
     )
-
-
-def _spent() -> tuple[float, float]:
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime, used.ru_maxrss / 1024
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 import re
-import resource
 import sys
 import tempfile
 from collections.abc import Iterator
@@ -35,7 +34,13 @@ from equisection.solvers.openfoam.section.rigid_section import (
     outline_mesh_of,
     rigid_loads,
 )
-from tests.benchmarks.measure import Row, limit, measured, processor_seconds
+from tests.benchmarks.measure import (
+    Row,
+    limit,
+    measured,
+    most_megabytes,
+    processor_seconds,
+)
 from tests.sample_cases import STEADY, UNSTEADY
 from tests.sample_outlines import EXAMPLES, SHAPES
 from tests.watching import nothing
@@ -73,6 +78,11 @@ def random_polygon(generator: np.random.Generator) -> NDArray[np.float64]:
 def cells_of(installation: Installation, outline: Outline, folder: Path) -> int:
     """Return the number of cells of a mesh that ``checkMesh`` finds sound."""
     OutlineMesh(outline.as_pairs(), CHANNEL, np.radians(INCIDENCE_DEG), 1.0).write(folder)
+    return checked(installation, folder)
+
+
+def checked(installation: Installation, folder: Path) -> int:
+    """Have ``checkMesh`` find the mesh of an outline sound; return its number of cells."""
     entries = control("simpleFoam", 1, 1, 1)
     write_system(folder, entries, flow.schemes(steady=True), flow.steady_solution())
     check_mesh(installation, folder)
@@ -172,5 +182,4 @@ def _random(installation: Installation, polygons: int) -> Iterator[Row]:
     yield Row("random polygons with a sound mesh", sound, f">= {least}", len(cells) >= least)
     yield Row("cells", f"{np.min(cells)} to {np.max(cells)}, median {np.median(cells):.0f}")
     yield limit("mesh and check of one, median", float(np.median(seconds)), SECONDS, "processor s")
-    memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    yield limit("memory of one, most", memory, MEGABYTES, "MB")
+    yield limit("memory of one, most", most_megabytes(), MEGABYTES, "MB")

@@ -1,4 +1,4 @@
-"""Bubble, y+ and flow near the tip of the rigid plate at 2.5 deg on its coarse mesh.
+"""Bubble, y+ and flow near the tip of the rigid plate at 2.5 deg on its coarse mesh, which is kept.
 
 python -m tests.benchmarks.plate_fields
 """
@@ -11,7 +11,7 @@ from equisection.results.netcdf import read_dataset
 from equisection.results.plate_surface import plate_surface_from_dataset
 from equisection.results.tip_flow import tip_flow_from_dataset
 
-RESULT = Path("results/paper-plate-openfoam-3d/steady/3d/coarse_a2.5.nc")
+RESULT = Path("results/reference/paper-plate-openfoam-3d/steady/3d/coarse_a2.5.nc")
 STATIONS = (0, 1, 2, 3, 3.35, 3.7)  # c from the root
 
 if __name__ == "__main__":

@@ -10,17 +10,19 @@ from scipy.interpolate import PchipInterpolator
 
 from equisection.analysis.deviations import root_mean_square
 from equisection.results.netcdf import read_dataset
+from tests.benchmarks.needed import needed
 
 RUNS = ("results/paper-reductions", "results/paper-reductions-modal")
 AT = (0, 1, 2.5, 4, 5, 7, 10)  # deg
 
 if __name__ == "__main__":
-    for run in RUNS:
-        deviations = pd.read_csv(f"{run}/comparison/section_and_beam.csv")
-        print(run, root_mean_square(deviations), sep="\n")
-    mean, felt = (
-        read_dataset(Path(run, "steady/correction.nc"))[["beam_cl", "beam_cm"]] for run in RUNS
-    )
+    with needed("make paper"):
+        deviations = [pd.read_csv(f"{run}/comparison/section_and_beam.csv") for run in RUNS]
+        mean, felt = (
+            read_dataset(Path(run, "steady/correction.nc"))[["beam_cl", "beam_cm"]] for run in RUNS
+        )
+    for run, table in zip(RUNS, deviations, strict=True):
+        print(run, root_mean_square(table), sep="\n")
     print("loads as the first modes feel them, over their means", (felt / mean).to_dataframe())
     polar = Path("results/reference/paper-reductions/steady/2d")
     for name in ("cl", "cm"):

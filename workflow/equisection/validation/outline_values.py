@@ -42,7 +42,7 @@ _MOVED = "Thin plate moved in pitch and heave by OpenFOAM, Re 1.3e5"
 #: Reduced velocities V/(f c) of the kept forced motion.
 VELOCITIES = (3.0, 4.5, 7.0, 12.0)
 #: Motion and load, and the derivatives that are real and imaginary part of it.
-_LOADS = {
+LOADS = {
     "lift by heave": (0, 3),
     "lift by pitch": (1, 2),
     "moment by heave": (4, 7),
@@ -94,7 +94,7 @@ def derivatives_of_moved_plate() -> Derivatives:
 
 def _size(derivatives: Derivatives, load: str, row: int) -> float:
     """Return |real + i imaginary| of a load in a row."""
-    real, imaginary = (float(derivatives.values[row, at]) for at in _LOADS[load])
+    real, imaginary = (float(derivatives.values[row, at]) for at in LOADS[load])
     return abs(complex(real, imaginary))
 
 
@@ -119,7 +119,7 @@ def _moved_plate() -> list[KnownValue]:
         )
         for row, velocity in enumerate(VELOCITIES)
         if velocity in (3.0, 12.0)
-        for load in _LOADS
+        for load in LOADS
     ]
 
 
