@@ -32,7 +32,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
     ONSET,
-    _onset_on,
+    onset_on,
     damped,
     early_growth_of_plate,
     onsets_by_releases,
@@ -213,7 +213,7 @@ def test_interval_without_an_end_is_no_interval_of_nothing() -> None:
     values = [
         MeshValue("coarse", 100, 8.0, 7.9, 8.1),
         MeshValue("medium", 400, 7.0, 6.9, 7.1),
-        _onset_on("fine", 1600, (6.5, math.nan, 6.6)),
+        onset_on("fine", 1600, (6.5, math.nan, 6.6)),
     ]
     for shared in (True, False):
         found = MeshSeries(ONSET, "2d", "", BY_MODEL, 2, tuple(values), common_error=shared)

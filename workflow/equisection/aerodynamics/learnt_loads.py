@@ -296,7 +296,7 @@ def rate_of_least(fitted: Callable[[float], tuple[Floats, Floats, float, float]]
     return math.exp(float(log_rate))
 
 
-def require_lesson(name: str, time: Floats) -> None:
+def require_lesson(name: str, time: Floats, shortest: float = SHORTEST_RECORD) -> None:
     """Refuse a history that cannot be learnt from.
 
     Parameters
@@ -305,6 +305,8 @@ def require_lesson(name: str, time: Floats) -> None:
         Its name.
     time
         Its times (c/V), shape (n,).
+    shortest
+        Shortest record (c/V) that is learnt from.
 
     Raises
     ------
@@ -315,10 +317,10 @@ def require_lesson(name: str, time: Floats) -> None:
     steps = np.diff(time)
     step = float(np.median(steps)) if steps.size else 0.0
     length = float(time[-1] - time[0]) + step if time.size else 0.0
-    if length < SHORTEST_RECORD * (1.0 - 1e-9):
+    if length < shortest * (1.0 - 1e-9):
         raise ResultFileError(
             f"{name}: a record of {length:.3g} c/V is too short to learn from; "
-            f"{SHORTEST_RECORD:g} c/V or more are needed (unsteady.duration)"
+            f"{shortest:g} c/V or more are needed (unsteady.duration)"
         )
     if np.any(np.abs(steps - step) > 1e-3 * step):
         place = int(np.argmax(np.abs(steps - step)))

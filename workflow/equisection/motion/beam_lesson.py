@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from equisection.aerodynamics.learnt_loads import (
     LEARN_FROM,
+    SHORTEST_RECORD,
     bound_fit,
     lagged,
     rate_of_least,
@@ -108,7 +109,6 @@ class _Lesson:
     def of(
         cls, release: BeamRelease, polars: StripPolars, until: float, free_slope: bool
     ) -> _Lesson:
-        require_lesson(release.name, release.time)
         s, structure = release.time, release.parameters.structure
         axis = release.parameters.axis
         splines = [
@@ -182,6 +182,7 @@ def learn_strips(
     until: float = math.inf,
     *,
     free_slope: bool = False,
+    shortest: float = SHORTEST_RECORD,
 ) -> LearntStrips:
     """Learn the loads of the strips of a beam from a release.
 
@@ -195,12 +196,15 @@ def learn_strips(
         Part of the record that is used, from the release on (c/V).
     free_slope
         True: the slope of the steady loads is corrected, too.
+    shortest
+        Shortest record (c/V) that is learnt from.
 
     Raises
     ------
     ResultFileError
         The record is too short, has gaps, is too coarse in time, or has settled.
     """
+    require_lesson(release.name, release.time, shortest)
     whole = polars.continued
     lesson = _Lesson.of(release, whole, until, free_slope)
     rate = rate_of_least(lesson.fitted)

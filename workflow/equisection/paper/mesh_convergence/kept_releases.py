@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -34,6 +34,8 @@ MESHES = ("coarse", "medium", "fine")
 STEPS = {"2d": 0.02, "3d": 0.04}
 #: Iterations of a time step of the section's releases: at most, until the residuals are small.
 ITERATIONS_OF_SECTION = 8
+#: Start of the releases from static equilibrium that are compared: the twist (deg) that disturbs it.
+FROM_EQUILIBRIUM = {"state": "equilibrium", "twist_deg": 0.3, "heave_rate": 0.0}
 #: Range of the incidence (rad) in which a release of the section moves.
 SEEN = (0.0, math.radians(5.0))
 #: The section corrected by this project's plate on the section's cells, and the end of the name of
@@ -111,15 +113,24 @@ def growth_behind_release(case: UnsteadyCase, tip: TipMotion, end: float = UNTIL
     return growth_over(case, tip, (start, last))
 
 
-def mesh_releases(reference: Path) -> list[MeshRelease]:
+def mesh_releases(
+    reference: Path, start: dict[str, Any] | None = None
+) -> list[MeshRelease]:
     """Return the kept releases of the plate and its sections on meshes of one family.
 
-    They have the time step of :data:`STEPS` and start from rest, rigid; of several of a model, k*,
-    mesh and number of iterations the longest is taken.
+    They have the time step of :data:`STEPS`; of several of a model, k*, mesh and number of
+    iterations the longest is taken.
+
+    Parameters
+    ----------
+    reference
+        Folder with what is kept.
+    start
+        Their start, as :data:`FROM_EQUILIBRIUM`; None: from rest, rigid.
     """
     chosen: dict[tuple[Any, ...], MeshRelease] = {}
     for kept in kept_results(reference):  # the longest first
-        if not _is_compared(kept):
+        if not (_is_compared(kept) and _starts_from(kept.case, start)):
             continue
         settings = kept.case["solver"]["settings"]
         iterations = int(settings["outer_correctors"])
@@ -154,7 +165,7 @@ def alike_sections(
 
 def _is_compared(kept: Kept) -> bool:
     case = kept.case
-    if case.get("kind") != FREE.folder or "outline" in case["geometry"] or "start" in case:
+    if case.get("kind") != FREE.folder or "outline" in case["geometry"]:
         return False
     settings = case["solver"]["settings"]
     if settings.keys() - _USUAL or settings.get(_OF_MESH) not in MESHES:
@@ -165,6 +176,14 @@ def _is_compared(kept: Kept) -> bool:
     return kept.path.parent.name in _MODELS and (
         not is_section or settings["outer_correctors"] == ITERATIONS_OF_SECTION
     )
+
+
+def _starts_from(case: dict[str, Any], start: dict[str, Any] | None) -> bool:
+    """Tell whether a case has a start, wherever its equilibrium is."""
+    own = case.get("start")
+    if own is None or start is None:
+        return own is start
+    return {name: own.get(name) for name in start} == start
 
 
 def _model_of(path: Path) -> str:
@@ -182,11 +201,22 @@ def _cells_of(kept: Kept) -> int:
     return int(cells_of(str(kept.attributes["solver_description"])))
 
 
-def growth_table(releases: Sequence[MeshRelease]) -> pd.DataFrame:
-    """Return growth rates of releases with their errors, as ``summary.csv`` has them."""
+def growth_table(
+    releases: Sequence[MeshRelease],
+    growth_in: Callable[[MeshRelease], Growth] = MeshRelease.behind_release,
+) -> pd.DataFrame:
+    """Return growth rates of releases with their errors, as ``summary.csv`` has them.
+
+    Parameters
+    ----------
+    releases
+        The releases.
+    growth_in
+        Growth of one of them; by default that of its last periods, from 20 c/V on.
+    """
     rows = []
     for one in releases:
-        growth = one.behind_release()
+        growth = growth_in(one)
         low, high = growth.interval
         rows.append(
             (one.case.k_star, str(Regime.GROWING), growth.rate, growth.standard_error, low, high)

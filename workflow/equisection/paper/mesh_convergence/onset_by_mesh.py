@@ -61,7 +61,7 @@ LEARNT_AT = 6.44
 DAMPING = (0.0, 0.005, 0.01, 0.02)
 #: k* at which models predict, of sections and of the plate.
 _SECTIONS_AT = np.geomspace(3.9, 11.0, 16)
-_BEAMS_AT = np.geomspace(4.0, 20.0, 13)
+BEAMS_AT = np.geomspace(4.0, 20.0, 13)
 #: End (c/V) of the shortest releases of the plate, up to which its meshes are compared.
 EARLY = 30.0
 #: Iterations of a time step of the plate that are enough.
@@ -90,7 +90,7 @@ def early_growth_of_plate(releases: Sequence[MeshRelease]) -> MeshSeries:
     """
     values = []
     for run, growth, without in _early_growths(releases):
-        half = _half_width(growth)
+        half = half_width(growth)
         values.append(
             MeshValue(
                 run.mesh,
@@ -119,7 +119,7 @@ def _early_growths(
             yield one, both, first
 
 
-def _half_width(growth: Growth) -> float:
+def half_width(growth: Growth) -> float:
     return 0.5 * float(np.ptp(growth.interval))
 
 
@@ -144,7 +144,7 @@ def _of_section(releases: Sequence[MeshRelease]) -> list[MeshValue]:
         found = onset_by_growth(growth_table(runs), K_STAR)
         if math.isfinite(found.value):
             ends = found.low, found.high
-            values.append(_onset_on(mesh, runs[0].cells, (found.value, *ends)))
+            values.append(onset_on(mesh, runs[0].cells, (found.value, *ends)))
             curve = runs
         elif curve:
             values += _shifted(curve, runs, values[-1])
@@ -161,16 +161,16 @@ def _shifted(
             if known.case.k_star == run.case.k_star:
                 end = min(known.end, run.end)
                 here, there = run.behind_release(end), known.behind_release(end)
-                half = math.hypot(*map(_half_width, (here, there)))
+                half = math.hypot(*map(half_width, (here, there)))
                 found.append((run, known, here.rate - there.rate, half))
     if not found:
         return []
     run, known, shift, half = min(found, key=lambda one: abs(one[0].case.k_star - base.value))
     note = f"growth of {known.mesh} {shift:+.4f} V/c, the difference at k* = {run.case.k_star:g}"
-    return [_moved(growth_table(curve), (shift, half), base, run, note)]
+    return [moved_onset(growth_table(curve), (shift, half), base, run, note)]
 
 
-def _moved(
+def moved_onset(
     curve: pd.DataFrame, shift: tuple[float, float], base: MeshValue, run: MeshRelease, note: str
 ) -> MeshValue:
     """Return the zero of a growth curve that is moved by a shift, with its half-width (V/c)."""
@@ -180,10 +180,10 @@ def _moved(
     value, low, high = (onset_of(k_star, rates + by) for by in (moved, moved - half, moved + half))
     own = base.half_width
     low, high = value - math.hypot(value - low, own), value + math.hypot(high - value, own)
-    return _onset_on(run.mesh, run.cells, (value, low, high), note)
+    return onset_on(run.mesh, run.cells, (value, low, high), note)
 
 
-def _onset_on(
+def onset_on(
     mesh: str, cells: int, onset: tuple[float, float, float], note: str = ""
 ) -> MeshValue:
     """Return an onset and its interval on a mesh; an end out of reach (NaN) is infinitely far."""
@@ -201,7 +201,7 @@ def _of_plate(own: Sequence[MeshRelease]) -> list[MeshValue]:
         return []
     least, most = min(one.zigzag for one in coarse), max(one.zigzag for one in coarse)
     note = f"two iterations a step: loads zigzag by {100 * least:.2g} to {100 * most:.2g} %"
-    base = _onset_on("coarse", coarse[0].cells, (found.value, found.low, found.high), note)
+    base = onset_on("coarse", coarse[0].cells, (found.value, found.low, found.high), note)
     early = {one[0].mesh: one for one in _early_growths(own)}
     if "coarse" not in early:
         return [base]
@@ -210,9 +210,9 @@ def _of_plate(own: Sequence[MeshRelease]) -> list[MeshValue]:
     for run, here, without in early.values():
         shift = here.rate - there.rate
         spread = without.rate - there_without.rate - shift
-        half = math.hypot(*map(_half_width, (here, there)), spread)
+        half = math.hypot(*map(half_width, (here, there)), spread)
         words = f"growth of coarse {shift:+.4f} +- {half:.4f} V/c, the difference over 30 c/V"
-        values.append(_moved(table, (shift, half), base, run, words))
+        values.append(moved_onset(table, (shift, half), base, run, words))
     return values
 
 
@@ -260,7 +260,7 @@ def sections_by_model(
         for number, place in enumerate(places):
             found = predicted_onset(table.iloc[number * count : (number + 1) * count])
             ends = found.k_star, found.low, found.high
-            onsets.setdefault(place, []).append(_onset_on(run.mesh, run.cells, ends, note))
+            onsets.setdefault(place, []).append(onset_on(run.mesh, run.cells, ends, note))
     for (kind, zeta), values in onsets.items():
         yield MeshSeries(ONSET, kind, damped(zeta), BY_MODEL, 2, tuple(values), True)
 
@@ -324,19 +324,19 @@ def plates_by_model(
         values = []
         for mesh, (model, run) in models.items():
             found = _onset_of_beam(model, run, zeta)
-            values.append(_onset_on(mesh, run.cells, (found.k_star, found.low, found.high)))
+            values.append(onset_on(mesh, run.cells, (found.k_star, found.low, found.high)))
         yield MeshSeries(ONSET, "3d", damped(zeta), BY_MODEL, 3, tuple(values), True)
 
 
 def _onset_of_beam(model: ReducedBeam, run: MeshRelease, zeta: float) -> PredictedOnset:
     base = run.case.beam
     assert base is not None, "a case of the beam"
-    beams = [_beam_at(base, float(k_star) / run.case.k_star, zeta) for k_star in _BEAMS_AT]
+    beams = [beam_at(base, float(k_star) / run.case.k_star, zeta) for k_star in BEAMS_AT]
     parameters = on_strips(beams, model.loads.polars.strips)
-    return predicted_onset(predicted_beams(model, _BEAMS_AT.tolist(), parameters))
+    return predicted_onset(predicted_beams(model, BEAMS_AT.tolist(), parameters))
 
 
-def _beam_at(base: BeamModes, scale: float, zeta: float) -> BeamModes:
+def beam_at(base: BeamModes, scale: float, zeta: float) -> BeamModes:
     """Return a beam with its stiffness times a factor, and damped modes."""
     root = math.sqrt(scale)
     return base.model_copy(

@@ -1,0 +1,259 @@
+"""Growth and onset of the paper's plate over the cell size, from releases at static equilibrium.
+
+Flow and heave have nothing to settle there, so that the growth of small motions is known from 30
+c/V. A mesh with releases on both sides of its onset has it where the growth rate is zero. A mesh
+with one release has the growth curve over k* of the coarsest one, shifted by the difference of both
+at that k*; how far such a shift changes with k* is known of the section, which has releases at
+several k* on two meshes. A second way needs the one release alone: a model of the loads is learnt
+from it (:mod:`equisection.motion.beam_lesson`), and the eigenvalues of the small motions about the
+equilibrium at each k* are those of the beam with that model. Motions of half a degree say little of
+the bends of the steady loads, but their slope, so that it is learnt too.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from equisection.analysis.growth_onset import onset_by_growth
+from equisection.analysis.recorded_beam import on_strips, read_recorded_beam
+from equisection.analysis.reduced_beam import SMALLEST_BAND_OF_BEAM, growth_of_pitch
+from equisection.analysis.reduced_model import ends_of_records, onset_of, spread_of_refits
+from equisection.errors import ResultFileError
+from equisection.motion.beam_lesson import learn_strips
+from equisection.motion.learnt_beams import LearntBeams
+from equisection.paper.mesh_convergence.kept_releases import (
+    MeshLoads,
+    MeshRelease,
+    alike_sections,
+    growth_table,
+    polars_of,
+    strip_polars_of,
+)
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.paper.mesh_convergence.onset_by_mesh import (
+    BEAMS_AT,
+    EARLY,
+    GROWTH,
+    LEARNT_AT,
+    ONSET,
+    PLATE_ITERATIONS,
+    beam_at,
+    half_width,
+    moved_onset,
+    onset_on,
+)
+from equisection.study.axes import K_STAR
+from equisection.verdict.growth import AFTER_RELEASE, Growth
+
+#: Bases of growth and onset.
+BY_EQUILIBRIUM, LEARNT_FROM_EQUILIBRIUM = "releases from equilibrium", "learnt from equilibrium"
+#: Shortest release (c/V) from equilibrium that a model is learnt from.
+SHORTEST_FROM_EQUILIBRIUM = 30.0
+
+
+@dataclass(frozen=True)
+class _Runs:
+    """Releases of the plate on one mesh with one number of iterations of a time step."""
+
+    mesh: str
+    iterations: int
+    runs: tuple[MeshRelease, ...]
+
+    @property
+    def cells(self) -> int:
+        return self.runs[0].cells
+
+    def at(self, k_star: float) -> MeshRelease | None:
+        return next((one for one in self.runs if one.case.k_star == k_star), None)
+
+
+def _groups(releases: Sequence[MeshRelease]) -> list[_Runs]:
+    """Return the plate's releases by mesh and iterations, the coarsest mesh first."""
+    own = [one for one in releases if one.model == "3d"]
+    keys = sorted({(one.cells, one.iterations, one.mesh) for one in own})
+    return [
+        _Runs(
+            mesh,
+            iterations,
+            tuple(one for one in own if (one.cells, one.iterations) == (cells, iterations)),
+        )
+        for cells, iterations, mesh in keys
+    ]
+
+
+def _most_iterations(releases: Sequence[MeshRelease]) -> list[_Runs]:
+    """Return the group of each mesh with the most iterations, the coarsest mesh first."""
+    return list({one.mesh: one for one in _groups(releases)}.values())
+
+
+def _growth(release: MeshRelease, end: float = math.inf) -> Growth:
+    return release.growth(AFTER_RELEASE, min(release.end, end))
+
+
+def growth_from_equilibrium(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
+    """Yield the growth of the plate at each k* on the meshes that have a release from equilibrium.
+
+    It is that from 10 to 30 c/V. Of a mesh that has several the one with the most iterations of a
+    time step is taken.
+    """
+    own = [one for one in releases if one.model == "3d"]
+    for k_star in sorted({one.case.k_star for one in own}):
+        values = []
+        for group in _most_iterations([one for one in own if one.case.k_star == k_star]):
+            growth = _growth(group.runs[0], EARLY)
+            low, high = growth.interval
+            note = f"{group.iterations} iterations"
+            values.append(MeshValue(group.mesh, group.cells, growth.rate, low, high, note))
+        basis = f"{BY_EQUILIBRIUM}, {AFTER_RELEASE:.0f} to {EARLY:.0f} c/V"
+        yield MeshSeries(GROWTH, "3d", f"k* = {k_star:g}", basis, 3, tuple(values))
+
+
+def onsets_from_equilibrium(
+    releases: Sequence[MeshRelease], from_rest: Sequence[MeshRelease]
+) -> Iterator[MeshSeries]:
+    """Yield the onset of the plate over the meshes, by releases from equilibrium.
+
+    Parameters
+    ----------
+    releases
+        Releases from equilibrium.
+    from_rest
+        Releases from rest, of which the section's tell how far the difference of two meshes changes
+        with k*.
+    """
+    curves = [
+        (group, table, found)
+        for group in _groups(releases)
+        for table in [growth_table(group.runs, _growth)]
+        for found in [onset_by_growth(table, K_STAR)]
+        if math.isfinite(found.value)
+    ]
+    if not curves:
+        return
+    curve, table, found = curves[0]
+    note = _zigzag_in_words(curve) if curve.iterations < PLATE_ITERATIONS else ""
+    base = onset_on(curve.mesh, curve.cells, (found.value, found.low, found.high), note)
+    change = change_of_shift(from_rest)
+    own = {group.mesh: (group, found) for group, _, found in curves}
+    values = []
+    for group in _most_iterations(releases):
+        known = own.get(group.mesh)
+        if known is not None and known[0] is not curve:
+            ends = known[1].value, known[1].low, known[1].high
+            values.append(onset_on(group.mesh, group.cells, ends))
+        elif group == curve:
+            values.append(base)
+        else:
+            values += _shifted(curve, table, base, group, change)
+    yield MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, tuple(values))
+
+
+def _shifted(
+    curve: _Runs, table: pd.DataFrame, base: MeshValue, group: _Runs, change: float
+) -> list[MeshValue]:
+    """Return the onset of releases by the shift of a curve, at the k* nearest to its onset."""
+    both = [(one, known) for one in group.runs if (known := curve.at(one.case.k_star))]
+    if not both:
+        return []
+    run, known = min(both, key=lambda pair: abs(pair[0].case.k_star - base.value))
+    end = min(run.end, known.end)
+    here, there = _growth(run, end), _growth(known, end)
+    shift = here.rate - there.rate
+    half = math.hypot(half_width(here), half_width(there), change * shift)
+    of = curve.mesh if group.mesh != curve.mesh else f"{curve.iterations} iterations"
+    note = f"growth of {of} {shift:+.4f} +- {half:.4f} V/c, the difference at k* = "
+    return [moved_onset(table, (shift, half), base, run, f"{note}{run.case.k_star:g}")]
+
+
+def _zigzag_in_words(group: _Runs) -> str:
+    found = [100.0 * one.zigzag for one in group.runs]
+    return (
+        f"{group.iterations} iterations a step: loads zigzag by {min(found):.2g} to "
+        f"{max(found):.2g} %"
+    )
+
+
+def change_of_shift(from_rest: Sequence[MeshRelease]) -> float:
+    """Return how far the growth's difference of two meshes changes with k*, as a part of it.
+
+    It is that of the section on its coarse and its medium mesh, from k* = 6.44 up to the first k*
+    at which the coarse one decays, over the difference at 6.44; 1 where these do not tell.
+    """
+    shifts, sign = [], 1.0
+    for k_star, alike, end in alike_sections(from_rest):
+        by_mesh = {one.mesh: one.behind_release(end).rate for one in alike}
+        if k_star >= LEARNT_AT and {"coarse", "medium"} <= by_mesh.keys() and sign > 0.0:
+            shifts.append(by_mesh["medium"] - by_mesh["coarse"])
+            sign = by_mesh["coarse"]
+    if len(shifts) < 2:
+        return 1.0
+    return float(np.abs(np.array(shifts) / shifts[0] - 1.0).max())
+
+
+def learnt_from_equilibrium(
+    releases: Sequence[MeshRelease], plate_loads: Sequence[MeshLoads]
+) -> Iterator[MeshSeries]:
+    """Yield the onset of the plate by a model learnt from its release at 6.44 on each mesh.
+
+    The band of the growth is the farthest of two refits from shorter records, and no less than the
+    farthest miss of the models: of a mesh with releases at other k*, from the growth of these.
+
+    Parameters
+    ----------
+    releases
+        Releases from equilibrium.
+    plate_loads
+        Loads of the rigid plate on its meshes.
+    """
+    rates = {
+        group: found
+        for group in _most_iterations([one for one in releases if one.case.k_star == LEARNT_AT])
+        if (found := _learnt_rates(group, plate_loads)) is not None
+    }
+    misses = [
+        float(np.interp(one.case.k_star, BEAMS_AT, found[0])) - _growth(one).rate
+        for group, found in rates.items()
+        for one in releases
+        if one.model == "3d" and one.mesh == group.mesh and one.case.k_star != LEARNT_AT
+    ]
+    least = max(map(abs, misses)) if misses else SMALLEST_BAND_OF_BEAM
+    values = []
+    for group, found in rates.items():
+        band = np.maximum(spread_of_refits(found), least)
+        k_star = BEAMS_AT.tolist()
+        ends = [onset_of(k_star, rate) for rate in (found[0], found[0] - band, found[0] + band)]
+        note = f"band of the growth {band.min():.4f} V/c"
+        value, low, high = ends
+        values.append(onset_on(group.mesh, group.cells, (value, low, high), note))
+    if values:
+        yield MeshSeries(ONSET, "3d", "", LEARNT_FROM_EQUILIBRIUM, 3, tuple(values), True)
+
+
+def _learnt_rates(
+    group: _Runs, plate_loads: Sequence[MeshLoads]
+) -> np.ndarray[tuple[int, ...], np.dtype[np.float64]] | None:
+    """Return the growth (V/c) at each k* by the model and by two refits; None of what is none."""
+    (run,) = group.runs
+    base = run.case.beam
+    if base is None or group.mesh not in polars_of(list(plate_loads)):
+        return None
+    polars = strip_polars_of(list(plate_loads), group.mesh)
+    release = read_recorded_beam(run.path, polars.strips)
+    beams = [beam_at(base, float(k_star) / LEARNT_AT, 0.0) for k_star in BEAMS_AT]
+    parameters = on_strips(beams, polars.strips)
+    early, middle, late = ends_of_records(release.time)
+    try:
+        models = [
+            learn_strips(
+                release, polars, end, free_slope=True, shortest=SHORTEST_FROM_EQUILIBRIUM
+            )
+            for end in (middle, early, late)
+        ]
+    except ResultFileError:
+        return None
+    return np.array([growth_of_pitch(LearntBeams(parameters, one)) for one in models])
