@@ -2,6 +2,7 @@
 
     python -m equisection.paper.mesh_convergence            # docs/mesh-convergence.md, .png
     python -m equisection.paper.mesh_convergence --check    # tells whether the page is up to date
+    python -m equisection.paper.mesh_convergence --targets  # how sure each onset is, and has to be
 
 The data are the results kept in ``results/reference``; what is kept on another mesh later is taken
 in. The claims (:mod:`equisection.paper.claims_page`) are judged by the table that this writes.
@@ -21,7 +22,11 @@ from equisection.files import write_text
 from equisection.generated import write_outdated
 from equisection.paper.mesh_convergence import convergence_figure
 from equisection.paper.mesh_convergence.convergence_page import page
-from equisection.paper.mesh_convergence.kept_releases import mesh_releases, rigid_loads
+from equisection.paper.mesh_convergence.kept_releases import (
+    FROM_EQUILIBRIUM,
+    mesh_releases,
+    rigid_loads,
+)
 from equisection.paper.mesh_convergence.loads_by_mesh import (
     iteration_series,
     load_series,
@@ -39,6 +44,12 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     plates_by_model,
     sections_by_model,
 )
+from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    growth_from_equilibrium,
+    learnt_from_equilibrium,
+    onsets_from_equilibrium,
+)
+from equisection.paper.mesh_convergence.onset_targets import targets
 from equisection.paper.printed_values import PAPER_ONSET
 
 COMMAND = "python -m equisection.paper.mesh_convergence"
@@ -52,13 +63,17 @@ STYLE = ROOT / "envs" / "equisection.mplstyle"
 def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
     """Return every series of what is kept, and the mesh that the own ratios are of."""
     releases = mesh_releases(reference)
+    from_equilibrium = mesh_releases(reference, FROM_EQUILIBRIUM)
     section, plate = (rigid_loads(reference, dimension) for dimension in ("2d", "3d"))
     own, own_mesh = own_factors(section, plate)
     series = [
         *onsets_by_releases(releases),
         *sections_by_model(releases, section, plate_of_table_1(ROOT), own),
         *plates_by_model(releases, plate),
+        *onsets_from_equilibrium(from_equilibrium, releases),
+        *learnt_from_equilibrium(from_equilibrium, plate),
         *growth_series(releases),
+        *growth_from_equilibrium(from_equilibrium),
         early_growth_of_plate(releases),
         *mean_series(releases),
         *load_series(section, "2d", reference),
@@ -78,13 +93,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--figure", type=Path, default=FIGURE)
     parser.add_argument("--table", type=Path, default=TABLE)
     parser.add_argument("--check", action="store_true", help="only tell whether it is up to date")
+    parser.add_argument("--targets", action="store_true", help="print how sure each onset is, only")
     options = parser.parse_args(arguments)
     try:
         series, own_mesh = all_series(options.reference)
     except EquisectionError as error:
         print(f"error: {error}", file=sys.stderr)
         return 1
-    write_text(options.table, as_table(series).to_csv(index=False, float_format="%.6g"))
+    table = as_table(series)
+    if options.targets:
+        print(targets(table).to_csv(index=False, float_format="%.3g"), end="")
+        return 0
+    write_text(options.table, table.to_csv(index=False, float_format="%.6g"))
     if not options.check:
         with drawing_style(STYLE):
             save_figure(convergence_figure.draw(series, PAPER_ONSET), [options.figure])

@@ -22,6 +22,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     ONSET,
     damped,
 )
+from equisection.paper.mesh_convergence.onset_from_equilibrium import BY_EQUILIBRIUM
 
 #: Looks of the models, with that of the section corrected by this project's own ratios.
 _LOOKS = {
@@ -34,6 +35,8 @@ _APART = 0.022
 #: Distance of models of one mesh, so that their intervals do not hide each other.
 _ASIDE = 0.012
 _MODELS = ("2d", "2d-corrected", OWN_RATIOS, "3d")
+#: Bases that are shown, with the part of a marker that is filled.
+_FILLED = {BY_RELEASES: "full", BY_MODEL: "full", BY_EQUILIBRIUM: "left"}
 
 
 def draw(series: Sequence[MeshSeries], onset: tuple[float, float, float]) -> Figure:
@@ -63,8 +66,8 @@ def draw(series: Sequence[MeshSeries], onset: tuple[float, float, float]) -> Fig
     figure.legend(entries.values(), entries.keys(), loc="outside upper center", ncols=len(entries))
     add_provenance(
         figure,
-        "open: releases by OpenFOAM v1912; filled: model learnt from one release; at 0: limit "
-        "with its interval",
+        "open: releases by OpenFOAM v1912 (half filled: from equilibrium); filled: model learnt "
+        "from one release; at 0: limit with its interval",
         "grey: the paper's 5.5, give or take 10 %",
     )
     return figure
@@ -74,10 +77,11 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
     letter(axes, "a", "over the cell size, without damping")
     axes.set_xlabel("cell size over that of the coarse mesh")
     for number, model in enumerate(_MODELS):
-        for basis in (BY_RELEASES, BY_MODEL):
+        for basis in _FILLED:
             for one in onsets:
                 if (one.model, one.at, one.basis) == (model, "", basis):
-                    _series(axes, one, -_APART * (number + 1) - 0.5 * _APART * (basis == BY_MODEL))
+                    aside = 0.5 * list(_FILLED).index(basis)
+                    _series(axes, one, -_APART * (number + 1 + aside))
     axes.axvline(0.0, color=GREY, linewidth=0.6)
     axes.annotate(
         "limits",
@@ -95,14 +99,16 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
 
 def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:
     look, learnt = _LOOKS[one.model], one.basis == BY_MODEL
-    aside = _ASIDE * (_MODELS.index(one.model) - 1.5) + 0.4 * _ASIDE * learnt
-    sizes = [size / one.sizes[0] + aside for size in one.sizes]
+    aside = _MODELS.index(one.model) - 1.5 + 0.4 * list(_FILLED).index(one.basis)
+    sizes = [size / one.sizes[0] + _ASIDE * aside for size in one.sizes]
     values = [value.value for value in one.values]
     errors = _errors(one.values)
     style: dict[str, Any] = {
         "color": look.colour,
         "marker": look.marker,
-        "markerfacecolor": look.colour if learnt else "white",
+        "markerfacecolor": "white" if one.basis == BY_RELEASES else look.colour,
+        "markerfacecoloralt": "white",
+        "fillstyle": _FILLED[one.basis],
         "markersize": 4.0,
         "capsize": 2.0,
         "elinewidth": 0.8,

@@ -5,7 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 
-from equisection.paper.mesh_convergence.kept_releases import MESHES, OWN_RATIOS
+from equisection.analysis.grid_limit import FORMAL_ORDER
+from equisection.paper.mesh_convergence.kept_releases import (
+    FROM_EQUILIBRIUM,
+    MESHES,
+    OWN_RATIOS,
+)
 from equisection.paper.mesh_convergence.loads_by_mesh import (
     EQUAL_CELLS,
     FIRST_MODE,
@@ -14,15 +19,22 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
     TWO_OVER_FOUR,
     printed_limit,
 )
-from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue, as_table
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     GROWTH,
     GROWTH_EARLY,
     ONSET,
 )
+from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    BY_EQUILIBRIUM,
+    LEARNT_FROM_EQUILIBRIUM,
+)
+from equisection.paper.mesh_convergence.onset_targets import best_limit, targets
 from equisection.paper.printed_values import COEFFICIENTS, PAPER_ONSET
 
+#: Twist (deg) that disturbs the equilibrium of a release.
+DISTURBANCE = FROM_EQUILIBRIUM["twist_deg"]
 #: Kinds of the beam's modes.
 KINDS = ("torsion", "bending")
 #: Half-width of an interval, as a part of the value, up to which a value counts as converged.
@@ -96,24 +108,63 @@ k\\* of the onset; above it a release decays. The paper has about {stated}.
   hardly depends on k\\* near the onset (table of growth, 6.44 to 8.5).
 - *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)); a polar of
   few angles is filled in the shape of the next coarser one.
+- *{BY_EQUILIBRIUM}*: the plate from static equilibrium with {DISTURBANCE:g} deg more
+  ([why](openfoam.md#starts)): growth of small motions from 10 c/V on. Another mesh, or more
+  iterations, shift the curve by the difference at one k\\*; its interval has what the section's own
+  shift changes with k\\*.
+- *{LEARNT_FROM_EQUILIBRIUM}*: from such a release at k\\* 6.44, with the slope of the steady
+  loads; onset of small motions by eigenvalues. Its band is the farthest miss at the other k\\*.
 - `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1: two
   programs' errors, and a moment factor that grows with the mesh, since Table 1 stays.
 - `{OWN_RATIOS}` has the ratio of this project's section to its plate, on equal cells in the plane
   {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}.
 """
-    return text + _notes(chosen) + _of_the_plate(chosen)
+    return text + _notes(chosen) + _of_the_plate(chosen) + _targets(chosen)
 
 
 def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
-    plate = [one for one in chosen if one.model == "3d" and one.basis != BY_MODEL]
-    if not plate or not math.isfinite(plate[0].limit.half_width):
+    best = best_limit(as_table(chosen), "3d")
+    if best is None:
         return ""
-    limit = plate[0].limit
+    one = next(one for one in chosen if (one.model, one.basis) == ("3d", best["basis"]))
+    limit, state = one.limit, "converged" if is_converged(one) else "not converged"
+    if not math.isfinite(limit.half_width):
+        return "\n**The plate's onset is not converged**: each of its series has one mesh.\n"
+    order = (
+        f", with the order {FORMAL_ORDER:g}, which two meshes do not show but is assumed"
+        if limit.meshes == 2
+        else ""
+    )
     return f"""
-**The plate's onset is not converged**: its limit has the interval {limit.low:.1f} to
-{limit.high:.1f}. On `medium` 30 c/V with four iterations have no growth rate, but only the
-difference from `coarse` over the same time; the longer run with two iterations is
-[not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+**The plate's onset is {state}**: the best of its limits ({one.basis}) is {limit.value:.1f} with
+the interval {limit.low:.1f} to {limit.high:.1f}{order}. On `medium` 30 c/V from rest with four
+iterations have no growth rate, but only the difference from `coarse` over the same time; the longer
+run with two iterations is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+"""
+
+
+def _targets(chosen: Sequence[MeshSeries]) -> str:
+    """Return how sure the best limit of each model is, and how sure it is wanted."""
+    lines = [("model", "basis", "limit", "interval", "wanted", "reached"), ("---",) * 6]
+    for row in targets(as_table(chosen)).itertuples():
+        known = math.isfinite(row.interval)
+        lacking = f"no, by {row.lacking:.1f} %" if known else "no"
+        lines.append(
+            (
+                row.model,
+                row.basis,
+                f"{row.limit:.2f}" if known else "",
+                f"± {row.interval:.1f} %" if known else "none",
+                f"± {row.wanted:g} %",
+                "yes" if row.lacking == 0.0 else lacking,
+            )
+        )
+    table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
+    return f"""
+How sure the best limit of each model is, and how sure it has to be
+(`python -m equisection.paper.mesh_convergence --targets`):
+
+{table}
 """
 
 
@@ -130,7 +181,8 @@ learnt models with the same damping (of critical) in bending and torsion:
 
 
 def _growth(series: Sequence[MeshSeries]) -> str:
-    chosen = [one for one in series if one.quantity == GROWTH]
+    chosen = [one for one in series if one.quantity == GROWTH and one.model == "2d"]
+    plate = [one for one in series if one.quantity == GROWTH and one.model == "3d"]
     early = [one for one in series if one.quantity == GROWTH_EARLY and one.values]
     rows = [(one.at.removeprefix("k* = "), one.basis.removeprefix("releases, ")) for one in chosen]
     text = f"""## Growth at one k\\*
@@ -148,6 +200,17 @@ can be read from 30 c/V**: fits with and without the second bending mode differ 
 errors ({notes}). Of two meshes over the same window the difference counts:
 
 {_table(("model",), [("3d",)], early, form="+.4f", judged=False)}
+"""
+    if plate:
+        iterations = "; ".join(
+            f"{_plain(one.at)} {', '.join(f'{v.note} ({v.mesh})' for v in one.values)}"
+            for one in plate
+        )
+        text += f"""
+From static equilibrium the growth of the plate is known from the same time, 10 to 30 c/V
+(at most {iterations} a step):
+
+{_table(("k*",), [(one.at.removeprefix("k* = "),) for one in plate], plate, "+.4f", judged=False)}
 """
     return text
 
@@ -254,14 +317,20 @@ def _table(
 
 
 def _limits(head: str, series: Sequence[MeshSeries], form: str) -> str:
-    """Return a line for each quantity: its limit at each place, in italics if not converged."""
+    """Return a line for each quantity of each model: its limit at each place.
+
+    What is not converged is in italics. Series of one quantity, model and place that differ in
+    their basis share a cell.
+    """
     places = list(dict.fromkeys(one.at for one in series))
+    models = {one.model for one in series}
     lines = [[_plain(head), *(_plain(at.removeprefix("k* = ")) for at in places)]]
     lines.append(["---"] * len(lines[0]))
-    found = {(one.quantity, one.at): one for one in series}
-    for quantity in dict.fromkeys(one.quantity for one in series):
-        cells = [found.get((quantity, at)) for at in places]
-        lines.append([quantity, *("" if one is None else _limit(one, form) for one in cells)])
+    for quantity, model in dict.fromkeys((one.quantity, one.model) for one in series):
+        own = [one for one in series if (one.quantity, one.model) == (quantity, model)]
+        cells = [[_limit(one, form) for one in own if one.at == at] for at in places]
+        label = f"{quantity}, {model}" if len(models) > 1 else quantity
+        lines.append([label, *map("; ".join, cells)])
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 

@@ -34,7 +34,7 @@ MESHES = ("coarse", "medium", "fine")
 STEPS = {"2d": 0.02, "3d": 0.04}
 #: Iterations of a time step of the section's releases: at most, until the residuals are small.
 ITERATIONS_OF_SECTION = 8
-#: Start of the releases from static equilibrium that are compared: the twist (deg) that disturbs it.
+#: Start of the releases from static equilibrium that are compared, with the twist that disturbs it.
 FROM_EQUILIBRIUM = {"state": "equilibrium", "twist_deg": 0.3, "heave_rate": 0.0}
 #: Range of the incidence (rad) in which a release of the section moves.
 SEEN = (0.0, math.radians(5.0))
@@ -113,9 +113,7 @@ def growth_behind_release(case: UnsteadyCase, tip: TipMotion, end: float = UNTIL
     return growth_over(case, tip, (start, last))
 
 
-def mesh_releases(
-    reference: Path, start: dict[str, Any] | None = None
-) -> list[MeshRelease]:
+def mesh_releases(reference: Path, start: dict[str, Any] | None = None) -> list[MeshRelease]:
     """Return the kept releases of the plate and its sections on meshes of one family.
 
     They have the time step of :data:`STEPS`; of several of a model, k*, mesh and number of

@@ -120,6 +120,7 @@ def _early_growths(
 
 
 def half_width(growth: Growth) -> float:
+    """Return half of the interval of a growth rate (V/c)."""
     return 0.5 * float(np.ptp(growth.interval))
 
 
@@ -173,7 +174,21 @@ def _shifted(
 def moved_onset(
     curve: pd.DataFrame, shift: tuple[float, float], base: MeshValue, run: MeshRelease, note: str
 ) -> MeshValue:
-    """Return the zero of a growth curve that is moved by a shift, with its half-width (V/c)."""
+    """Return the onset where a growth curve over k* is zero that is moved by a shift.
+
+    Parameters
+    ----------
+    curve
+        Growth rates of a mesh (:func:`.kept_releases.growth_table`).
+    shift
+        The shift and half of its interval (V/c).
+    base
+        Onset of that mesh, whose interval is added as an independent error.
+    run
+        Release on the mesh that the onset is of.
+    note
+        Remark.
+    """
     ordered = curve.sort_values("k_star")
     k_star, rates = ordered["k_star"].tolist(), ordered["growth_rate"].to_numpy()
     moved, half = shift
@@ -183,9 +198,7 @@ def moved_onset(
     return onset_on(run.mesh, run.cells, (value, low, high), note)
 
 
-def onset_on(
-    mesh: str, cells: int, onset: tuple[float, float, float], note: str = ""
-) -> MeshValue:
+def onset_on(mesh: str, cells: int, onset: tuple[float, float, float], note: str = "") -> MeshValue:
     """Return an onset and its interval on a mesh; an end out of reach (NaN) is infinitely far."""
     value, low, high = onset
     low, high = -math.inf if math.isnan(low) else low, math.inf if math.isnan(high) else high

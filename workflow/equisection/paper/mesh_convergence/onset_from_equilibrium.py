@@ -249,9 +249,7 @@ def _learnt_rates(
     early, middle, late = ends_of_records(release.time)
     try:
         models = [
-            learn_strips(
-                release, polars, end, free_slope=True, shortest=SHORTEST_FROM_EQUILIBRIUM
-            )
+            learn_strips(release, polars, end, free_slope=True, shortest=SHORTEST_FROM_EQUILIBRIUM)
             for end in (middle, early, late)
         ]
     except ResultFileError:

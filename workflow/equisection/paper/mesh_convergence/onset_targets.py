@@ -1,0 +1,65 @@
+"""How surely the onset of each model is known, beside how surely it is wanted."""
+
+from __future__ import annotations
+
+import math
+
+import pandas as pd
+
+from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
+from equisection.paper.mesh_convergence.mesh_series import LIMIT
+from equisection.paper.mesh_convergence.onset_by_mesh import ONSET
+
+#: Wanted half-width of the interval of the onset's limit, as a part of it, by model.
+WANTED = {"2d": 0.05, "2d-corrected": 0.05, OWN_RATIOS: 0.05, "3d": 0.10}
+
+
+def best_limit(table: pd.DataFrame, model: str) -> pd.Series | None:
+    """Return the line of the best limit of the onset of a model without damping.
+
+    That is the narrowest interval, as a part of the limit. Without any interval it is the onset on
+    one mesh that the table has first; None where the model has none.
+
+    Parameters
+    ----------
+    table
+        ``mesh_convergence.csv`` (:func:`.mesh_series.as_table`).
+    model
+        The model.
+    """
+    chosen = table[
+        (table["quantity"] == ONSET)
+        & (table["model"] == model)
+        & (table["at"].fillna("") == "")
+        & (table["mesh"] == LIMIT)
+    ]
+    if chosen.empty:
+        return None
+    part = 0.5 * (chosen["high"] - chosen["low"]) / chosen["value"].abs()
+    part = part.where(part < math.inf)
+    return chosen.iloc[0] if part.isna().all() else chosen.loc[part.idxmin()]
+
+
+def targets(table: pd.DataFrame) -> pd.DataFrame:
+    """Return a line for each model: its best limit, how sure it is, and how sure it has to be.
+
+    Returns
+    -------
+    pd.DataFrame
+        ``model``, ``basis``, ``limit``, ``low``, ``high`` (k*), ``interval`` and ``wanted`` (half
+        of the interval, % of the limit), and ``lacking`` (% of the limit; 0 where it is reached,
+        NaN without an interval).
+    """
+    rows = []
+    for model, wanted in WANTED.items():
+        best = best_limit(table, model)
+        if best is None:
+            continue
+        value, low, high = (float(best[name]) for name in ("value", "low", "high"))
+        part = 50.0 * (high - low) / abs(value)
+        known = math.isfinite(part)
+        lacking = max(part - 100.0 * wanted, 0.0) if known else math.nan
+        interval = part if known else math.nan
+        rows.append((model, best["basis"], value, low, high, interval, 100.0 * wanted, lacking))
+    columns = ["model", "basis", "limit", "low", "high", "interval", "wanted", "lacking"]
+    return pd.DataFrame(rows, columns=columns)
