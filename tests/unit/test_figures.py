@@ -628,13 +628,19 @@ def test_response_says_how_near_section_and_beam_are_and_where(tmp_path):
     beam = summary["model"] == "3d"
     summary.loc[beam, "mean_twist_deg"] *= 1.25
     summary.loc[beam & (summary["k_star"] == 8.0), "mean_deflection_chords"] *= 1.6
-    drawn = response.draw(response.read_response(summary, onset, paths, 6.7))
-    assert "$k^*$ = 4 to 8" in drawn.axes[0].get_title(loc="left")  # it grows at 4
-    summary.loc[beam & (summary["k_star"] == 4.0), ["regime", "mean_twist_deg"]] = "undecided", 1e3
-    figure = response.draw(response.read_response(summary, onset, paths, 6.7))
-    titles = [axes.get_title(loc="left") for axes in figure.axes[:2]]
-    assert "2D corrected within 20 % of 3D, $k^*$ = 5 to 8" in titles[0]
-    assert "2D corrected within 38 % of 3D" in titles[1]
+    at_4 = summary["k_star"] == 4.0
+    summary.loc[beam & at_4, "mean_twist_deg"] = 1e3
+    for of_section, of_beam in (
+        ("growing", "growing"),
+        ("growing", "settled"),  # beyond the onset of the section alone
+        ("settled", "growing"),
+        ("settled", "undecided"),
+    ):
+        summary.loc[at_4, "regime"] = np.where(beam[at_4], of_beam, of_section)
+        figure = response.draw(response.read_response(summary, onset, paths, 6.7))
+        titles = [axes.get_title(loc="left") for axes in figure.axes[:2]]
+        assert "2D corrected within 20 % of 3D, $k^*$ = 5 to 8" in titles[0]
+        assert "2D corrected within 38 % of 3D" in titles[1]
     alone = response.draw(response.read_response(*sweep(tmp_path, SWEEPS["no beam"]), 6.7))
     assert "within" not in alone.axes[0].get_title(loc="left")
 

@@ -265,14 +265,15 @@ def _means(axes: Axes, response: Response, name: str) -> None:
 
 
 def _agreement(summary: pd.DataFrame, section: str | None, beam: str | None, name: str) -> str:
-    """Say how far a mean of the section is from the beam's, and where both have one.
+    """Say how far a mean of the section is from the beam's where both are stable, and where that is.
 
-    Means that are not settled (open markers) count as they are; undecided runs have none.
+    A motion that grows has no mean to compare. Means that still drift (open markers) count as they
+    are.
     """
     if section is None or beam is None:
         return ""
     along = onset_axis_among(summary.columns)
-    table = deviations(summary)
+    table = deviations(summary[summary["regime"].isin(BOUNDED)])
     of_section = table[table["model"] == section].set_index(along.name)[_DEVIATIONS[name]]
     deviation = of_section[np.isfinite(of_section)]
     if deviation.size < 2:

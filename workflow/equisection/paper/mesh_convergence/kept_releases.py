@@ -252,9 +252,10 @@ def rigid_loads(reference: Path, dimension: str) -> list[MeshLoads]:
     """Return the kept steady results of the paper's section (``2d``) or plate (``3d``).
 
     They are on similar meshes, of the section also on the plate's cells. Those with settings of
-    their own, beside mesh and iterations, are left out.
+    their own, beside mesh and iterations, are left out. Of several at one incidence the first is
+    taken, by the folders' names.
     """
-    found = {}
+    found: dict[tuple[str, float], MeshLoads] = {}
     for kept in kept_results(reference):
         case = kept.case
         if case.get("kind") != STEADY.folder or case.get("dimension") != dimension:
@@ -266,7 +267,7 @@ def rigid_loads(reference: Path, dimension: str) -> list[MeshLoads]:
             continue
         data = read_dataset(kept.path)
         loads = {name: float(data[name]) for name in ("cd", "cl", "cm")}
-        found[mesh, angle] = MeshLoads(mesh, _cells_of(kept), angle, loads, kept.path)
+        found.setdefault((mesh, angle), MeshLoads(mesh, _cells_of(kept), angle, loads, kept.path))
     return sorted(found.values(), key=lambda one: (one.cells, one.incidence_deg))
 
 
