@@ -302,6 +302,29 @@ def test_onset_that_is_not_converged_neither_agrees_nor_differs(
     assert ("not converged" in finding.here) == (plate[1] > 1.0)
 
 
+@pytest.mark.parametrize(("from_equilibrium", "is_used"), [((8.0, 0.5), True), ((8.0, 5.0), False)])
+def test_onset_of_the_plate_is_that_of_its_narrowest_limit(
+    from_equilibrium: tuple[float, float], is_used: bool
+) -> None:
+    new = {"onset k*|3d||releases from equilibrium": from_equilibrium}
+    changed = limits(**new, **{"onset k*|3d||releases": (5.5, 2.5)})
+    finding = response.onset(replace(complete(), convergence=changed))
+    assert finding.verdict is ClaimVerdict.PARTLY  # both sections agree
+    words = "3d (releases from equilibrium): k* = 8.00" if is_used else "3d (releases): k* = 5.50"
+    assert words in finding.here
+    assert ("not converged" in finding.here) != is_used
+
+
+def test_growth_of_the_plate_has_the_error_of_two_meshes_from_equilibrium_where_it_is_known() -> (
+    None
+):
+    early = {"growth over the first 30 c/V|3d|k* = 6.44|releases": (0.01, 0.02)}
+    new = {"growth, V/c|3d|k* = 6.44|releases from equilibrium": (0.01, 0.001)}
+    for more, verdict in (({}, ClaimVerdict.NOT_CONVERGED), (new, ClaimVerdict.AGREES)):
+        changed = replace(complete(), kept=inside(0.03, 0.02), convergence=limits(**early, **more))
+        assert response.growing_inside(changed).verdict is verdict
+
+
 def test_onset_says_what_damping_makes_of_it() -> None:
     assert "3d (b) 5.10 at 1 %" in response.onset(complete()).why
 

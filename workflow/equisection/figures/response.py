@@ -265,10 +265,9 @@ def _means(axes: Axes, response: Response, name: str) -> None:
 
 
 def _agreement(summary: pd.DataFrame, section: str | None, beam: str | None, name: str) -> str:
-    """Say how far a mean of the section is from the beam's where both are stable, and where that is.
+    """Say how far a mean of the section is from the beam's where neither grows, and where that is.
 
-    A motion that grows has no mean to compare. Means that still drift (open markers) count as they
-    are.
+    Means that still drift (open markers) count as they are.
     """
     if section is None or beam is None:
         return ""

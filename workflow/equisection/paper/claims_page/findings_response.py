@@ -27,7 +27,6 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
 from equisection.paper.mesh_convergence.mesh_series import LIMIT
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
-    BY_RELEASES,
     DAMPING,
     GROWTH,
     GROWTH_EARLY,
@@ -35,6 +34,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     ONSET,
     damped,
 )
+from equisection.paper.mesh_convergence.onset_targets import best_limit
 from equisection.paper.printed_values import ABOUT, PAPER_ONSET, PUBLISHED
 
 _SECTION, _CORRECTED, _BEAM = "2d", "2d-corrected", "3d"
@@ -221,29 +221,27 @@ def _by_k_star(k_star: pd.Series, values: pd.Series) -> str:
 
 
 def onset(evidence: Evidence) -> Finding:
-    """Judge the k* of the onset of both corrected sections and of the plate."""
+    """Judge the k* of the onset of both corrected sections and of the plate, by the best limits."""
     parts, verdicts = [], []
     paper = Known(*PAPER_ONSET)
-    for model, basis in (
-        (_CORRECTED, BY_MODEL),
-        (OWN_RATIOS, BY_MODEL),
-        (_BEAM, BY_RELEASES),
-    ):
+    for model in (_CORRECTED, OWN_RATIOS, _BEAM):
+        best = best_limit(evidence.convergence, model)
+        if best is None:
+            continue
+        basis = str(best["basis"])
         rows = evidence.over_meshes(ONSET, model, "", basis)
         rows = rows[rows["mesh"] != LIMIT]
-        if rows.empty:
-            continue
         limit = evidence.limit(ONSET, model, "", basis)
         by_mesh = ", ".join(f"{row.value:.2f} ({row.mesh})" for row in rows.itertuples())
         verdicts.append(limit.meets(paper))
         at = f", limit {limit.words('.2f')}" if math.isfinite(limit.half_width) else ""
-        parts.append(f"{_TITLES.get(model, model)}: k* = {by_mesh}{at}: {verdicts[-1]}")
+        parts.append(f"{_TITLES.get(model, model)} ({basis}): k* = {by_mesh}{at}: {verdicts[-1]}")
     if not parts:
         return open_finding("runs on both sides of the onset")
     return Finding(
         together(verdicts),
         f"{'; '.join(parts)}. Paper {paper.words()}",
-        "learnt models and releases on each mesh ([mesh-convergence.md](mesh-convergence.md))",
+        "the narrowest limit of each model over its meshes ([how](mesh-convergence.md))",
         f"{_with_damping(evidence)} Brackets of the sweep on `coarse`, which is not converged: "
         f"{_brackets(evidence)}. The paper reads its onset off the slope of the means.",
     )
@@ -318,7 +316,7 @@ def growing_inside(evidence: Evidence) -> Finding:
     both = _growing(evidence.kept, model)
     if both.empty:
         return open_finding(_BOTH_REDUCTIONS)
-    mesh = evidence.limit(GROWTH_EARLY, _BEAM, _LEARNT_AT).half_width
+    mesh = _mesh_error_of_plate(evidence)
     verdicts, parts = [], []
     for row in both.itertuples():
         difference = row.here - row.beam
@@ -337,6 +335,19 @@ def growing_inside(evidence: Evidence) -> Finding:
         "Cells in the plane are [the same](reductions.md). Without the first 20 of 60 c/V, in "
         "which the release shows, the plate's record is short for a growth rate.",
     )
+
+
+def _mesh_error_of_plate(evidence: Evidence) -> float:
+    """Return half of the interval that two meshes leave of the plate's growth (V/c); NaN of none.
+
+    It is that of releases from equilibrium, where both meshes have one, and else that of the first
+    30 c/V from rest.
+    """
+    of_equilibrium, early = (
+        evidence.limit(quantity, _BEAM, _LEARNT_AT).half_width
+        for quantity in (GROWTH, GROWTH_EARLY)
+    )
+    return of_equilibrium if math.isfinite(of_equilibrium) else early
 
 
 def _growing(kept: pd.DataFrame, model: str) -> pd.DataFrame:
@@ -363,7 +374,7 @@ def decay_at_high_stiffness(evidence: Evidence) -> Finding:
     parts, verdicts = [], []
     mesh = {
         _SECTION: evidence.limit(GROWTH, _SECTION, "k* = 14").half_width,
-        _BEAM: evidence.limit(GROWTH_EARLY, _BEAM, _LEARNT_AT).half_width,
+        _BEAM: _mesh_error_of_plate(evidence),
     }
     mesh[_CORRECTED] = mesh[_SECTION]
     for model in (_SECTION, _CORRECTED, _BEAM):
