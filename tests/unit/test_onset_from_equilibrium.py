@@ -2,7 +2,8 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -107,7 +108,11 @@ class OfKnownGrowth(MeshRelease):
     rate: float = math.nan
 
     def behind_release(self, end: float = math.inf) -> Growth:
-        return Growth(rate=self.rate, end=end)
+        return Growth(rate=self.rate, standard_error=1e-6, end=end, periods=8)
+
+
+def _fields(release: MeshRelease) -> tuple[Any, ...]:
+    return tuple(getattr(release, field.name) for field in fields(MeshRelease))
 
 
 def of_section(changes: Sequence[float], rates: Sequence[float]) -> list[MeshRelease]:
@@ -200,6 +205,23 @@ def test_mesh_with_releases_on_both_sides_has_an_onset_of_its_own(
     (without,) = onsets_from_equilibrium([*curve, *elsewhere], [])
     assert [value.mesh for value in without.values] == ["coarse"]
     assert not list(onsets_from_equilibrium(over_k_star(at_equilibrium, 6.44, 8.0), []))
+
+
+def test_curve_is_that_from_rest_where_releases_from_equilibrium_have_one_sign(
+    at_equilibrium: MeshRelease,
+) -> None:
+    """Growth at one k* alone: the difference of the meshes is from equilibrium, the curve not."""
+    alone = made_up(at_equilibrium, shift=0.002)
+    medium = made_up(at_equilibrium, "medium", iterations=4, shift=-0.004)
+    from_rest = [
+        OfKnownGrowth(*_fields(made_up(at_equilibrium, k_star=k)), SLOPE * math.log(k / ZERO))
+        for k in (5.0, 6.44, 7.5, 8.0, 8.5, 9.0, 12.0)
+    ]
+    (found,) = onsets_from_equilibrium([alone, medium], from_rest)
+    coarse, finer = found.values
+    assert coarse.value == pytest.approx(ZERO, rel=1e-6)
+    assert "growth curve of releases from rest" in coarse.note
+    assert finer.value == pytest.approx(ZERO * math.exp(0.006 / SLOPE), rel=2.0 * FIT / -SLOPE)
 
 
 def test_shift_changes_over_k_star_as_that_of_the_section_up_to_its_onset() -> None:

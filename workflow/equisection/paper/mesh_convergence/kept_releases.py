@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from operator import methodcaller
 from pathlib import Path
 from typing import Any
 
@@ -201,7 +202,7 @@ def _cells_of(kept: Kept) -> int:
 
 def growth_table(
     releases: Sequence[MeshRelease],
-    growth_in: Callable[[MeshRelease], Growth] = MeshRelease.behind_release,
+    growth_in: Callable[[MeshRelease], Growth] = methodcaller("behind_release"),
 ) -> pd.DataFrame:
     """Return growth rates of releases with their errors, as ``summary.csv`` has them.
 

@@ -205,9 +205,15 @@ def onset_on(mesh: str, cells: int, onset: tuple[float, float, float], note: str
     return MeshValue(mesh, cells, value, low, high, note)
 
 
+def curve_of_plate(releases: Sequence[MeshRelease]) -> list[MeshRelease]:
+    """Return the plate's releases on coarse over k*, which have two iterations of a time step."""
+    plate = [one for one in releases if (one.model, one.mesh) == ("3d", "coarse")]
+    return [one for one in plate if one.iterations < PLATE_ITERATIONS]
+
+
 def _of_plate(own: Sequence[MeshRelease]) -> list[MeshValue]:
     """Return the onset of the plate on coarse, and on finer meshes as far as 30 c/V tell."""
-    coarse = [one for one in own if one.mesh == "coarse" and one.iterations < PLATE_ITERATIONS]
+    coarse = curve_of_plate(own)
     table = growth_table(coarse)
     found = onset_by_growth(table, K_STAR)
     if not math.isfinite(found.value):

@@ -2,10 +2,12 @@
 
 Flow and heave have nothing to settle there, so that the growth of small motions is known from 30
 c/V. A mesh with releases on both sides of its onset has it where the growth rate is zero. A mesh
-with one release has the growth curve over k* of the coarsest one, shifted by the difference of both
-at that k*; how far such a shift changes with k* is known of the section, which has releases at
-several k* on two meshes. A second way needs the one release alone: a model of the loads is learnt
-from it (:mod:`equisection.motion.beam_lesson`), and the eigenvalues of the small motions about the
+with one release has the growth curve over k* of the coarsest one (from equilibrium, or else from
+rest), shifted by the difference of both from equilibrium at that k*; how far such a shift changes
+with k* is known of the section, which has releases at several k* on two meshes.
+
+A second way needs the one release alone: a model of the loads is learnt from it
+(:mod:`equisection.motion.beam_lesson`), and the eigenvalues of the small motions about the
 equilibrium at each k* are those of the beam with that model. Motions of half a degree say little of
 the bends of the steady loads, but their slope, so that it is learnt too.
 """
@@ -19,7 +21,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from equisection.analysis.growth_onset import onset_by_growth
+from equisection.analysis.growth_onset import GrowthOnset, onset_by_growth
 from equisection.analysis.recorded_beam import on_strips, read_recorded_beam
 from equisection.analysis.reduced_beam import SMALLEST_BAND_OF_BEAM, growth_of_pitch
 from equisection.analysis.reduced_model import ends_of_records, onset_of, spread_of_refits
@@ -43,6 +45,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     ONSET,
     PLATE_ITERATIONS,
     beam_at,
+    curve_of_plate,
     half_width,
     moved_onset,
     onset_on,
@@ -123,34 +126,42 @@ def onsets_from_equilibrium(
     releases
         Releases from equilibrium.
     from_rest
-        Releases from rest, of which the section's tell how far the difference of two meshes changes
-        with k*.
+        Releases from rest. The section's tell how far the difference of two meshes changes with k*;
+        the plate's on coarse are the curve where those from equilibrium have no two signs.
     """
-    curves = [
-        (group, table, found)
-        for group in _groups(releases)
-        for table in [growth_table(group.runs, _growth)]
-        for found in [onset_by_growth(table, K_STAR)]
-        if math.isfinite(found.value)
-    ]
-    if not curves:
-        return
-    curve, table, found = curves[0]
-    note = _zigzag_in_words(curve) if curve.iterations < PLATE_ITERATIONS else ""
-    base = onset_on(curve.mesh, curve.cells, (found.value, found.low, found.high), note)
+    own = {
+        group: found for group in _groups(releases) if math.isfinite((found := _zero(group)).value)
+    }
+    curve = next(iter(own), None)
+    if curve is not None:
+        table, found, words = growth_table(curve.runs, _growth), own[curve], ""
+    else:
+        of_rest = curve_of_plate(from_rest)
+        table, words = growth_table(of_rest), "growth curve of releases from rest"
+        found = onset_by_growth(table, K_STAR)
+        keys = [(one.mesh, one.iterations) for one in of_rest]
+        groups = [one for one in _groups(releases) if (one.mesh, one.iterations) in keys]
+        if not groups or not math.isfinite(found.value):
+            return
+        (curve,) = groups
+    zigzag = _zigzag_in_words(curve) if curve.iterations < PLATE_ITERATIONS else ""
+    ends = found.value, found.low, found.high
+    base = onset_on(curve.mesh, curve.cells, ends, "; ".join(filter(None, (words, zigzag))))
     change = change_of_shift(from_rest)
-    own = {group.mesh: (group, found) for group, _, found in curves}
     values = []
     for group in _most_iterations(releases):
-        known = own.get(group.mesh)
-        if known is not None and known[0] is not curve:
-            ends = known[1].value, known[1].low, known[1].high
-            values.append(onset_on(group.mesh, group.cells, ends))
-        elif group == curve:
+        if group == curve:
             values.append(base)
+        elif group in own:
+            ends = own[group].value, own[group].low, own[group].high
+            values.append(onset_on(group.mesh, group.cells, ends))
         else:
             values += _shifted(curve, table, base, group, change)
     yield MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, tuple(values))
+
+
+def _zero(group: _Runs) -> GrowthOnset:
+    return onset_by_growth(growth_table(group.runs, _growth), K_STAR)
 
 
 def _shifted(
