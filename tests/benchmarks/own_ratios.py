@@ -15,10 +15,12 @@ import pandas as pd
 from equisection.aerodynamics.polar import Polar
 from equisection.analysis.reduced_model import learnt_model, predicted, predicted_onset
 from equisection.beam.section import Section
+from equisection.paper.mesh_convergence.kept_releases import rigid_loads
+from equisection.paper.mesh_convergence.onset_by_mesh import own_factors
 from equisection.reduction.carried_beam import beam_carried_over
 from equisection.reduction.corrected_section import corrected_section
 from equisection.reduction.correction import CorrectionFactors
-from tests.benchmarks.learnt import polar_of, sweep_of
+from tests.benchmarks.learnt import REFERENCE, polar_of, sweep_of
 from tests.workflow.project import ROOT
 
 POLARS = ROOT / "config" / "polars"
@@ -37,13 +39,16 @@ def _read(path: Path) -> Polar:
 
 
 def corrections(section: Polar) -> dict[str, CorrectionFactors]:
-    """Return the factors by Table 1 of the paper, and by the ratio on equal cells."""
+    """Return the factors by Table 1 of the paper, and by the ratio on equal cells of two meshes."""
     pair = CorrectionFactors(
         _read(POLARS / "plate_2d_3132.csv"), _read(POLARS / "plate_3d_85284.csv")
     )
+    finer, mesh = own_factors(*(rigid_loads(REFERENCE, one) for one in ("2d", "3d")))
+    assert finer is not None, "section and plate are kept on equal cells"
     return {
         "Table 1": CorrectionFactors(section, _read(POLARS / "paper_plate_3d.csv")),
         "own ratios": CorrectionFactors(section, beam_carried_over(section, pair)),
+        f"own ratios, {mesh}": CorrectionFactors(section, beam_carried_over(section, finer)),
     }
 
 

@@ -202,15 +202,18 @@ errors ({notes}). Of two meshes over the same window the difference counts:
 {_table(("model",), [("3d",)], early, form="+.4f", judged=False)}
 """
     if plate:
-        iterations = "; ".join(
-            f"{_plain(one.at)} {', '.join(f'{v.note} ({v.mesh})' for v in one.values)}"
+        rows = [
+            (
+                one.at.removeprefix("k* = "),
+                ", ".join(value.note.removesuffix(" iterations") for value in one.values),
+            )
             for one in plate
-        )
+        ]
+        head = ("k*", "iterations a step")
         text += f"""
-From static equilibrium the growth of the plate is known from the same time, 10 to 30 c/V
-(at most {iterations} a step):
+From static equilibrium the growth of the plate is known from the same time, 10 to 30 c/V:
 
-{_table(("k*",), [(one.at.removeprefix("k* = "),) for one in plate], plate, "+.4f", judged=False)}
+{_table(head, rows, plate, form="+.4f", judged=False)}
 """
     return text
 

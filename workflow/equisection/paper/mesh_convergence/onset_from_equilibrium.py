@@ -183,10 +183,8 @@ def _shifted(
 
 def _zigzag_in_words(group: _Runs) -> str:
     found = [100.0 * one.zigzag for one in group.runs]
-    return (
-        f"{group.iterations} iterations a step: loads zigzag by {min(found):.2g} to "
-        f"{max(found):.2g} %"
-    )
+    ends = dict.fromkeys(f"{one:.2g}" for one in (min(found), max(found)))
+    return f"{group.iterations} iterations a step: loads zigzag by {' to '.join(ends)} %"
 
 
 def change_of_shift(from_rest: Sequence[MeshRelease]) -> float:
