@@ -234,7 +234,24 @@ def test_page_says_which_limits_are_converged() -> None:
     assert "| 2d-corrected | releases | 7.40 ± 0.20 |  |  |  |  | none | no |" in text
     assert lines[OWN_RATIOS].endswith("yes |")
     assert "The plate's onset is not converged" in text
+    first = 7.8 - 2.4 / ((400 / 100) ** (1.0 / 2.0) - 1.0)
+    assert f"with the assumed order 2 ({first:.1f} with the order 1)" in text
+    assert "| 2d | learnt model | 7.05 | ± 3.9 % | ± 5 % | yes |" in text
+    assert "| 2d-corrected | learnt model | 5.53 | ± 7.0 % | ± 5 % | no, by 2.0 % |" in text
     assert "k*" not in text.replace("k\\*", "").replace("Left: k* of", "")
+
+
+def test_quantity_of_two_models_at_one_place_has_a_line_for_each() -> None:
+    values = (MeshValue("coarse", 100, 2.0), MeshValue("medium", 400, 2.0))
+    series = [
+        MeshSeries("mean twist, deg", model, "k* = 8", "releases", 2, values)
+        for model in ("2d", "3d")
+    ]
+    lines = [line for line in page(series, "").splitlines() if line.startswith("| mean twist")]
+    assert [line.split(" | ")[0] for line in lines] == [
+        "| mean twist, deg, 2d",
+        "| mean twist, deg, 3d",
+    ]
 
 
 def test_figure_has_each_model_with_its_limit_and_the_papers_onset() -> None:
