@@ -1,4 +1,4 @@
-"""How surely the onset of each model is known, beside how surely it is wanted."""
+"""Interval of the onset of each model, beside the one that is wanted."""
 
 from __future__ import annotations
 
