@@ -207,17 +207,18 @@ def test_mesh_with_releases_on_both_sides_has_an_onset_of_its_own(
     assert not list(onsets_from_equilibrium(over_k_star(at_equilibrium, 6.44, 8.0), []))
 
 
-def test_curve_is_that_from_rest_where_releases_from_equilibrium_have_one_sign(
-    at_equilibrium: MeshRelease,
+@pytest.mark.parametrize("more", [(), (8.0,), (12.0,)])
+def test_curve_is_that_from_rest_where_releases_from_equilibrium_show_none(
+    at_equilibrium: MeshRelease, more: tuple[float, ...]
 ) -> None:
-    """Growth at one k* alone: the difference of the meshes is from equilibrium, the curve not."""
-    alone = made_up(at_equilibrium, shift=0.002)
+    """The difference of the meshes is from equilibrium, the curve not: two k* show no bend."""
+    alone = [made_up(at_equilibrium, k_star=one, shift=0.002) for one in (6.44, *more)]
     medium = made_up(at_equilibrium, "medium", iterations=4, shift=-0.004)
     from_rest = [
         OfKnownGrowth(*_fields(made_up(at_equilibrium, k_star=k)), SLOPE * math.log(k / ZERO))
         for k in (5.0, 6.44, 7.5, 8.0, 8.5, 9.0, 12.0)
     ]
-    (found,) = onsets_from_equilibrium([alone, medium], from_rest)
+    (found,) = onsets_from_equilibrium([*alone, medium], from_rest)
     coarse, finer = found.values
     assert coarse.value == pytest.approx(ZERO, rel=1e-6)
     assert "growth curve of releases from rest" in coarse.note

@@ -55,6 +55,8 @@ from equisection.verdict.growth import AFTER_RELEASE, Growth
 
 #: Bases of growth and onset.
 BY_EQUILIBRIUM, LEARNT_FROM_EQUILIBRIUM = "releases from equilibrium", "learnt from equilibrium"
+#: Fewest k* of a curve that is moved: fewer do not show its bend.
+FEWEST_OF_CURVE = 3
 #: Shortest release (c/V) from equilibrium that a model is learnt from.
 SHORTEST_FROM_EQUILIBRIUM = 30.0
 
@@ -127,12 +129,13 @@ def onsets_from_equilibrium(
         Releases from equilibrium.
     from_rest
         Releases from rest. The section's tell how far the difference of two meshes changes with k*;
-        the plate's on coarse are the curve where those from equilibrium have no two signs.
+        the plate's on coarse are the curve where those from equilibrium are fewer than three, or of
+        one sign.
     """
     own = {
         group: found for group in _groups(releases) if math.isfinite((found := _zero(group)).value)
     }
-    curve = next(iter(own), None)
+    curve = next((group for group in own if len(group.runs) >= FEWEST_OF_CURVE), None)
     if curve is not None:
         table, found, words = growth_table(curve.runs, _growth), own[curve], ""
     else:
