@@ -176,12 +176,18 @@ def _of_the_mesh(evidence: Evidence, columns: tuple[str, ...]) -> str:
 def _by_the_other_reduction(evidence: Evidence, model: str, columns: tuple[str, ...]) -> str:
     """Say the same of the consistent reduction, which is not what the claim speaks of."""
     found = [
-        _deviations(pairs, column)
+        _range(pairs, column)
         for column in columns
         if not (pairs := _pairs(evidence.reductions, f"{model}-consistent", column)).empty
     ]
-    words = f"With the consistent reduction {'; '.join(found)}. " if found else ""
+    words = f"With the consistent reduction {', '.join(found)}. " if found else ""
     return f"{words}Cells in the plane are [the same](reductions.md)."
+
+
+def _range(pairs: pd.DataFrame, column: str) -> str:
+    relative = pairs["here"] / pairs["beam"] - 1.0
+    ends = dict.fromkeys((percent(relative.min()), percent(relative.max())))
+    return f"{_name(column)} {' to '.join(ends)}"
 
 
 def _pairs(runs: pd.DataFrame, model: str, column: str) -> pd.DataFrame:
@@ -420,9 +426,8 @@ def not_classical_flutter(evidence: Evidence) -> Finding:
         f"{fastest['growth_rate']:+.4f} V/c. {own}divergence at {divergence:.2f} "
         f"({by_polar:.2f} with the slope of the section's own c_m)",
         "Theodorsen's loads, k and p-k methods; fractions of a second",
-        "The instability is none of attached, linear flow. With centre of mass and pitch axis in "
-        "one there is still a linear flutter, next to divergence and far below the k* at which the "
-        "section stalls ([linear.md](linear.md)).",
+        "The instability is none of attached, linear flow. There is a linear flutter, next to "
+        "divergence and far below the k* at which the section stalls ([linear.md](linear.md)).",
     )
 
 
