@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterable
 
 import numpy as np
@@ -182,7 +181,7 @@ def wall_distance(evidence: Evidence) -> Finding:
 def _described(solvers: Iterable[str]) -> str:
     """Return descriptions of solvers, with what they begin with in common once."""
     first, *others = dict.fromkeys(solvers)
-    begin = os.path.commonprefix([first, *others]).rpartition(", ")[0] if others else ""
+    begin = first.rpartition(", ")[0]
     return ", ".join([first, *(other.removeprefix(f"{begin}, ") for other in others)])
 
 
