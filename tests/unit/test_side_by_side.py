@@ -382,7 +382,7 @@ def test_other_reduction_stands_beside_the_papers_and_is_not_judged() -> None:
     both = pd.concat([reductions(), summary(m2d_consistent=far)])
     finding = response.mean_twist_uncorrected(replace(complete(), reductions=both))
     assert finding.verdict is ClaimVerdict.AGREES
-    assert "With the consistent reduction mean twist +213 % to +219 %. Cells" in finding.why
+    assert "With the consistent reduction mean twist +213 % to +219 %, on" in finding.why
 
 
 @pytest.mark.parametrize("error", ["mesh", "iterations"])

@@ -89,9 +89,7 @@ def first_modes(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         resolution_of(evidence.summary, _BEAM),
-        "The share of the second mode is set by the shape of the load along the span and the ratio "
-        "of the natural frequencies: a load that is uniform along the span gives 70 (bending) and "
-        "26 (torsion).",
+        "A load that is uniform along the span gives 70 (bending) and 26 (torsion).",
     )
 
 
@@ -180,8 +178,8 @@ def _by_the_other_reduction(evidence: Evidence, model: str, columns: tuple[str, 
         for column in columns
         if not (pairs := _pairs(evidence.reductions, f"{model}-consistent", column)).empty
     ]
-    words = f"With the consistent reduction {', '.join(found)}. " if found else ""
-    return f"{words}Cells in the plane are [the same](reductions.md)."
+    words = f"With the consistent reduction {', '.join(found)}, on" if found else "On"
+    return f"{words} [the same cells](reductions.md)."
 
 
 def _range(pairs: pd.DataFrame, column: str) -> str:
@@ -313,8 +311,8 @@ def limit_cycle(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         resolution_of(evidence.summary, _CORRECTED),
-        "A motion whose growth is within a few 1e-4 V/c of zero keeps its amplitude over the "
-        "length of a run; whether it is a cycle for good cannot be told from that.",
+        "A motion whose growth is within a few 1e-4 V/c of zero keeps its amplitude over a run; "
+        "whether it is a cycle for good cannot be told from that.",
     )
 
 
@@ -340,8 +338,8 @@ def growing_inside(evidence: Evidence) -> Finding:
         f"growth of section and plate (V/c, from 20 c/V after the release on): {'; '.join(parts)} "
         f"(k*). The error of the mesh is {words}",
         resolution_of(evidence.reductions, model, _BEAM),
-        "Cells in the plane are [the same](reductions.md). Without the first 20 of 60 c/V, in "
-        "which the release shows, the plate's record is short for a growth rate.",
+        "On [the same cells](reductions.md). Without the first 20 of 60 c/V, in which the release "
+        "shows, the plate's record is short for a growth rate.",
     )
 
 
