@@ -97,7 +97,7 @@ def property_ratios(evidence: Evidence) -> Finding:
 
 def rigid_plate(evidence: Evidence) -> Finding:
     """Judge Table 1, coefficient by coefficient: limits of the meshes here and of the paper's."""
-    parts: dict[ClaimVerdict, list[str]] = {}
+    parts: dict[ClaimVerdict, dict[str, list[str]]] = {}
     for angle in next(iter(TABLE_1.values())):
         for name in COEFFICIENTS:
             here = evidence.limit(name, RIGID["3d"], f"{angle:g} deg")
@@ -105,12 +105,16 @@ def rigid_plate(evidence: Evidence) -> Finding:
                 continue
             printed = printed_limit(name, angle)
             stated = Known(printed.value, printed.low, printed.high)
-            parts.setdefault(here.meets(stated), []).append(f"{name} at {angle:g} deg")
+            angles = parts.setdefault(here.meets(stated), {}).setdefault(name, [])
+            angles.append(f"{angle:g}")
     if not parts:
         return open_finding("steady runs of the plate (`config/openfoam3d.yaml`)")
     return Finding(
         together(parts),
-        "; ".join(f"{verdict}: {', '.join(words)}" for verdict, words in parts.items()),
+        "; ".join(
+            f"{verdict}: " + ", ".join(f"{name} at {'/'.join(at)} deg" for name, at in of.items())
+            for verdict, of in parts.items()
+        ),
         "; ".join(sorted(set(evidence.table_1["made_by"].dropna()))),
         "Values and intervals, the paper's too: "
         "[mesh-convergence.md](mesh-convergence.md#loads-of-the-rigid-plate-table-1). Three meshes "
