@@ -162,18 +162,18 @@ def wall_distance(evidence: Evidence) -> Finding:
         row = of_mesh.iloc[int(np.argmin(np.abs(of_mesh["incidence_deg"] - 2.5)))]
         shares.append(float(row["y_plus_below_1"]))
         parts.append(
-            f"{resolution}: below 1 on {100 * shares[-1]:.1f} % of both sides at "
-            f"{row['incidence_deg']:g} deg, largest {row['y_plus_largest']:.2g}"
+            f"{100 * shares[-1]:.1f} % at {row['incidence_deg']:g} deg on {resolution}, "
+            f"largest {row['y_plus_largest']:.2g}"
         )
     worst = rows.loc[rows["y_plus_below_1"].idxmin()]
     parts.append(
-        f"least at {worst['incidence_deg']:g} deg on {worst['resolution']}, "
-        f"{100 * worst['y_plus_below_1']:.0f} %"
+        f"least {100 * worst['y_plus_below_1']:.0f} % at {worst['incidence_deg']:g} deg on "
+        f"{worst['resolution']}"
     )
     everywhere = rows["y_plus_largest"].max() < 1.0
     return Finding(
         ClaimVerdict.AGREES if everywhere else ClaimVerdict.PARTLY,
-        "; ".join(parts),
+        f"below 1 on this part of both sides: {'; '.join(parts)}",
         _described(rows["solver"]),
         ""
         if everywhere

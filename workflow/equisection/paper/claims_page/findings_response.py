@@ -167,7 +167,7 @@ def _of_the_mesh(evidence: Evidence, columns: tuple[str, ...]) -> str:
             f"{100 * part:.2g} % ({_name(column)})"
             for column, part in zip(columns, parts, strict=True)
         )
-        return f". Mesh and iterations may change section over plate by {words}"
+        return f". By mesh and iterations ± {words}"
     return ". What mesh and iterations change in it is not known"
 
 
