@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from tests.processes import LONG
 
 from equisection.errors import SolverError
 from equisection.store import lock as ownership
@@ -183,7 +184,7 @@ def sleep_while_another_takes_over(work: Path) -> None:
     with claimed(work) as claim:
         other = HeldLock(claim.folder, claim.number + 1, ELSEWHERE)
         other.file.write_text(json.dumps(asdict(ELSEWHERE)))
-        time.sleep(60)  # is interrupted
+        time.sleep(LONG)  # is interrupted
 
 
 def test_job_that_was_taken_for_gone_stops(tmp_path: Path) -> None:

@@ -158,8 +158,9 @@ class TestJobProgress:
         assert "ended well" in caplog.messages[-1]
 
     def test_not_every_update_is_logged(
-        self, tmp_path: Path, caplog: pytest.LogCaptureFixture
+        self, tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
     ) -> None:
+        monkeypatch.setattr(progress.time, "time", lambda: 1000.0)
         with (
             caplog.at_level(logging.INFO),
             JobProgress(tmp_path / "a.progress.json", ["abc"], "a solver") as job,

@@ -93,8 +93,12 @@ class Project:
             command += ["--configfile", path.name]
         return command
 
-    def start(self, *arguments: str) -> subprocess.Popen[str]:
-        """Start Snakemake in a process group of its own."""
+    def start(self, *arguments: str, pipe: int = -1) -> subprocess.Popen[str]:
+        """Start Snakemake in a process group of its own, which says what it does into a pipe.
+
+        ``pipe`` is the size of the pipe (bytes, where the system lets it be chosen): a run waits at
+        its end for what it said to be read.
+        """
         return subprocess.Popen(
             self.command(*arguments),
             cwd=self.folder,
@@ -103,6 +107,7 @@ class Project:
             stderr=subprocess.STDOUT,
             text=True,
             start_new_session=True,
+            pipesize=pipe,
         )
 
     def attempt(
