@@ -16,8 +16,6 @@ SUMMARY = "comparison/summary.csv"
 KILLS = 3
 #: Starts and ends of jobs after which a run is killed, at most; it has more of them for each kill.
 MOST_EVENTS = 4
-#: Bytes that a run may say ahead of what is read of it: less than it says behind these events.
-PAGE = 4096
 
 
 def kill_while_working(run: subprocess.Popen[str], events: int) -> None:
@@ -48,7 +46,7 @@ def test_killed_run_goes_on_to_the_results_of_an_undisturbed_one(
     project.config = small(sweep={"models": ["2d"]})
     target = project.target(SUMMARY)
     for _ in range(KILLS):
-        run = project.start("--rerun-incomplete", target, pipe=PAGE)
+        run = project.start_slowly("--rerun-incomplete", target)
         kill_while_working(run, moments.randint(1, MOST_EVENTS))
         project.run("--unlock")
 
