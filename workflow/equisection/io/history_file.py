@@ -282,22 +282,25 @@ def _values(
         ) from None
     frame.columns = pd.Index(names)
     frame = _without_blank_end(frame)
-    _require_whole(path, first, frame)
+    _require_whole(path, first, lines[: len(frame)], separator, frame)
     return frame
 
 
-def _require_whole(path: Path, first: int, frame: pd.DataFrame) -> None:
+def _require_whole(
+    path: Path, first: int, lines: list[str], separator: str, frame: pd.DataFrame
+) -> None:
     """Refuse lines with fewer values than names, and values that go over several lines.
 
     Either would put values under the names of others, or take lines away.
     """
-    short = frame.loc[:, frame.columns != ""].isna().any(axis=1).to_numpy()
-    if short.any():
-        line = int(np.argmax(short))
-        raise HistoryFileError(
-            f"{path}, line {first + line}: {int(frame.iloc[line].notna().sum())} values under "
-            f"{frame.shape[1]} names of columns; complete the line or leave it out"
-        )
+    wanted = max(place for place, name in enumerate(frame.columns, start=1) if name)
+    for number, line in enumerate(lines, start=first):
+        there = len(line.split()) if separator == " " else line.count(separator) + 1
+        if there < wanted:
+            raise HistoryFileError(
+                f"{path}, line {number}: {there} values under {wanted} names of columns; complete "
+                "the line or leave it out"
+            )
     for place in range(frame.shape[1]):
         over = frame.iloc[:, place].str.contains("\n", regex=False, na=False).to_numpy()
         if over.any():

@@ -84,6 +84,8 @@ def check_config_files(paths: Iterable[Path]) -> None:
 
 
 def _text(path: Path) -> str:
+    if path.is_fifo():
+        raise ConfigError(f"config: {path}: is a pipe, which can be read but once; {_ALLOWED}")
     try:
         with path.open("rb") as file:
             content = file.read(_MOST_BYTES + 1)
