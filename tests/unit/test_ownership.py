@@ -174,8 +174,18 @@ def test_job_that_slurm_started_again_elsewhere_does_not_wait_for_itself(
         assert claim.number == 2
 
 
-def test_owner_that_was_killed_before_it_could_say_who_it_is(tmp_path: Path) -> None:
-    written(tmp_path, ELSEWHERE).write_text("")
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        json.dumps({**asdict(ELSEWHERE), "since": "noon"}),
+        json.dumps({**asdict(ELSEWHERE), "ended": 1e300}),
+        json.dumps({**asdict(ELSEWHERE), "job": 17}),
+        json.dumps({**asdict(ELSEWHERE), "process": {"host": "a", "pid": -1, "birth": ""}}),
+    ],
+)
+def test_owner_that_was_killed_before_it_could_say_who_it_is(tmp_path: Path, text: str) -> None:
+    written(tmp_path, ELSEWHERE).write_text(text)
     with claimed(tmp_path) as claim:
         assert claim.number == 2
 

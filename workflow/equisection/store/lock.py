@@ -33,7 +33,7 @@ from pathlib import Path
 
 from equisection.errors import SolverError
 from equisection.files import write_text
-from equisection.store.progress import Process, clock
+from equisection.store.progress import Process, clock, require_times
 
 logger = logging.getLogger(__name__)
 
@@ -65,6 +65,12 @@ class Owner:
     since: float
     job: str = ""
     ended: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse what a broken file says of a job (TypeError, ValueError)."""
+        require_times(self.since, self.ended)
+        if not isinstance(self.job, str):
+            raise TypeError("the number of a SLURM job is a text")
 
     @classmethod
     def this(cls) -> Owner:
