@@ -172,6 +172,9 @@ def _together() -> Iterator[tuple[str, str, str]]:
     for key, value in (("settling", "1e9"), ("reduced_velocity", "[3, 4, 6, 1e9]")):
         endless = f"forced: {{run: true, {key}: {value}}}\n"
         yield f"a forced motion without an end, {key} {value}", endless, "forced.settling"
+    angles = ", ".join(f"{1 + place / 1000:g}" for place in range(500))
+    many = f"sweep: {{speed: {{start: 1, stop: 50, number: 500}}, incidence_deg: [{angles}]}}\n"
+    yield "250,000 cases of a model", many, "sweep.speed.number"
     laminar = "openfoam: {turbulence: laminar, mesh_motion: overset}\n"
     yield "laminar flow above an overset mesh", laminar, "openfoam.turbulence"
 

@@ -52,6 +52,9 @@ def _damaged() -> Iterator[tuple[str, str]]:
     yield "a name of 2,000 characters", text(names=NAMES.replace("A4", "A" * 2000))
     yield "60,000 columns", text(names=",".join([NAMES, *["x"] * 60_000]))
     yield "5,000 other columns", text(names=",".join(f"c{n}" for n in range(5000)))
+    yield "a derivative of 1e250", text(_cell("1e250"))
+    for value in ("1e250", "1e-250", "1e5"):
+        yield f"a velocity of {value}", text(_cell(value, 0))
     yield "a quotation", text(_cell('"1'))
     yield "an axis in per cent", text(comments=(*COMMENTS[:3], "# axis: 50"))
     yield "an axis in other digits", text(comments=(*COMMENTS[:3], "# axis: ٠.٥"))

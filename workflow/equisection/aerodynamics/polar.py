@@ -26,7 +26,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.conventions import SYMMETRY_TOLERANCE
-from equisection.errors import IncidenceOutOfRangeError
+from equisection.errors import ArgumentError, IncidenceOutOfRangeError
 from equisection.io.formats import read_rows
 from equisection.io.polar_rows import MID_CHORD
 
@@ -372,3 +372,17 @@ class Polar:
         """dc_m/dalpha (1/rad) at ``alpha`` (rad), about mid-chord, nose up."""
         self.require(alpha)
         return self._moment.slope(alpha)
+
+
+def require_polar(polar: object) -> None:
+    """Refuse what is no polar, such as flutter derivatives, which have no static loads.
+
+    Raises
+    ------
+    ArgumentError
+        It is something else.
+    """
+    if not isinstance(polar, Polar):
+        raise ArgumentError(
+            f"polar is a {type(polar).__name__}; wanted a Polar, as Polar.read(file) gives it"
+        )

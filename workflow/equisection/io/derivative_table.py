@@ -39,6 +39,9 @@ from equisection.io.polar_text import decimal, quoted, shortened
 
 #: Names of the derivatives, in the order of every table here.
 DERIVATIVES = ("H1", "H2", "H3", "H4", "A1", "A2", "A3", "A4")
+#: Reduced velocities V/(f B) that make sense, and the largest derivative: quasi-steady ones grow
+#: with the square of the reduced velocity, H3 to 2 pi (V/(2 pi f B))^2 of a thin airfoil.
+LEAST_VELOCITY, LARGEST_VELOCITY, LARGEST = 1e-2, 1e4, 1e8
 #: Rows that a table needs, and bytes that its file has at most.
 FEWEST_ROWS, MOST_BYTES = 4, 10_000_000
 #: Reduced velocity V/(f B) from the value of a first column, by its name.
@@ -264,7 +267,19 @@ def _numbers(path: Path, line: int, text: str, names: list[str]) -> dict[str, fl
         raise DerivativesFileError(
             f"{path}, line {line}: {names[0]} is {first:g}; wanted a number above 0"
         )
-    return {**row, "reduced_velocity": _FROM_COLUMN[names[0]](first)}
+    velocity = _FROM_COLUMN[names[0]](first)
+    if not LEAST_VELOCITY <= velocity <= LARGEST_VELOCITY:
+        raise DerivativesFileError(
+            f"{path}, line {line}: {names[0]} is {first:g}; wanted a reduced velocity V/(f B) from "
+            f"{LEAST_VELOCITY:g} to {LARGEST_VELOCITY:g}"
+        )
+    for name, value in row.items():
+        if abs(value) > LARGEST:
+            raise DerivativesFileError(
+                f"{path}, line {line}: {name} is {value:g}; wanted a number from {-LARGEST:g} to "
+                f"{LARGEST:g}"
+            )
+    return {**row, "reduced_velocity": velocity}
 
 
 def derivative_text(rows: DerivativeRows, comments: Sequence[str] = ()) -> str:

@@ -25,7 +25,7 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.derivatives import Derivatives
-from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.polar import Polar, require_polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
@@ -241,6 +241,7 @@ class _Air:
     lags: SeparationLags
 
     def __post_init__(self) -> None:
+        require_polar(self.polar)
         _positive("density", self.density, "kg/m3")
 
     @cached_property

@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.polar import Polar, require_polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.beam import Beam
@@ -109,6 +109,7 @@ def stability_map(
     ReductionError
         Nothing restrains the beam.
     """
+    require_polar(polar)
     angles = np.atleast_1d(np.asarray(incidence_deg, dtype=np.float64))
     speeds = np.atleast_1d(np.asarray(speed, dtype=np.float64))
     if angles.ndim > 1 or not angles.size or not np.isfinite(angles).all():

@@ -6,7 +6,7 @@ import math
 
 import xarray as xr
 
-from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.polar import Polar, require_polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
@@ -116,6 +116,7 @@ def release(
             "from_equilibrium is True; wanted start_twist_deg, such as 0.2, or start_heave_rate "
             "with it: nothing else sets the section in motion"
         )
+    require_polar(polar)
     rigid = math.radians(incidence_deg)
     polar.require([rigid, rigid + math.radians(start_twist_deg) * section.twist_recovery])
     flowing = section.in_flow(density, speed)
