@@ -31,6 +31,7 @@ from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
+from equisection.keys.arguments import require_positive
 from equisection.keys.written_number import LARGEST, SMALLEST
 from equisection.motion.derivative_flutter import (
     critical_speed_by_derivatives,
@@ -242,7 +243,7 @@ class _Air:
 
     def __post_init__(self) -> None:
         require_polar(self.polar)
-        _positive("density", self.density, "kg/m3")
+        require_positive("density", self.density, "kg/m3")
 
     @cached_property
     def loads(self) -> UnsteadyLoads:
