@@ -93,8 +93,7 @@ def assert_same_result(project: Project, undisturbed: Project) -> None:
 def assert_one_after_the_other(first: dict[str, Any], second: dict[str, Any]) -> None:
     """The first job was over when the second began.
 
-    Its processes get the signal together: it was killed, and its end is 0, or it saw its solver
-    die.
+    Its processes get the signal together: it was killed, and its end is 0, or saw its solver die.
     """
     assert first["ended"] < second["since"] < second["ended"]
 
