@@ -185,7 +185,9 @@ def test_job_that_slurm_started_again_elsewhere_does_not_wait_for_itself(
     ],
 )
 def test_owner_that_was_killed_before_it_could_say_who_it_is(tmp_path: Path, text: str) -> None:
-    written(tmp_path, ELSEWHERE).write_text(text)
+    path = written(tmp_path, ELSEWHERE)
+    path.write_text(text)
+    path.with_name("1 (copy).json").write_text(text)
     with claimed(tmp_path) as claim:
         assert claim.number == 2
 

@@ -189,7 +189,8 @@ def living_owner(work: Path) -> Owner | None:
 
 def _last(folder: Path) -> int:
     """Return the highest number that was taken; 0 for none."""
-    return max((int(path.stem) for path in folder.glob("[0-9]*.json")), default=0)
+    names = (path.stem for path in folder.glob("[0-9]*.json"))
+    return max((int(name) for name in names if name.isdecimal() and name.isascii()), default=0)
 
 
 def _wait(folder: Path, this: Owner) -> HeldLock:

@@ -62,7 +62,7 @@ class Process:
         """Refuse what a broken file says of a process (TypeError, ValueError)."""
         if not (isinstance(self.host, str) and isinstance(self.birth, str)):
             raise TypeError("host and birth are texts")
-        if not 0 < self.pid < 2**31:
+        if not 0 <= self.pid < 2**31:
             raise ValueError(f"no process has the number {self.pid}")
 
     @classmethod
