@@ -19,6 +19,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from tests.processes import LONG
+
 #: Names of the program on Debian and elsewhere.
 _NAMES = ("chromium", "chromium-browser", "google-chrome")
 _OPTIONS = (
@@ -34,8 +36,6 @@ for end, wanted in zip(ends, (3, 4)):
     os.dup2(end, wanted)
 os.execv(sys.argv[3], sys.argv[3:])
 """
-#: Seconds that an answer may take; the machine may be busy.
-_PATIENCE = 300.0
 
 
 def program() -> str | None:
@@ -150,7 +150,7 @@ class Chromium:
 
     def _next(self) -> dict[str, Any]:
         """Return the next message; keep it if it is an event."""
-        end = time.monotonic() + _PATIENCE
+        end = time.monotonic() + LONG
         while b"\0" not in self._buffer:
             ready, _, _ = select.select([self._answers], [], [], max(0.0, end - time.monotonic()))
             read = os.read(self._answers, 1 << 20) if ready else b""

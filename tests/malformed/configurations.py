@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from tests.malformed.given import Malformed
+from tests.malformed.given import Malformed, no_files
 
 #: Keys that take a number, with the section around them.
 NUMBERS = (
@@ -169,6 +169,12 @@ def _together() -> Iterator[tuple[str, str, str]]:
     path = "forced: 'data/{case}.csv'"
     modes = f"{GIVEN}forced: {{run: true, beam_modes: 1}}\ngiven: {{{GIVEN_POLARS}, {path}}}\n"
     yield "modes of a beam that nobody recorded", modes, "forced.beam_modes"
+    for key, value in (("settling", "1e9"), ("reduced_velocity", "[3, 4, 6, 1e9]")):
+        endless = f"forced: {{run: true, {key}: {value}}}\n"
+        yield f"a forced motion without an end, {key} {value}", endless, "forced.settling"
+    angles = ", ".join(f"{1 + place / 1000:g}" for place in range(500))
+    many = f"sweep: {{speed: {{start: 1, stop: 50, number: 500}}, incidence_deg: [{angles}]}}\n"
+    yield "250,000 cases of a model", many, "sweep.speed.number"
     laminar = "openfoam: {turbulence: laminar, mesh_motion: overset}\n"
     yield "laminar flow above an overset mesh", laminar, "openfoam.turbulence"
 
@@ -222,4 +228,4 @@ def configurations() -> list[Malformed]:
     for what, content, named in _bytes():
         text = content.encode() if isinstance(content, str) else content
         found.append(Malformed(what, "mine.yaml", text, named))
-    return found
+    return [*found, *no_files("mine.yaml")]

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from tests.malformed.given import ARABIC, WIDE, Malformed
+from tests.malformed.given import ARABIC, WIDE, WORDS, Malformed, no_files
 
 #: Configuration that names the table.
 CONFIG = """
@@ -34,7 +34,7 @@ def _cell(value: str, column: int = 3) -> list[list[str]]:
 def _damaged() -> Iterator[tuple[str, str]]:
     right = GOOD[4][3]
     spellings = (right.translate(ARABIC), right.translate(WIDE), right.replace(".0", ".0_"))
-    for value in (*spellings, "high", "nan", "inf", "1e999", "0x1", "", "1.2.3", "0\x1b[2J"):
+    for value in (*spellings, "high", "nan", "inf", "1e999", "0x1", "", "0\x1b[2J", *WORDS):
         yield f"H3 {value!a}", text(_cell(value))
     yield "a velocity of 0", text(_cell("0", 0))
     yield "a velocity below 0", text(_cell("-4", 0))
@@ -47,6 +47,15 @@ def _damaged() -> Iterator[tuple[str, str]]:
         yield f"without '{key}'", text(comments=COMMENTS[:place] + COMMENTS[place + 1 :])
         wrong = (*COMMENTS[:place], f"{key}: nonsense", *COMMENTS[place + 1 :])
         yield f"'{key}' nonsense", text(comments=wrong)
+    yield "an escape in a name", text(names=NAMES.replace("A4", "\x1b[2J"))
+    yield "a mark that turns the writing", text(names=NAMES.replace("A4", "\u202eA4"))
+    yield "a name of 2,000 characters", text(names=NAMES.replace("A4", "A" * 2000))
+    yield "60,000 columns", text(names=",".join([NAMES, *["x"] * 60_000]))
+    yield "5,000 other columns", text(names=",".join(f"c{n}" for n in range(5000)))
+    yield "a derivative of 1e250", text(_cell("1e250"))
+    for value in ("1e250", "1e-250", "1e5"):
+        yield f"a velocity of {value}", text(_cell(value, 0))
+    yield "a quotation", text(_cell('"1'))
     yield "an axis in per cent", text(comments=(*COMMENTS[:3], "# axis: 50"))
     yield "an axis in other digits", text(comments=(*COMMENTS[:3], "# axis: ٠.٥"))
     for old, new in (("H3", "H2"), ("A4", "A5"), ("reduced_velocity", "V"), ("H", "h")):
@@ -64,4 +73,4 @@ def tables() -> list[Malformed]:
         ("UTF-16 without its mark", text().encode("utf-16-le")),
     ):
         found.append(Malformed(what, "mine.csv", content, "mine.csv"))
-    return [*found, Malformed("not there", "none.csv", None, "none.csv")]
+    return [*found, *no_files("mine.csv"), Malformed("not there", "none.csv", None, "none.csv")]

@@ -2,6 +2,8 @@
 
 import contextlib
 import io
+import os
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -14,6 +16,24 @@ JARGON = ("Traceback", "pydantic", "Input should be", "Value error", "object has
 #: Digits of other scripts, which Python's ``float`` takes as well.
 ARABIC, WIDE = (
     str.maketrans("0123456789", digits) for digits in ("٠١٢٣٤٥٦٧٨٩", "０１２３４５６７８９")
+)
+#: What stands in a cell that is no number: of a spreadsheet, a report, another language, a slip.
+WORDS = (
+    *("1/3", "0.1±0.1", "=A1", "0.1*", "0.1%", "0.1f", "1e5e5", "+-1", "NULL", "#N/A", "-", "True"),
+    *(
+        "0.1\xa02",
+        "0.1'2",
+        "1O",
+        "0.1\N{EN DASH}1",
+        "<<<<<<<",
+        "0x1p3",
+        "1e",
+        "e5",
+        ".",
+        "+",
+        "1..2",
+    ),
+    "z" * 2000,
 )
 
 
@@ -33,6 +53,8 @@ class Malformed:
         What the refusal has to name: the key, or the file.
     further
         Files beside it, by name.
+    made
+        Makes what has its name and is no file, in the place of content.
     """
 
     what: str
@@ -40,6 +62,7 @@ class Malformed:
     content: bytes | None
     named: str
     further: dict[str, bytes] = field(default_factory=dict)
+    made: Callable[[Path], object] | None = field(default=None, kw_only=True)
 
     def write(self, folder: Path) -> Path:
         """Write it with its further files; return its path."""
@@ -49,7 +72,26 @@ class Malformed:
         path = folder / self.file
         if self.content is not None:
             path.write_bytes(self.content)
+        if self.made is not None:
+            self.made(path)
         return path
+
+
+def no_files(name: str) -> list[Malformed]:
+    """Return what has the name of a file and is none."""
+    made: dict[str, Callable[[Path], object]] = {
+        "a folder": Path.mkdir,
+        "a pipe that nobody writes to": os.mkfifo,
+        "a device without an end": lambda path: path.symlink_to("/dev/zero"),
+        "a link to itself": lambda path: path.symlink_to(path),
+        "6 GB of nothing": _vast,
+    }
+    return [Malformed(what, name, None, name, made=make) for what, make in made.items()]
+
+
+def _vast(path: Path) -> None:
+    with path.open("wb") as file:
+        file.truncate(6_000_000_000)  # takes no place on the disk
 
 
 def answered(one: Malformed, folder: Path, config: str = "") -> tuple[str, str]:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from equisection.errors import HistoryFileError
 from equisection.io.history_file import HistoryColumns, HistoryScales, read_table
-from tests.malformed.given import ARABIC, WIDE, Malformed, judged
+from tests.malformed.given import ARABIC, WIDE, WORDS, Malformed, judged, no_files
 
 NAMES = ("time", "twist", "deflection", "lift", "moment")
 COLUMNS = HistoryColumns(
@@ -30,7 +30,7 @@ def _damaged() -> Iterator[tuple[str, list[list[str]]]]:
     values = (
         *(right.translate(ARABIC), right.translate(WIDE), f"{right[:-1]}_{right[-1]}"),
         *("high", "nan", "inf", "1e999", "0x1", "−0.1", "1.2.3", "--1", ""),
-        *("0.1\x1b[2J", "True"),
+        *("0.1\x1b[2J", *WORDS),
     )
     for value in values:
         yield f"twist {value!a}", [*GOOD[:20], [GOOD[20][0], value, *GOOD[20][2:]], *GOOD[21:]]
@@ -45,16 +45,29 @@ def _damaged() -> Iterator[tuple[str, list[list[str]]]]:
 def histories() -> list[Malformed]:
     """Return the malformed histories."""
     found = []
-    for separator in (",", ";"):
+    for separator in (",", ";", "\t", " "):
         found += [
             Malformed(
-                f"{separator}: {what}", "mine.txt", text(rows, separator).encode(), "mine.txt"
+                f"{separator!r}: {what}", "mine.txt", text(rows, separator).encode(), "mine.txt"
             )
             for what, rows in _damaged()
         ]
     renamed = ("time", "theta", "deflection", "lift", "moment")
     doubled = ("time", "twist", "deflection", "lift", "twist")
+    wide = [[*row, "x"] for row in GOOD]  # with a column that is not read
     for what, content in (
+        ("a value less where one is not read", _wide([*wide[:20], wide[20][:-1], *wide[21:]])),
+        (
+            "a value less in the middle",
+            _wide([*wide[:20], wide[20][:1] + wide[20][2:], *wide[21:]]),
+        ),
+        (
+            "a quotation over several lines",
+            _wide([*wide[:20], [*GOOD[20], '"x'], *wide[21:22], [*GOOD[22], 'x"'], *wide[23:]]),
+        ),
+        ("5,000 columns of other names", ",".join(f"c{n}" for n in range(5000)).encode()),
+        ("a line of 200,000 characters", b'"' + b"x" * 200_000 + b'",a\n'),
+        ("an escape in a name", text(GOOD, ",", ("time\x1b[2J", *NAMES[1:])).encode()),
         ("empty", b""),
         ("a picture", b"\x89PNG\r\n\x1a\n" + bytes(range(256)) * 10),
         ("another name", text(GOOD, ",", renamed).encode()),
@@ -62,7 +75,11 @@ def histories() -> list[Malformed]:
         ("UTF-16 without its mark", text(GOOD, ",").encode("utf-16-le")),
     ):
         found.append(Malformed(what, "mine.txt", content, "mine.txt"))
-    return [*found, Malformed("not there", "none.txt", None, "none.txt")]
+    return [*found, *no_files("mine.txt"), Malformed("not there", "none.txt", None, "none.txt")]
+
+
+def _wide(rows: list[list[str]]) -> bytes:
+    return text(rows, ",", (*NAMES, "note")).encode()
 
 
 def read(one: Malformed, folder: Path) -> tuple[str, str]:

@@ -1,9 +1,9 @@
-"""Outlines of a section that are wrong in one place, as polygon and as airfoil."""
+"""Outlines of a section that are wrong in one place, as polygon and as airfoil of two formats."""
 
 import math
 from collections.abc import Iterator
 
-from tests.malformed.given import ARABIC, WIDE, Malformed
+from tests.malformed.given import ARABIC, WIDE, WORDS, Malformed, no_files
 
 Points = list[tuple[str, str]]
 
@@ -49,11 +49,18 @@ def airfoil(points: Points) -> str:
     return "MINE\n" + "".join(f" {x}  {y}\n" for x, y in points)
 
 
+def lednicer(points: Points) -> str:
+    """Return an airfoil's file in Lednicer's format: each side from the leading edge."""
+    half = len(points) // 2
+    counts = f"MINE\n {half + 1}. {len(points) - half}.\n\n"
+    return counts + "".join(f" {x} {y}\n" for x, y in [*points[half::-1], *points[half:]])
+
+
 def _damaged(points: Points) -> Iterator[tuple[str, Points]]:
     (x, y), middle = points[1], len(points) // 2
     spellings = (y.translate(ARABIC), y.translate(WIDE), f"{y[:-1]}_{y[-1]}", f"−{y.strip('-')}")
     words = ("high", "nan", "inf", "1e999", "0x1", "1.2.3", "0,1,2", "")
-    for value in (*spellings, *words):
+    for value in (*spellings, *words, *WORDS):
         yield f"y {value!a}", [points[0], (x, value), *points[2:]]
     yield "an escape", [*points[:2], ("0.5\x1b[2J", "0"), *points[2:]]
     yield "no point", []
@@ -70,9 +77,10 @@ def outlines() -> list[Malformed]:
     for name, write, points in (
         ("mine.csv", polygon, DECK),
         ("mine.dat", airfoil, airfoil_points()),
+        ("mine.dat", lednicer, airfoil_points()),
     ):
         found += [
-            Malformed(f"{name}: {what}", name, write(rows).encode(), name)
+            Malformed(f"{write.__name__}: {what}", name, write(rows).encode(), name)
             for what, rows in _damaged(points)
         ]
     sound = polygon(DECK)
@@ -84,4 +92,5 @@ def outlines() -> list[Malformed]:
         ("counts of another number", "mine.dat", b"MINE\n 9. 9.\n\n 0 0\n 1 0\n\n 0 0\n 1 0\n"),
     ):
         found.append(Malformed(what, name, content, name))
+    found += [*no_files("mine.csv"), *no_files("mine.dat")]
     return [*found, Malformed("not there", "none.csv", None, "none.csv")]

@@ -1,9 +1,9 @@
-"""Polars that are wrong in one place, in four formats."""
+"""Polars that are wrong in one place, in seven formats."""
 
 import re
 from collections.abc import Callable, Iterator
 
-from tests.malformed.given import ARABIC, WIDE, Malformed
+from tests.malformed.given import ARABIC, WIDE, WORDS, Malformed, no_files
 
 Rows = list[list[str]]
 
@@ -74,14 +74,37 @@ False         InclUAdata        !
     return head + "".join(f"   {'   '.join(row)}\n" for row in rows)
 
 
+def xflr5(rows: Rows) -> str:
+    """Return a polar of XFLR5 with commas, about the quarter chord."""
+    lines = [",".join([*row[:3], "0.001", *row[3:], "1", "1"]) for row in rows]
+    top = "xflr5 v6.47\n\n Mach =   0.000     Re =     0.100 e 6     Ncrit =   9.000\n\n"
+    return "\n".join([f"{top}alpha,CL,CD,CDp,Cm,Top Xtr,Bot Xtr", *lines]) + "\n"
+
+
+def qblade(rows: Rows) -> str:
+    """Return a polar file of QBlade, about the quarter chord."""
+    top = "------ QBlade CE ------\nMINE POLARNAME - name\n0 ISDECOMPOSED\n100000 REYNOLDS\n\n"
+    return "\n".join([f"{top}AOA CL CD CM", *map(" ".join, rows)]) + "\n"
+
+
+def airfoiltools(rows: Rows) -> str:
+    """Return a polar of airfoiltools.com, about the quarter chord."""
+    lines = [",".join([*row[:3], "0.001", *row[3:], "1", "1"]) for row in rows]
+    top = "Xfoil polar.\nPolar key,xf-mine-il-100000\nReynolds number,100000\nNcrit,9\n\n"
+    return "\n".join([f"{top}Alpha,Cl,Cd,Cdp,Cm,Top_Xtr,Bot_Xtr", *lines]) + "\n"
+
+
 FORMATS: dict[str, tuple[str, Callable[[Rows], str]]] = {
     "comma": ("mine.csv", comma),
     "semicolon": ("mine.csv", semicolon),
     "xfoil": ("mine.pol", xfoil),
     "aerodyn": ("mine.dat", aerodyn),
+    "xflr5": ("mine.txt", xflr5),
+    "qblade": ("mine.plr", qblade),
+    "airfoiltools": ("mine.csv", airfoiltools),
 }
 #: A quarter of the lift is the moment about mid-chord more than that about the quarter chord.
-QUARTER = {"xfoil", "aerodyn"}
+QUARTER = {"xfoil", "aerodyn", "xflr5", "qblade", "airfoiltools"}
 
 
 def good(form: str) -> Rows:
@@ -104,6 +127,7 @@ def _damaged(rows: Rows) -> Iterator[tuple[str, Rows]]:
         *(right.translate(ARABIC), right.translate(WIDE), f"{right[:-1]}_{right[-1]}"),
         *("high", "nan", "inf", "1e999", "0x1p3", "−0.1", "1.2.3", "--1", "1e"),
         *("½", "25", "-30", "0.1\x1b[2J", "0.1\x00"),
+        *WORDS,
     )
     for value in values:
         yield f"lift {value!a}", _with(rows, 3, 1, value)
@@ -142,4 +166,4 @@ def polars() -> list[Malformed]:
         ("a web page", b"<!doctype html>\n<html><body>404</body></html>\n"),
     ):
         found.append(Malformed(what, "mine.csv", content, "mine.csv"))
-    return [*found, Malformed("not there", "none.csv", None, "none.csv")]
+    return [*found, *no_files("mine.csv"), Malformed("not there", "none.csv", None, "none.csv")]

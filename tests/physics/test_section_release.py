@@ -7,14 +7,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.conftest import ROOT
 from tests.plate_section import ATTACHED, CHORD, DENSITY, PLATE, POLAR, THIN, speed_of
 
+from equisection.aerodynamics.derivatives import Derivatives
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.errors import ArgumentError, IncidenceOutOfRangeError
 from equisection.motion.sections import release_sections
 from equisection.motion.stability import critical_speed, stability
+from equisection.solvers.embedded.map_of_any_body import stability_map
 from equisection.solvers.embedded.section_release import release
 
 ONSET = float(
@@ -97,11 +100,27 @@ def test_everything_has_units_and_can_be_written(tmp_path: Path):
         ({"speed": 1e-300}, "speed is 1e-300; wanted a number above 0"),
         ({"speed": 1e-17}, "duration is 400; wanted up to .*, 10,000,000 time steps"),
         ({"start_heave_rate": 1e300}, r"wanted a number \(over V\) from -1 to 1"),
+        ({"speed": "20"}, "speed is '20'; wanted a number above 0"),
+        ({"density": [1.2, 1.3]}, r"density is \[1\.2, 1\.3\]; wanted a number above 0"),
+        ({"incidence_deg": None}, r"incidence_deg is None; wanted a number \(deg\)"),
     ],
 )
 def test_arguments_that_make_no_sense_are_refused(changes, words):
     with pytest.raises(ArgumentError, match=words):
         release(PLATE, POLAR, **{"incidence_deg": 2.5, "speed": 20.0, **changes})
+
+
+def test_derivatives_are_no_polar_for_a_release_or_a_map():
+    """They have no static loads."""
+    derivatives = Derivatives.read(ROOT / "config" / "derivatives" / "thin_plate.csv")
+    calls = (
+        lambda: release(PLATE, derivatives, incidence_deg=2.5, speed=20.0),
+        lambda: stability_map(PLATE, derivatives, incidence_deg=2.5, speed=[10.0, 20.0]),
+        lambda: stability(PLATE, None, incidence_deg=2.5, speed=20.0),
+    )
+    for call in calls:
+        with pytest.raises(ArgumentError, match=r"polar is a \w+; wanted a Polar, as Polar\.read"):
+            call()
 
 
 def test_incidence_beyond_the_polar_is_refused():

@@ -1,7 +1,8 @@
 """A SLURM of one node, started and stopped by the tests: its own ports, key, spool and logs.
 
 It needs no systemd and no accounting, and gives out more processors than the machine has, so that
-jobs run side by side on a small one. The one thing outside of its folder is a link at the place of
+jobs run side by side on a small one. Its daemons have long to answer, since a busy machine is no
+lost node. The one thing outside of its folder is a link at the place of
 SLURM's configuration: Snakemake removes every variable from a job's environment that could name
 another one.
 """
@@ -47,7 +48,11 @@ SelectType=select/cons_tres
 SelectTypeParameters=CR_CPU_Memory
 SchedulerParameters=sched_min_interval=0,batch_sched_delay=0,sched_interval=1,bf_interval=1
 SlurmdParameters=config_overrides
-SlurmdTimeout=30
+SlurmdTimeout=0
+MessageTimeout=100
+TCPTimeout=60
+BatchStartTimeout=600
+UnkillableStepTimeout=600
 KillWait=1
 ReturnToService=2
 MinJobAge=3600
@@ -144,7 +149,7 @@ class Node:
     def lose_node(self) -> None:
         """Take the power from the node: its daemon is gone, and all processes of its jobs.
 
-        The controller finds that out by itself, in a minute or so; here it is told.
+        A controller finds that out by itself, in a minute or so; this one is told.
         """
         assert self._node is not None
         self._node.kill()
@@ -189,14 +194,23 @@ class Node:
 
     def running(self) -> str:
         """Wait for a job that runs; return its number."""
-        wait_until(lambda: self.jobs("running"))
-        (number, *_) = self.jobs("running")
-        return number
+        found: dict[str, str] = {}
+        wait_until(lambda: found.update(self.jobs("running")) or found)
+        return next(iter(found))
 
 
 def said(*command: str) -> str:
-    """Return what a command of SLURM says."""
-    return subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False).stdout
+    """Return what a command of SLURM says; it is given again until the controller answers."""
+    answers: list[str] = []
+
+    def is_answered() -> bool:
+        ended = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=False)
+        if ended.returncode == 0:
+            answers.append(ended.stdout)
+        return bool(answers)
+
+    wait_until(is_answered)
+    return answers[0]
 
 
 def _free_ports(number: int) -> list[int]:

@@ -608,3 +608,12 @@ def test_resolving_and_loading_again_changes_nothing(chord, aspect, k_star, chan
     }
     config = load_config(raw)
     assert load_config(resolve_config(config)) == config
+
+
+def test_many_problems_are_told_a_few_at_a_time() -> None:
+    with pytest.raises(ConfigError) as caught:
+        load_config({"sweep": {"k_star": [0.1] * 50}})
+    *lines, last = str(caught.value).split("\n")
+    assert len(lines) == 12
+    assert all(line.startswith("config: sweep.k_star.") for line in lines)
+    assert last == "config: and 37 more; mend these first"

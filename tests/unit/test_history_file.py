@@ -115,3 +115,14 @@ def test_a_release_outside_of_the_record_is_refused(tmp_path: Path) -> None:
     for release, words in ((5.0, "0 samples from the release at 5"), (-1.0, "after the release")):
         with pytest.raises(HistoryFileError, match=words):
             read_table(written(tmp_path), HistoryColumns(NAMES, SI, release=release), SCALES)
+
+
+def test_columns_that_are_not_read_may_have_one_name_or_none(tmp_path: Path) -> None:
+    """A program may write the same monitor twice, and a comma at the end of each line."""
+    wanted = read_table(written(tmp_path), HistoryColumns(NAMES, SI), SCALES)
+    more = np.column_stack([ROWS, TIME, 5.0 - TIME])
+    head = ",".join([*NAMES, "drag", "drag", ""])
+    path = written(tmp_path, more, head=head)
+    path.write_text(path.read_text().replace("\n", ",\n").replace(",,\n", ",\n"))
+    found = read_table(path, HistoryColumns(NAMES, SI), SCALES)
+    assert found.moment == pytest.approx(wanted.moment)

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from tests.processes import LONG
 
 from equisection.errors import SolverError
 from equisection.solvers.openfoam.beam.pipes import FOLDER, LOADS, PLACES, Pipes
@@ -27,7 +28,7 @@ for step in range(steps):
     if end == "before-reading" and step == steps - 1:
         sys.exit(3)
     if end == "hangs" and step == steps - 1:
-        time.sleep(60)
+        time.sleep(float(sys.argv[3]))
     with open("comms/places.in") as stream:
         assert stream.readline() == f"places {step}\\n"
 """
@@ -36,14 +37,14 @@ for step in range(steps):
 class OtherSide:
     def __init__(self, folder: Path, steps: int, end: str = "") -> None:
         self._process = subprocess.Popen(
-            [sys.executable, "-c", OTHER_SIDE, str(steps), end], cwd=folder
+            [sys.executable, "-c", OTHER_SIDE, str(steps), end, str(2 * LONG)], cwd=folder
         )
 
     def alive(self) -> bool:
         return self._process.poll() is None
 
     def end(self) -> int:
-        return self._process.wait(120)
+        return self._process.wait(LONG)
 
     def kill(self) -> None:
         self._process.kill()
@@ -52,7 +53,7 @@ class OtherSide:
 
 @pytest.fixture
 def pipes(tmp_path: Path) -> Iterator[Pipes]:
-    made = Pipes(tmp_path, silence=120.0)
+    made = Pipes(tmp_path, silence=LONG)
     yield made
     made.close()
 
@@ -109,7 +110,7 @@ def test_what_an_earlier_run_left_is_removed(tmp_path: Path) -> None:
     (place / LOADS).write_text("loads of another run\n")
     (place / PLACES).write_text("places of another run\n")
     (place / "OpenFOAM.lock").write_text("status=done")
-    pipes = Pipes(tmp_path, silence=120.0)
+    pipes = Pipes(tmp_path, silence=LONG)
     assert (place / LOADS).is_fifo()
     assert (place / "OpenFOAM.lock").read_text() == ""
     other = OtherSide(tmp_path, steps=2)

@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from tests.processes import LONG
 
 from equisection.errors import SolverError
 from equisection.store import lock as ownership
@@ -173,8 +174,20 @@ def test_job_that_slurm_started_again_elsewhere_does_not_wait_for_itself(
         assert claim.number == 2
 
 
-def test_owner_that_was_killed_before_it_could_say_who_it_is(tmp_path: Path) -> None:
-    written(tmp_path, ELSEWHERE).write_text("")
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        json.dumps({**asdict(ELSEWHERE), "since": "noon"}),
+        json.dumps({**asdict(ELSEWHERE), "ended": 1e300}),
+        json.dumps({**asdict(ELSEWHERE), "job": 17}),
+        json.dumps({**asdict(ELSEWHERE), "process": {"host": "a", "pid": -1, "birth": ""}}),
+    ],
+)
+def test_owner_that_was_killed_before_it_could_say_who_it_is(tmp_path: Path, text: str) -> None:
+    path = written(tmp_path, ELSEWHERE)
+    path.write_text(text)
+    path.with_name("1 (copy).json").write_text(text)
     with claimed(tmp_path) as claim:
         assert claim.number == 2
 
@@ -183,7 +196,7 @@ def sleep_while_another_takes_over(work: Path) -> None:
     with claimed(work) as claim:
         other = HeldLock(claim.folder, claim.number + 1, ELSEWHERE)
         other.file.write_text(json.dumps(asdict(ELSEWHERE)))
-        time.sleep(60)  # is interrupted
+        time.sleep(LONG)  # is interrupted
 
 
 def test_job_that_was_taken_for_gone_stops(tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import logging
+import math
 import os
 import subprocess
 import sys
@@ -158,8 +159,9 @@ class TestJobProgress:
         assert "ended well" in caplog.messages[-1]
 
     def test_not_every_update_is_logged(
-        self, tmp_path: Path, caplog: pytest.LogCaptureFixture
+        self, tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
     ) -> None:
+        monkeypatch.setattr(progress.time, "time", lambda: 1000.0)
         with (
             caplog.at_level(logging.INFO),
             JobProgress(tmp_path / "a.progress.json", ["abc"], "a solver") as job,
@@ -187,6 +189,25 @@ def write(path: Path, state: Snapshot) -> None:
 def test_a_file_that_is_none_is_not_read(tmp_path: Path, text: str) -> None:
     path = tmp_path / "a.progress.json"
     path.write_text(text, encoding="utf-8")
+    assert read_snapshot(path) is None
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        *[("done", value) for value in ("30", None, [], math.nan, 1e400)],
+        *[("started", value) for value in ("now", -1.0, 1e30, math.nan)],
+        *[("title", 5), ("cases", [5]), ("cases", 5), ("unit", {})],
+        *[("process", {"host": "a", "pid": pid, "birth": ""}) for pid in (-1, 2**40, "7")],
+        ("process", {"host": 5, "pid": 7, "birth": ""}),
+    ],
+)
+def test_a_file_with_a_wrong_value_is_not_read(tmp_path: Path, key: str, value: object) -> None:
+    path = tmp_path / "a.progress.json"
+    write(path, snapshot())
+    assert read_snapshot(path) == snapshot()
+    raw = json.loads(path.read_text(encoding="utf-8"))
+    path.write_text(json.dumps(raw | {key: value}), encoding="utf-8")
     assert read_snapshot(path) is None
 
 

@@ -125,7 +125,10 @@ def test_a_case_that_waits_is_no_fault(run: Path, capsys: pytest.CaptureFixture[
     assert "1 cases have no result yet" in capsys.readouterr().out
 
 
-@pytest.mark.parametrize("text", ["", "{}", "[]", '{"made_by": 1}'])
+UNHASHABLE = '{"made_by": {}, "inputs": {}, "outputs": {"a": {}}, "cpu_seconds": 1}'
+
+
+@pytest.mark.parametrize("text", ["", "{}", "[]", '{"made_by": 1}', UNHASHABLE])
 def test_a_record_that_is_none_is_broken(run: Path, text: str) -> None:
     (run / "provenance" / "summary.json").write_text(text)
     assert faults(run)["provenance/summary.json"] is Fault.BROKEN

@@ -12,7 +12,7 @@ from typing import Any
 
 import yaml
 
-from tests.processes import LONG
+from tests.processes import LONG, narrow_pipe
 
 ROOT = Path(__file__).parents[2]
 #: What a clone holds that a run needs.
@@ -104,6 +104,25 @@ class Project:
             text=True,
             start_new_session=True,
         )
+
+    def start_slowly(self, *arguments: str) -> subprocess.Popen[str]:
+        """Start Snakemake so that it says nothing before what it said before has been read.
+
+        It cannot come to its end while it is read, however long that takes (on Linux).
+        """
+        read, write = narrow_pipe()
+        run = subprocess.Popen(
+            self.command(*arguments),
+            cwd=self.folder,
+            env=self.environment(),
+            stdout=write,
+            stderr=subprocess.STDOUT,
+            text=True,
+            start_new_session=True,
+        )
+        os.close(write)
+        run.stdout = os.fdopen(read, encoding="utf-8")
+        return run
 
     def attempt(
         self, *arguments: str, environment: dict[str, str] | None = None

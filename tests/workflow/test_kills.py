@@ -46,7 +46,7 @@ def test_killed_run_goes_on_to_the_results_of_an_undisturbed_one(
     project.config = small(sweep={"models": ["2d"]})
     target = project.target(SUMMARY)
     for _ in range(KILLS):
-        run = project.start("--rerun-incomplete", target)
+        run = project.start_slowly("--rerun-incomplete", target)
         kill_while_working(run, moments.randint(1, MOST_EVENTS))
         project.run("--unlock")
 

@@ -124,5 +124,5 @@ def _git(folder: Path, *arguments: str) -> str:
     command = ["git", "--no-optional-locks", "-C", str(folder), *arguments]
     environment = {**os.environ, "LC_ALL": "C"}
     return subprocess.run(
-        command, capture_output=True, text=True, check=True, timeout=10, env=environment
+        command, capture_output=True, text=True, check=True, timeout=60, env=environment
     ).stdout

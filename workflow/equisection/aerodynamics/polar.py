@@ -26,7 +26,7 @@ import scipy
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.conventions import SYMMETRY_TOLERANCE
-from equisection.errors import IncidenceOutOfRangeError
+from equisection.errors import ArgumentError, IncidenceOutOfRangeError
 from equisection.io.formats import read_rows
 from equisection.io.polar_rows import MID_CHORD
 
@@ -116,7 +116,10 @@ class Polar:
 
     def __post_init__(self) -> None:
         for name in ("incidence", "drag", "lift", "moment"):
-            values = np.array(getattr(self, name), dtype=np.float64)
+            try:
+                values = np.array(getattr(self, name), dtype=np.float64)
+            except (TypeError, ValueError):
+                raise ArgumentError(f"polar {self.label!r}: {name} is no list of numbers") from None
             values.setflags(write=False)
             object.__setattr__(self, name, values)
         self._check()
@@ -127,19 +130,19 @@ class Polar:
     def _check(self) -> None:
         count = self.incidence.size
         if self.incidence.ndim != 1 or count < 4:
-            raise ValueError(
+            raise ArgumentError(
                 f"polar {self.label!r} has {count} angles of incidence; a list of 4 or more "
                 "is needed"
             )
         for name in ("drag", "lift", "moment"):
             values = getattr(self, name)
             if values.shape != (count,) or not np.all(np.isfinite(values)):
-                raise ValueError(
+                raise ArgumentError(
                     f"polar {self.label!r}: {name} has shape {values.shape} or is not finite; "
                     f"{count} finite numbers are wanted, one for each incidence"
                 )
         if not np.all(np.diff(self.incidence) > 0):  # also catches NaN
-            raise ValueError(f"polar {self.label!r}: the angles of incidence do not ascend")
+            raise ArgumentError(f"polar {self.label!r}: the angles of incidence do not ascend")
 
     @classmethod
     def read(
@@ -237,7 +240,7 @@ class Polar:
             )
         at_zero = max(abs(self.lift[0]), abs(self.moment[0]))
         if at_zero > SYMMETRY_TOLERANCE:
-            raise ValueError(
+            raise ArgumentError(
                 f"polar {self.label!r} has c_l = {self.lift[0]:g} and c_m = {self.moment[0]:g} "
                 "at zero incidence; those of a symmetric section vanish there"
             )
@@ -372,3 +375,17 @@ class Polar:
         """dc_m/dalpha (1/rad) at ``alpha`` (rad), about mid-chord, nose up."""
         self.require(alpha)
         return self._moment.slope(alpha)
+
+
+def require_polar(polar: object) -> None:
+    """Refuse what is no polar, such as flutter derivatives, which have no static loads.
+
+    Raises
+    ------
+    ArgumentError
+        It is something else.
+    """
+    if not isinstance(polar, Polar):
+        raise ArgumentError(
+            f"polar is a {type(polar).__name__}; wanted a Polar, as Polar.read(file) gives it"
+        )

@@ -45,6 +45,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.aerodynamics.polar import TABLE_STEP, Polar, is_nil
+from equisection.errors import ArgumentError
+from equisection.keys.arguments import is_finite_number
 
 Floats = NDArray[np.float64]
 
@@ -83,13 +85,13 @@ class SeparationLags:
     def __post_init__(self) -> None:
         for name in ("relaxation", "delay", "lift_lag"):
             value = getattr(self, name)
-            if not np.isfinite(value) or (value < 0.0 and name != "delay"):
-                raise ValueError(
+            if not is_finite_number(value) or (value < 0.0 and name != "delay"):
+                raise ArgumentError(
                     f"{name} = {value!r}: a finite number of convective times is wanted"
                     + ("" if name == "delay" else ", not negative")
                 )
         if self.relaxation == 0.0 and self.delay != 0.0:
-            raise ValueError(
+            raise ArgumentError(
                 f"delay = {self.delay!r} with relaxation = 0 would be a derivative of the "
                 "incidence; give relaxation a value above 0 as well"
             )

@@ -21,6 +21,7 @@ from equisection.cases.case import SCHEMA_VERSION, Case
 from equisection.cases.kinds import kind_named, kind_of
 from equisection.errors import CaseFileError
 from equisection.files import require_plain_names, write_text
+from equisection.keys.shown import shown
 
 #: Significant digits of a number in a case. Eigenvectors differ in the last digits from one
 #: machine to the next; more digits would ask for new runs without a new case.
@@ -119,7 +120,10 @@ def read_cases(path: Path) -> dict[str, Case]:
     except ValidationError as error:
         problem = error.errors()[0]
         where = ".".join(str(part) for part in problem["loc"])
-        raise CaseFileError(f"{path}: {where}: {problem['msg']}; delete it and run again") from None
+        raise CaseFileError(
+            f"{path}: {where}: {shown(problem['input'])} is nothing that a case has there; delete "
+            "it and run again"
+        ) from None
     except (CaseFileError, ValueError) as error:
         raise CaseFileError(f"{path}: {error}; delete it and run again") from None
 

@@ -13,6 +13,9 @@ from equisection.errors import ConfigError
 from equisection.keys.checks import DisagreementError, Path, Problem, disagreements
 from equisection.keys.group import WHOLE, KeyGroup
 
+#: Most problems that are told at once.
+MOST_LINES = 12
+
 
 def load_config(raw: Mapping[str, Any]) -> Config:
     """Return the validated configuration.
@@ -29,7 +32,10 @@ def load_config(raw: Mapping[str, Any]) -> Config:
         return Config.model_validate(dict(raw), context=WHOLE)
     except ValidationError as error:
         problems = _problems(raw, error.errors(include_url=False))
-    raise ConfigError("\n".join(dict.fromkeys(problem.line for problem in problems)))
+    lines = list(dict.fromkeys(problem.line for problem in problems))
+    if len(lines) > MOST_LINES:
+        lines[MOST_LINES:] = [f"config: and {len(lines) - MOST_LINES} more; mend these first"]
+    raise ConfigError("\n".join(lines))
 
 
 def resolve_config(config: Config) -> dict[str, Any]:

@@ -28,17 +28,22 @@ import csv
 import io
 import itertools
 import math
+from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from equisection.errors import DerivativesFileError
-from equisection.io.polar_text import decimal
+from equisection.io.plain_text import plain_text
+from equisection.io.polar_text import decimal, quoted, shortened
 
 #: Names of the derivatives, in the order of every table here.
 DERIVATIVES = ("H1", "H2", "H3", "H4", "A1", "A2", "A3", "A4")
-#: Rows that a table needs.
-FEWEST_ROWS = 4
+#: Reduced velocities V/(f B) that make sense, and the largest derivative: quasi-steady ones grow
+#: with the square of the reduced velocity, H3 to 2 pi (V/(2 pi f B))^2 of a thin airfoil.
+LEAST_VELOCITY, LARGEST_VELOCITY, LARGEST = 1e-2, 1e4, 1e8
+#: Rows that a table needs, and bytes that its file has at most.
+FEWEST_ROWS, MOST_BYTES = 4, 10_000_000
 #: Reduced velocity V/(f B) from the value of a first column, by its name.
 _FROM_COLUMN: dict[str, Callable[[float], float]] = {
     "reduced_velocity": lambda value: value,
@@ -95,11 +100,13 @@ def read_derivative_rows(path: Path) -> DerivativeRows:
         The file cannot be used; the message names file, line and what is wanted.
     """
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
+        text = plain_text(path, "derivatives", MOST_BYTES, DerivativesFileError)
+    except FileNotFoundError:
         raise DerivativesFileError(
-            f"{path}: cannot be read as text ({error}); wanted a CSV file of flutter derivatives"
-        ) from error
+            f"{path}: no such file (looked from {Path.cwd()}); wanted a CSV file of flutter "
+            "derivatives"
+        ) from None
+    lines = text.split("\n")
     used = [
         (number, line.strip())
         for number, line in enumerate(lines, start=1)
@@ -148,21 +155,21 @@ def _check_columns(path: Path, line: int, names: list[str]) -> None:
         raise DerivativesFileError(
             f"{path}, line {line}: columns h1 to a4 in small letters {_ZASSO}"
         )
-    twice = sorted({name for name in names if names.count(name) > 1})
+    twice = sorted(name for name, count in Counter(names).items() if count > 1)
     if twice:
         raise DerivativesFileError(
-            f"{path}, line {line}: more than one column is {', '.join(twice)}; wanted each once"
+            f"{path}, line {line}: more than one column is {shortened(twice)}; wanted each once"
         )
     if names[0] not in _FROM_COLUMN:
         raise DerivativesFileError(
-            f"{path}, line {line}: the first column is {names[0]!r}; wanted reduced_velocity, "
-            "which is V/(f B) with f in Hz and B the whole chord, or K (omega B/V), or k "
-            "(omega B/(2 V))"
+            f"{path}, line {line}: the first column is {quoted(names[0])}; wanted "
+            "reduced_velocity, which is V/(f B) with f in Hz and B the whole chord, or K (omega "
+            "B/V), or k (omega B/(2 V))"
         )
     missing = [name for name in DERIVATIVES if name not in names]
     if missing:
         raise DerivativesFileError(
-            f"{path}, line {line}: no column {', '.join(missing)}; found {', '.join(names)}; "
+            f"{path}, line {line}: no column {', '.join(missing)}; found {shortened(names)}; "
             f"wanted {', '.join(DERIVATIVES)}, separated by commas (a column of zeros leaves a "
             "derivative out)"
         )
@@ -196,26 +203,26 @@ def _convention(path: Path, said: dict[str, str]) -> tuple[float, float, float, 
     if said["convention"].lower() != "scanlan":
         advice = f"; Zasso's {_ZASSO}" if "zasso" in said["convention"].lower() else ""
         raise DerivativesFileError(
-            f"{path}: convention is {said['convention']!r}; allowed is Scanlan{advice}"
+            f"{path}: convention is {quoted(said['convention'])}; allowed is Scanlan{advice}"
         )
     force = (
         said["force"].replace(" ", "").replace("*", "").replace("U", "V").replace("(1/2)", "1/2")
     )
     if force not in _FORCES:
         raise DerivativesFileError(
-            f"{path}: force is {said['force']!r}; allowed is rho V^2 B/2 or rho V^2 B, what stands "
-            "before the bracket of L"
+            f"{path}: force is {quoted(said['force'])}; allowed is rho V^2 B/2 or rho V^2 B, what "
+            "stands before the bracket of L"
         )
     if said["heave"].lower() not in _HEAVES:
         raise DerivativesFileError(
-            f"{path}: heave is {said['heave']!r}; allowed is down or up, the positive direction of "
-            "heave and lift"
+            f"{path}: heave is {quoted(said['heave'])}; allowed is down or up, the positive "
+            "direction of heave and lift"
         )
     axis = _said_number(path, said, "axis")
     if not 0.0 <= axis <= 1.0:
         raise DerivativesFileError(
-            f"{path}: axis is {said['axis']!r}; allowed is x/c from the leading edge, 0 to 1 (0.5 "
-            "for mid-chord)"
+            f"{path}: axis is {quoted(said['axis'])}; allowed is x/c from the leading edge, 0 to 1 "
+            "(0.5 for mid-chord)"
         )
     incidence = _said_number(path, said, "incidence_deg") if "incidence_deg" in said else math.nan
     return _FORCES[force], _HEAVES[said["heave"].lower()], axis, incidence
@@ -225,7 +232,9 @@ def _said_number(path: Path, said: dict[str, str], key: str) -> float:
     try:
         return decimal(said[key])
     except ValueError as error:
-        raise DerivativesFileError(f"{path}: {key} is {said[key]!r}; wanted a number") from error
+        raise DerivativesFileError(
+            f"{path}: {key} is {quoted(said[key])}; wanted a number"
+        ) from error
 
 
 def _velocity(row: dict[str, float]) -> float:
@@ -250,15 +259,27 @@ def _numbers(path: Path, line: int, text: str, names: list[str]) -> dict[str, fl
                 row[name] = math.nan
             if not math.isfinite(row[name]):
                 raise DerivativesFileError(
-                    f"{path}, line {line}: {name} is {field!r}; wanted a finite number (a row that "
-                    "was not measured is left out as a whole)"
+                    f"{path}, line {line}: {name} is {quoted(field)}; wanted a finite number (a "
+                    "row that was not measured is left out as a whole)"
                 )
     first = row[names[0]]
     if not first > 0.0:
         raise DerivativesFileError(
             f"{path}, line {line}: {names[0]} is {first:g}; wanted a number above 0"
         )
-    return {**row, "reduced_velocity": _FROM_COLUMN[names[0]](first)}
+    velocity = _FROM_COLUMN[names[0]](first)
+    if not LEAST_VELOCITY <= velocity <= LARGEST_VELOCITY:
+        raise DerivativesFileError(
+            f"{path}, line {line}: {names[0]} is {first:g}; wanted a reduced velocity V/(f B) from "
+            f"{LEAST_VELOCITY:g} to {LARGEST_VELOCITY:g}"
+        )
+    for name, value in row.items():
+        if abs(value) > LARGEST:
+            raise DerivativesFileError(
+                f"{path}, line {line}: {name} is {value:g}; wanted a number from {-LARGEST:g} to "
+                f"{LARGEST:g}"
+            )
+    return {**row, "reduced_velocity": velocity}
 
 
 def derivative_text(rows: DerivativeRows, comments: Sequence[str] = ()) -> str:

@@ -20,6 +20,8 @@ from numpy.typing import NDArray
 
 from equisection.conventions import dynamic_pressure
 from equisection.errors import HistoryFileError
+from equisection.io.plain_text import plain_text
+from equisection.io.polar_text import quoted, shortened
 
 Floats = NDArray[np.float64]
 
@@ -38,6 +40,8 @@ UNITS: dict[str, tuple[str, ...]] = {
 _SEPARATORS = (",", ";", "\t", " ")
 #: A step over the usual one above which samples are missing (-), and the fewest samples.
 _GAP, _FEWEST = 5.0, 16
+#: Largest file that is read (bytes): some 10^6 samples.
+MOST_BYTES = 200_000_000
 
 
 @dataclass(frozen=True)
@@ -157,9 +161,9 @@ def read_table(path: Path, columns: HistoryColumns, scales: HistoryScales) -> Hi
         found = pd.to_numeric(frame[name], errors="coerce").to_numpy(dtype=np.float64)
         wrong = np.flatnonzero(~np.isfinite(found))
         if wrong.size:
+            cell = quoted(str(frame[name].iloc[wrong[0]]))
             raise HistoryFileError(
-                f"{path}, line {first + int(wrong[0])}: {name} is {frame[name].iloc[wrong[0]]!r}; "
-                "wanted a finite number"
+                f"{path}, line {first + int(wrong[0])}: {name} is {cell}; wanted a finite number"
             )
         values[quantity] = found
     time = values["time"]
@@ -210,11 +214,9 @@ def _require_rising(path: Path, first: int, name: str, time: Floats) -> None:
 def _frame(path: Path, columns: HistoryColumns) -> tuple[int, pd.DataFrame]:
     """Return the number of the first line of values, and the table as text."""
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()
+        lines = plain_text(path, "history", MOST_BYTES, HistoryFileError).split("\n")
     except FileNotFoundError:
         raise HistoryFileError(f"{path}: no such file (looked from {Path.cwd()})") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise HistoryFileError(f"{path}: cannot be read as a text file: {error}") from error
     wanted = [name for name in columns.names.values() if name]
     best: list[str] = []
     for number, line in enumerate(lines):
@@ -235,7 +237,7 @@ def _frame(path: Path, columns: HistoryColumns) -> tuple[int, pd.DataFrame]:
     ]
     raise HistoryFileError(
         f"{path}: no column for {', '.join(missing)}; columns are "
-        f"{', '.join(map(repr, seen)) or 'none'}; name them in given.columns"
+        f"{shortened(seen) or 'none'}; name them in given.columns"
     )
 
 
@@ -245,7 +247,10 @@ def _headings(line: str) -> Iterator[tuple[str, list[str]]]:
         text = text[1:-1]
     for separator in _SEPARATORS:
         if separator in text:
-            names = next(csv.reader([text], delimiter=separator, skipinitialspace=True))
+            try:
+                names = next(csv.reader([text], delimiter=separator, skipinitialspace=True))
+            except csv.Error:  # of a length that no name has
+                continue
             yield separator, [name.strip() for name in names]
 
 
@@ -259,22 +264,50 @@ def _values(
     """Return the lines of values as text, by the names of their columns."""
     text = "\n".join(lines)
     try:
-        return pd.read_csv(
+        frame = pd.read_csv(
             io.StringIO(text),
             sep=r"\s+" if separator == " " else separator,
             header=None,
-            names=names,
+            names=range(len(names)),
             index_col=False,
             dtype=str,
             skip_blank_lines=False,
             keep_default_na=False,
             skipinitialspace=True,
             on_bad_lines="error",
-        ).pipe(_without_blank_end)
+        )
     except (pd.errors.ParserError, pd.errors.EmptyDataError, ValueError) as error:
         raise HistoryFileError(
             f"{path}, from line {first}: cannot be read as {len(names)} columns: {error}"
         ) from None
+    frame.columns = pd.Index(names)
+    frame = _without_blank_end(frame)
+    _require_whole(path, first, lines[: len(frame)], separator, frame)
+    return frame
+
+
+def _require_whole(
+    path: Path, first: int, lines: list[str], separator: str, frame: pd.DataFrame
+) -> None:
+    """Refuse lines with fewer values than names, and values that go over several lines.
+
+    Either would put values under the names of others, or take lines away.
+    """
+    wanted = max(place for place, name in enumerate(frame.columns, start=1) if name)
+    for number, line in enumerate(lines, start=first):
+        there = len(line.split()) if separator == " " else line.count(separator) + 1
+        if there < wanted:
+            raise HistoryFileError(
+                f"{path}, line {number}: {there} values under {wanted} names of columns; complete "
+                "the line or leave it out"
+            )
+    for place in range(frame.shape[1]):
+        over = frame.iloc[:, place].str.contains("\n", regex=False, na=False).to_numpy()
+        if over.any():
+            raise HistoryFileError(
+                f"{path}, line {first + int(np.argmax(over))}: a quotation mark that is closed in "
+                "another line; take it out"
+            )
 
 
 def _without_blank_end(frame: pd.DataFrame) -> pd.DataFrame:

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from equisection.errors import OutlineError
-from equisection.io.polar_text import decimal, decoded
+from equisection.io.plain_text import plain_text
+from equisection.io.polar_text import decimal, quoted
 
 #: Suffixes of the formats.
 AIRFOIL, POLYGON = ".dat", ".csv"
@@ -59,14 +60,10 @@ def read_outline(path: Path) -> OutlineFile:
             f"polygon x,y ({POLYGON}); name the file so"
         )
     try:
-        if path.stat().st_size > _LARGEST:
-            raise OutlineError(f"{path}: larger than 2 MB: this is no outline")
-        text = decoded(path.read_bytes())
+        text = plain_text(path, "outline", _LARGEST, OutlineError)
     except FileNotFoundError:
         raise OutlineError("there is no such file") from None
-    except (OSError, UnicodeError) as error:
-        raise OutlineError(f"{path}: cannot be read as text: {error}") from None
-    lines = [(number, line.strip()) for number, line in enumerate(text.splitlines(), 1)]
+    lines = [(number, line.strip()) for number, line in enumerate(text.split("\n"), 1)]
     if suffix == POLYGON:
         return OutlineFile(_polygon(path, lines), is_airfoil=False)
     return OutlineFile(_airfoil(path, lines), is_airfoil=True)
@@ -118,12 +115,14 @@ def _numbers(path: Path, line: int, parts: list[str]) -> list[float]:
         values = [decimal(part) for part in parts]
     except ValueError:
         raise OutlineError(
-            f"{path}, line {line}: {' '.join(parts)[:60]!r}: allowed are two numbers, x and y"
+            f"{path}, line {line}: {quoted(' '.join(parts))}: allowed are two numbers, x and y"
         ) from None
     if len(values) != 2:
         raise OutlineError(f"{path}, line {line}: {len(values)} numbers; allowed are two, x and y")
     if not all(map(math.isfinite, values)):
-        raise OutlineError(f"{path}, line {line}: {parts}: allowed are finite numbers")
+        raise OutlineError(
+            f"{path}, line {line}: {quoted(' '.join(parts))}: allowed are finite numbers"
+        )
     return values
 
 

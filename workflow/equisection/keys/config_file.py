@@ -92,6 +92,8 @@ def _in_clone(path: Path) -> str:
 
 
 def _text(path: Path) -> str:
+    if path.is_fifo():
+        raise ConfigError(f"config: {path}: is a pipe, which can be read but once; {_ALLOWED}")
     try:
         with path.open("rb") as file:
             content = file.read(_MOST_BYTES + 1)

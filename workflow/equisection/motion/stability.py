@@ -25,12 +25,13 @@ import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
 from equisection.aerodynamics.derivatives import Derivatives
-from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.polar import Polar, require_polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
+from equisection.keys.arguments import require_positive
 from equisection.keys.written_number import LARGEST, SMALLEST
 from equisection.motion.derivative_flutter import (
     critical_speed_by_derivatives,
@@ -241,7 +242,8 @@ class _Air:
     lags: SeparationLags
 
     def __post_init__(self) -> None:
-        _positive("density", self.density, "kg/m3")
+        require_polar(self.polar)
+        require_positive("density", self.density, "kg/m3")
 
     @cached_property
     def loads(self) -> UnsteadyLoads:

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
+from numbers import Integral
 from typing import Literal
 
 from equisection.beam.beam import Beam
 from equisection.beam.section import Section
 from equisection.conventions import STANDARD_AIR
-from equisection.errors import ReductionError
+from equisection.errors import ArgumentError, ReductionError
+from equisection.keys.arguments import require_positive
 from equisection.reduction.flutter_bias import flutter_bias, refusal, unlike
 from equisection.reduction.integrals import span_integrals
 from equisection.reduction.reduce import Reduction, reduce_beam, validity_warnings
@@ -52,6 +55,8 @@ def reduce(
 
     Raises
     ------
+    ArgumentError
+        The numbers of elements are not three, or the density is not positive.
     ModesError
         The method cannot have this beam; the message says which can.
     ReductionError
@@ -59,6 +64,16 @@ def reduce(
         speed that is 15 % or more off the beam's.
     """
     require_method(beam, method)
+    require_positive("density", density, "kg/m3")
+    if not (
+        isinstance(elements, Sequence)
+        and len(elements) == 3
+        and all(isinstance(one, Integral) and one > 0 for one in elements)
+    ):
+        raise ArgumentError(
+            f"elements is {elements!r}; wanted three whole numbers above 0, along chord, span and "
+            "thickness"
+        )
     modes = modes_of_kinds(beam, method, elements, (1, 1), COUNT)
     section = reduce_beam(beam, modes, reduction)
     compared = flutter_bias(section, beam, modes, density)

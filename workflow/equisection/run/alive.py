@@ -16,7 +16,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from equisection.files import write_text
-from equisection.store.progress import Process, clock
+from equisection.store.progress import Process, clock, require_times
 
 #: Folder of the files, in the working directory.
 FOLDER = Path(".snakemake") / "equisection"
@@ -81,4 +81,5 @@ def _runs() -> Iterator[tuple[Path, Process, float]]:
         with contextlib.suppress(OSError, ValueError, KeyError, TypeError, RecursionError):
             raw = json.loads(path.read_text(encoding="utf-8"))
             since = float(raw.pop("since"))
+            require_times(since)
             yield path, Process(**raw), since

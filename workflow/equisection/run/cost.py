@@ -25,6 +25,7 @@ from equisection.cases import Kind
 from equisection.config import Config
 from equisection.config.groups import KeyGroup
 from equisection.errors import ConfigError
+from equisection.keys.shown import shown
 from equisection.keys.values import NotNegative
 from equisection.solvers.registry import SOLVERS
 from equisection.solvers.work import Work
@@ -87,12 +88,13 @@ def read_cost_model(path: Path) -> CostModel:
     try:
         return CostModel.model_validate(yaml.safe_load(path.read_text(encoding="utf-8")))
     except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        raise ConfigError(f"{path}: cannot be read as a cost model ({error})") from None
+        why = " ".join(str(error).split())
+        raise ConfigError(f"{path}: cannot be read as a cost model ({why})") from None
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(map(str, first["loc"]))
         raise ConfigError(
-            f"{path}: {where}: {first['input']!r}: {first['msg']}; allowed are numbers from 0 on "
+            f"{path}: {where}: {shown(first['input'])}: allowed are numbers from 0 on "
             "under solver, dimension, and iteration, step, memory_kb"
         ) from None
 

@@ -33,7 +33,7 @@ from pathlib import Path
 
 from equisection.errors import SolverError
 from equisection.files import write_text
-from equisection.store.progress import Process, clock
+from equisection.store.progress import Process, clock, require_times
 
 logger = logging.getLogger(__name__)
 
@@ -65,6 +65,12 @@ class Owner:
     since: float
     job: str = ""
     ended: float = 0.0
+
+    def __post_init__(self) -> None:
+        """Refuse what a broken file says of a job (TypeError, ValueError)."""
+        require_times(self.since, self.ended)
+        if not isinstance(self.job, str):
+            raise TypeError("the number of a SLURM job is a text")
 
     @classmethod
     def this(cls) -> Owner:
@@ -183,7 +189,8 @@ def living_owner(work: Path) -> Owner | None:
 
 def _last(folder: Path) -> int:
     """Return the highest number that was taken; 0 for none."""
-    return max((int(path.stem) for path in folder.glob("[0-9]*.json")), default=0)
+    names = (path.stem for path in folder.glob("[0-9]*.json"))
+    return max((int(name) for name in names if name.isdecimal() and name.isascii()), default=0)
 
 
 def _wait(folder: Path, this: Owner) -> HeldLock:

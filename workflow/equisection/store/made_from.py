@@ -65,6 +65,9 @@ def read_record(path: Path) -> ProvenanceRecord:
     try:
         raw = json.loads(path.read_text(encoding="utf-8"))
         made_by, inputs, outputs = (dict(raw[name]) for name in ("made_by", "inputs", "outputs"))
+        for table in (made_by, inputs, outputs):
+            if not all(isinstance(text, str) for text in (*table, *table.values())):
+                raise TypeError("not a table of texts")
         return ProvenanceRecord(made_by, inputs, outputs, float(raw["cpu_seconds"]))
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise ResultFileError(

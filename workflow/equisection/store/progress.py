@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import logging
+import math
 import os
 import socket
 import sys
@@ -33,6 +34,22 @@ LOG_INTERVAL, LOG_INTERVAL_OF_SLOW_RUN = 10.0, 600.0
 SILENCE = 1800.0
 
 
+#: Latest time that is one (seconds since the epoch): the year 5138.
+_LAST_TIME = 1e11
+
+
+def require_times(*times: float) -> None:
+    """Refuse times that are none.
+
+    Raises
+    ------
+    ValueError
+        One is outside of what a clock can say (seconds since the epoch).
+    """
+    if not all(0.0 <= time <= _LAST_TIME for time in times):
+        raise ValueError("a time is none")
+
+
 @dataclass(frozen=True)
 class Process:
     """A process, distinguished from a later one with the same number by its time of birth."""
@@ -40,6 +57,13 @@ class Process:
     host: str
     pid: int
     birth: str  # start time in the system's ticks, empty where the system does not tell
+
+    def __post_init__(self) -> None:
+        """Refuse what a broken file says of a process (TypeError, ValueError)."""
+        if not (isinstance(self.host, str) and isinstance(self.birth, str)):
+            raise TypeError("host and birth are texts")
+        if not 0 <= self.pid < 2**31:
+            raise ValueError(f"no process has the number {self.pid}")
 
     @classmethod
     def this(cls) -> Process:
@@ -88,6 +112,14 @@ class Snapshot:
     first_done: float
     first_time: float
     process: Process
+
+    def __post_init__(self) -> None:
+        """Refuse what a broken file says of a job (TypeError, ValueError)."""
+        require_times(self.started, self.updated, self.first_time)
+        if not all(map(math.isfinite, (self.done, self.total, self.first_done))):
+            raise ValueError("an amount is no number")
+        if not all(isinstance(text, str) for text in (*self.cases, self.title, self.unit)):
+            raise TypeError("cases, title and unit are texts")
 
     @property
     def fraction(self) -> float:

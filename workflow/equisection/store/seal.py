@@ -15,7 +15,7 @@ from equisection.results.whole import WITHOUT_DIGEST, append_digest, fault_of
 from equisection.store.kept import holds_its_case
 
 #: How long a damaged file may keep the HDF5 library busy (s).
-PATIENCE = 60.0
+PATIENCE = 300.0
 
 
 def seal(places: Sequence[Path]) -> Iterator[tuple[Path, str]]:

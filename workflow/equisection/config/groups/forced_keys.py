@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from equisection.config.groups.unsteady import MOST_STEPS
 from equisection.io.derivative_table import FEWEST_ROWS
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
@@ -104,6 +105,17 @@ def _modes_that_there_are(moved: int, bending: int, torsion: int) -> Iterator[Pr
             moved,
             f"allowed is 0 to {min(bending, torsion)}, what structure.bending_modes and "
             "structure.torsion_modes are",
+        )
+
+
+@check("forced", "unsteady.time_step")
+def _not_too_many_steps(forced: ForcedKeys, step: float) -> Iterator[Problem]:
+    if forced.run and forced.longest > MOST_STEPS * step:
+        yield Problem(
+            "forced.settling",
+            forced.settling,
+            f"allowed are runs of up to {MOST_STEPS:,} time steps, {step:g} c/V each; settling and "
+            f"record of the slowest motion are {forced.longest:.3g} c/V",
         )
 
 

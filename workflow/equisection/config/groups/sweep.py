@@ -22,6 +22,9 @@ ModelName = Literal[
     "2d-corrected-consistent",
 ]
 
+#: Most cases of a model that a run has; the workflow lists each of them.
+MOST_CASES = 100_000
+
 
 class Range(KeyGroup):
     """Evenly spaced values, including both ends."""
@@ -164,6 +167,24 @@ def _distinct_in_range(key: str, given: Range) -> Iterator[Problem]:
             given.number,
             f"allowed are fewer values, so that those between {given.start:g} and "
             f"{given.stop:g} differ in the first six digits, which name the files of a case",
+        )
+
+
+@check("sweep.k_star", "sweep.speed", "sweep.incidence_deg")
+def _not_too_many_cases(
+    k_star: tuple[float, ...] | Range | None,
+    speed: tuple[float, ...] | Range | None,
+    angles: tuple[float, ...],
+) -> Iterator[Problem]:
+    key, given = ("sweep.k_star", k_star) if speed is None else ("sweep.speed", speed)
+    values = given.number if isinstance(given, Range) else len(given or ())
+    number = values * max(len(angles), 1)
+    if number > MOST_CASES:
+        yield Problem(
+            f"{key}.number" if isinstance(given, Range) else key,
+            values,
+            f"allowed are up to {MOST_CASES:,} cases of a model, and these values at "
+            f"{max(len(angles), 1)} incidences are {number:,}; take fewer",
         )
 
 

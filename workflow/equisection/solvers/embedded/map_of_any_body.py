@@ -10,7 +10,7 @@ import numpy as np
 import xarray as xr
 from numpy.typing import ArrayLike, NDArray
 
-from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.polar import Polar, require_polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.beam import Beam
@@ -20,6 +20,7 @@ from equisection.cases.beam_in_flow import beam_modes_in_flow
 from equisection.config.groups import Embedded, Structure
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
+from equisection.keys.arguments import require_positive
 from equisection.keys.written_number import LARGEST, SMALLEST
 from equisection.motion.body_in_flow import BodyInFlow
 from equisection.motion.map_dataset import map_of_body
@@ -109,6 +110,7 @@ def stability_map(
     ReductionError
         Nothing restrains the beam.
     """
+    require_polar(polar)
     angles = np.atleast_1d(np.asarray(incidence_deg, dtype=np.float64))
     speeds = np.atleast_1d(np.asarray(speed, dtype=np.float64))
     if angles.ndim > 1 or not angles.size or not np.isfinite(angles).all():
@@ -116,8 +118,7 @@ def stability_map(
     rises = speeds.ndim == 1 and speeds.size > 1 and bool((np.diff(speeds) > 0.0).all())
     if not (rises and speeds[0] >= SMALLEST and speeds[-1] <= LARGEST):
         raise ArgumentError(f"speed is {speed!r}; wanted two rising numbers above 0 (m/s) or more")
-    if not SMALLEST <= density <= LARGEST:
-        raise ArgumentError(f"density is {density!r}; wanted a finite number above 0 (kg/m3)")
+    require_positive("density", density, "kg/m3")
     if isinstance(body, Section):
         flowing = BodyInFlow.of_section(body, UnsteadyLoads.from_polar(polar, lags), density)
     else:

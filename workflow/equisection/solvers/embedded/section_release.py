@@ -6,7 +6,7 @@ import math
 
 import xarray as xr
 
-from equisection.aerodynamics.polar import Polar
+from equisection.aerodynamics.polar import Polar, require_polar
 from equisection.aerodynamics.separation import IDENTIFIED_LAGS, SeparationLags
 from equisection.aerodynamics.unsteady_loads import UnsteadyLoads
 from equisection.beam.section import Section
@@ -14,7 +14,7 @@ from equisection.config.groups import Unsteady
 from equisection.config.groups.unsteady import MOST_STEPS
 from equisection.conventions import STANDARD_AIR
 from equisection.errors import ArgumentError
-from equisection.keys.written_number import LARGEST, SMALLEST
+from equisection.keys.arguments import is_finite_number, require_positive
 from equisection.solvers.embedded.releases import ReleaseSettings, release_judged
 from equisection.solvers.verdicts import WITHOUT_EQUILIBRIUM, Judge
 from equisection.verdict import Criteria
@@ -97,17 +97,13 @@ def release(
         ("density", density, "kg/m3"),
         ("duration", duration, "c/V"),
     ):
-        if not (SMALLEST <= value <= LARGEST):
-            raise ArgumentError(
-                f"{name} is {value!r}; wanted a number above 0 ({units}), from {SMALLEST:g} to "
-                f"{LARGEST:g}"
-            )
+        require_positive(name, value, units)
     for name, value, most, units in (
         ("incidence_deg", incidence_deg, 180.0, "deg"),
         ("start_twist_deg", start_twist_deg, 90.0, "deg"),
         ("start_heave_rate", start_heave_rate, 1.0, "over V"),
     ):
-        if not abs(value) <= most:
+        if not (is_finite_number(value) and abs(value) <= most):
             raise ArgumentError(
                 f"{name} is {value!r}; wanted a number ({units}) from {-most:g} to {most:g}"
             )
@@ -116,6 +112,7 @@ def release(
             "from_equilibrium is True; wanted start_twist_deg, such as 0.2, or start_heave_rate "
             "with it: nothing else sets the section in motion"
         )
+    require_polar(polar)
     rigid = math.radians(incidence_deg)
     polar.require([rigid, rigid + math.radians(start_twist_deg) * section.twist_recovery])
     flowing = section.in_flow(density, speed)

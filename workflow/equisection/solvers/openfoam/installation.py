@@ -166,7 +166,7 @@ def _version(prefix: tuple[str, ...], environment: tuple[tuple[str, str], ...]) 
             env={**os.environ, **dict(environment)},
             capture_output=True,
             text=True,
-            timeout=60,
+            timeout=300,
             check=False,
         )
     except (OSError, subprocess.TimeoutExpired) as error:

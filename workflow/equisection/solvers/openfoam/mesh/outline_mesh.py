@@ -34,8 +34,8 @@ from equisection.solvers.openfoam.process import BlowUpError
 #: Versions of this mesh, a part of the case that it is made for: the second is that of a Reynolds
 #: number that asks for thinner first cells.
 VERSIONS = 1, 2
-#: Seconds after which gmsh counts as hung.
-TIME_LIMIT = 300.0
+#: Seconds after which gmsh counts as hung, on a machine that is busy too.
+TIME_LIMIT = 1800.0
 #: Status of the process that makes a mesh where the outline has none.
 NO_MESH = 3
 #: Input and log of that process, in the folder of the case.
