@@ -117,7 +117,7 @@ class OutlineOversetMesh:
         BlowUpError
             The outline has no mesh.
         SolverError
-            The disc has no room; gmsh is missing, crashed, or did not end in time (s).
+            The disc has no room; gmsh is missing, crashed, or did not end in time (processor s).
         """
         self.require_room()
         made_by(_MESHER, folder, asdict(self.section), time_limit)
