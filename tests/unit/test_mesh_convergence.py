@@ -227,12 +227,15 @@ def test_interval_without_an_end_is_no_interval_of_nothing() -> None:
 
 def test_page_says_which_limits_are_converged() -> None:
     text = page(SERIES, "coarse")
+    onsets, _, damped_onsets = text.partition("## Structural damping")
     lines = {
-        line.split(" | ")[0][2:]: line for line in text.splitlines() if line.startswith("| 2d")
+        line.split(" | ")[0][2:]: line for line in onsets.splitlines() if line.startswith("| 2d")
     }
     assert "| 2d | learnt model | 8.40 ± 0.20 | 7.50 ± 0.20 | 7.20 ± 0.20 |" in text
     assert "| 2d-corrected | releases | 7.40 ± 0.20 |  |  |  |  | none | no |" in text
     assert lines[OWN_RATIOS].endswith("yes |")
+    assert "| damping | 0 | 1 % |" in damped_onsets
+    assert "| 2d | 7.05 ± 0.27 | *6.07 ± 0.73* |" in damped_onsets
     assert "The plate's onset is not converged" in text
     assert "k*" not in text.replace("k\\*", "").replace("Left: k* of", "")
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 from equisection.paper.mesh_convergence.kept_releases import MESHES, OWN_RATIOS
 from equisection.paper.mesh_convergence.loads_by_mesh import (
@@ -34,8 +34,7 @@ _PICTURE = (
 )
 _HEAD = f"""# The onset over the cell size
 
-How the onset of the paper's plate and of its sections depends on the mesh, and how sure its limit
-is.
+Onset of the paper's plate and of its sections over the cell size, and how sure its limit is.
 
 ![{_PICTURE}](onset-over-cell-size.png)
 
@@ -44,20 +43,20 @@ make paper                                          # or this step of it alone:
 python -m equisection.paper.mesh_convergence
 ```
 
-writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from what is
-kept in `results/reference/`, with no flow solver: do not edit it.
+writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from the kept
+results, with no flow solver: do not edit it.
 
-A **limit** is the value at vanishing cell size. Its interval is
+A **limit** is the value at vanishing cell size:
 
-- of three meshes the grid convergence index with the observed order, at most 2, and the factor of
-  safety 1.25 (Celik et al. 2008);
-- of two meshes, which show no order, that with the order 2 and the factor 3 (Roache 1998);
-- without convergence, or with an order beyond 0.5 to 4, three times the largest difference around
-  the finest value (Eca and Hoekstra 2014);
-- of one mesh not known.
+| of | interval |
+| --- | --- |
+| three meshes | grid convergence index, order of at most 2, factor 1.25 (Celik et al. 2008) |
+| two meshes | the same with order 2 and factor 3 (Roache 1998) |
+| orders beyond 0.5 to 4 or none | 3 times the largest difference (Eca and Hoekstra 2014) |
+| one mesh | not known |
 
-The intervals of growth rates, and the band of a learnt model, are added to it as independent
-errors. *Converged* is what has an interval of ± {100 * CONVERGED:g} % or less.
+Intervals of growth rates and bands of learnt models are added as independent errors. *Converged*
+has an interval of ± {100 * CONVERGED:g} % or less.
 """
 
 
@@ -92,13 +91,12 @@ k\\* of the onset; above it a release decays. The paper has about {stated}.
 
 {_table(("model", "basis"), [(one.model, one.basis) for one in chosen], chosen)}
 - *releases*: growth rates of the runs, zero between two k\\*. A mesh with one release has the
-  growth curve of the next coarser mesh, shifted by the difference of both at that k\\*, which
-  hardly depends on k\\* near the onset (table of growth, 6.44 to 8.5).
+  growth curve of the next coarser mesh, shifted by the difference of both at that k\\*.
 - *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)); a polar of
   few angles is filled in the shape of the next coarser one.
-- `2d-corrected` divides the section's loads on its mesh by the plate's of the paper's Table 1: two
-  programs' errors, and a moment factor that grows with the mesh, since Table 1 stays.
-- `{OWN_RATIOS}` has the ratio of this project's section to its plate, on equal cells in the plane
+- `2d-corrected` divides the section's loads by the plate's of the paper's Table 1: two programs'
+  errors, and a moment factor that grows with the mesh.
+- `{OWN_RATIOS}` divides by this project's plate, on equal cells in the plane
   {f"(mesh {own_mesh})" if own_mesh else "(not kept)"}.
 """
     return text + _notes(chosen) + _of_the_plate(chosen)
@@ -111,22 +109,19 @@ def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
     limit = plate[0].limit
     return f"""
 **The plate's onset is not converged**: its limit has the interval {limit.low:.1f} to
-{limit.high:.1f}. On `medium` 30 c/V with four iterations have no growth rate, but only the
-difference from `coarse` over the same time; the longer run with two iterations is
-[not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+{limit.high:.1f}. On `medium` only its difference from `coarse` over 30 c/V is known; the longer run
+is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
 """
 
 
 def _damping(series: Sequence[MeshSeries]) -> str:
     chosen = [one for one in series if one.quantity == ONSET and one.basis == BY_MODEL]
-    rows = [(one.model, one.at.removeprefix("zeta = ") or "0") for one in chosen]
     return f"""## Structural damping
 
-The paper gives none; a plastic plate has some, and so may a time integration. The onset by the
-learnt models with the same damping (of critical) in bending and torsion:
+The paper gives none. Limits of the onset by the learnt models with the same damping (of critical)
+in bending and torsion, with half of their intervals (none on one mesh):
 
-{_table(("model", "damping"), rows, chosen)}
-"""
+{_limits("damping", chosen, form=".2f", line=lambda one: one.model)}"""
 
 
 def _growth(series: Sequence[MeshSeries]) -> str:
@@ -135,17 +130,16 @@ def _growth(series: Sequence[MeshSeries]) -> str:
     rows = [(one.at.removeprefix("k* = "), one.basis.removeprefix("releases, ")) for one in chosen]
     text = f"""## Growth at one k\\*
 
-Growth of the section `2d` (V/c, with its interval of 95 %) over the same window on each mesh, from
-20 c/V on:
+Growth of the section `2d` (V/c, with its interval of 95 %) over the same window on each mesh:
 
 {_table(("k*", "window"), rows, chosen, form="+.4f", judged=False)}
 """
     if early:
         notes = "; ".join(f"{value.mesh} {value.note}" for value in early[0].values)
         text += f"""
-The plate (`3d`) at {_plain(early[0].at)}, four iterations a step, 10 to 30 c/V. **No growth rate
-can be read from 30 c/V**: fits with and without the second bending mode differ by more than their
-errors ({notes}). Of two meshes over the same window the difference counts:
+The plate (`3d`) at {_plain(early[0].at)}, four iterations a step, 10 to 30 c/V. **Only the
+difference of both meshes counts**: fits with and without the second bending mode differ by more
+than their errors ({notes}).
 
 {_table(("model",), [("3d",)], early, form="+.4f", judged=False)}
 """
@@ -156,8 +150,7 @@ def _means(series: Sequence[MeshSeries]) -> str:
     chosen = [one for one in series if one.quantity in MEANS.values()]
     return f"""## Means and frequency
 
-Limits of the section `2d`, over the same time on each mesh, with half of their intervals; in
-italics what is not converged:
+Limits of the section `2d` with half of their intervals; in italics what is not converged:
 
 {_limits("k*", chosen, form=".4g")}
 The values on each mesh are in `results/paper-convergence/mesh_convergence.csv`.
@@ -203,7 +196,7 @@ def _of_one_plate(series: Sequence[MeshSeries]) -> str:
     return f"""
 ## Section over plate
 
-Loads of the rigid section over those of the rigid plate, on equal cells in the plane:
+Rigid, on equal cells in the plane:
 
 {_limits("incidence", ratios, form=".3f")}
 ## Modes of the plate
@@ -253,15 +246,20 @@ def _table(
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 
-def _limits(head: str, series: Sequence[MeshSeries], form: str) -> str:
+def _limits(
+    head: str,
+    series: Sequence[MeshSeries],
+    form: str,
+    line: Callable[[MeshSeries], str] = lambda one: one.quantity,
+) -> str:
     """Return a line for each quantity: its limit at each place, in italics if not converged."""
     places = list(dict.fromkeys(one.at for one in series))
-    lines = [[_plain(head), *(_plain(at.removeprefix("k* = ")) for at in places)]]
+    lines = [[_plain(head), *(_plain(at.rpartition(" = ")[2] or "0") for at in places)]]
     lines.append(["---"] * len(lines[0]))
-    found = {(one.quantity, one.at): one for one in series}
-    for quantity in dict.fromkeys(one.quantity for one in series):
-        cells = [found.get((quantity, at)) for at in places]
-        lines.append([quantity, *("" if one is None else _limit(one, form) for one in cells)])
+    found = {(line(one), one.at): one for one in series}
+    for name in dict.fromkeys(map(line, series)):
+        cells = [found.get((name, at)) for at in places]
+        lines.append([name, *("" if one is None else _limit(one, form) for one in cells)])
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 
