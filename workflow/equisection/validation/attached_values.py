@@ -27,7 +27,7 @@ _PATIL = Source(
 )
 _PATIL_EXACT = Source(
     "unconfirmed",
-    "exact solution by Theodorsen's loads in strips that the same authors compare theirs with",
+    "exact solution that the same authors compare theirs with",
 )
 _LEE = Source(
     "unconfirmed",

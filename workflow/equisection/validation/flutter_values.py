@@ -27,7 +27,13 @@ from equisection.motion.stability import critical_speed
 from equisection.reduction.reduce import Reduction, reduce_beam
 from equisection.structure.modal_matrices import ModalMatrices, modal_matrices
 from equisection.structure.modes import modes_of_kinds
-from equisection.validation.known_values import DIGITS, OWN_CODE, KnownValue, Source
+from equisection.validation.known_values import (
+    DIGITS,
+    OWN_CODE,
+    OWN_JONES,
+    KnownValue,
+    Source,
+)
 
 _AIR = 1.225
 _CONTOUR_ROOTS = Source(
@@ -36,7 +42,7 @@ _CONTOUR_ROOTS = Source(
     "transfer matrices, exact C(p), centre of mass 0.183 m behind the axis",
 )
 _OWN = Source("independent", OWN_CODE)
-_OWN_JONES = Source("independent", "the same with the two states of R. T. Jones")
+_OWN_JONES = Source("independent", OWN_JONES)
 _DIGITS = DIGITS
 
 _GOLAND_MASS_AXIS = 0.43
@@ -282,7 +288,7 @@ def _prism() -> list[KnownValue]:
     source = Source(
         "unconfirmed",
         "Parkinson and Smith, Quarterly Journal of Mechanics and Applied Mathematics 17, 1964: "
-        "A_1 = 2.69, and U = 2 beta/(n A_1) by quasi-steady theory",
+        "A_1 = 2.69, U = 2 beta/(n A_1)",
     )
     return [
         KnownValue(
@@ -486,8 +492,8 @@ def _deck() -> list[KnownValue]:
     ]
     quoted = Source(
         "unconfirmed",
-        "Diana et al., Structural Engineering International 30, 2020 (TG 3.1); mass, inertia, "
-        "frequencies, damping 0.3 % and density 1.22 kg/m3 were read where others use the deck",
+        "Diana et al., Structural Engineering International 30, 2020 (TG 3.1); the deck's values "
+        "were read where others use it",
     )
     found += [
         KnownValue(

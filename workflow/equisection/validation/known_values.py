@@ -11,12 +11,14 @@ Origin = Literal["published", "independent", "unconfirmed"]
 
 OWN_CODE = "finite elements and Theodorsen's loads by Hankel functions"
 """Usual source of an independent value."""
+OWN_JONES = "the same with the two states of R. T. Jones"
+"""Usual source of an independent value of the embedded solver."""
 DIGITS = "digits of the known value"
 """Usual reason of a tolerance."""
 ORIGINS: dict[Origin, str] = {
     "published": "read in the source that is named",
     "independent": "another computation of the same equations, in a code of its own, not "
-    f"published; {OWN_CODE}, where nothing else is named",
+    f"published; {OWN_CODE}, of the embedded solver {OWN_JONES}, where nothing else is named",
     "unconfirmed": "quoted from the source that is named, which was not at hand to look it up",
 }
 """Origin of a known value, in words."""

@@ -87,8 +87,8 @@ _WITHOUT_SKIN = PublishedWing(
     source=Source(
         "published",
         "Riso and Cesnik, Large Deflection Working Group of AePW3 (UM-A2SRL/AePW3-LDWG): beam of "
-        "2022, without skin, about 44 % of the chord, and its frequencies of 2023; places of the "
-        "nodes as AeroBeams.jl has them, ribs 38.4 mm apart",
+        "2022, without skin, about 44 % of the chord, and its frequencies of 2023; nodes as "
+        "AeroBeams.jl has them",
     ),
     length=0.552,
     chord=0.1,

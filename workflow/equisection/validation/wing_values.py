@@ -20,8 +20,8 @@ from equisection.validation.pazy_values import PAZY_WITH_SKIN
 
 _LATTICE = Source(
     "independent",
-    "vortex lattice of a flat rectangular wing, extrapolated from 4 by 12 and 8 by 24 rings a half "
-    "(that of `tests/physics/test_unsteady_induction.py`)",
+    "vortex lattice, extrapolated from 4 by 12 and 8 by 24 rings a half "
+    "(`tests/physics/test_unsteady_induction.py`)",
 )
 _UNSTEADY_LATTICE = Source(
     "published",

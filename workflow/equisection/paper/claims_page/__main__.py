@@ -65,8 +65,8 @@ it.
 
 A value here is the limit over the meshes with its interval ([how](mesh-convergence.md)). It is
 converged where that interval is ± {100 * CONVERGED:g} % or less; against a bound, where all of it
-lies on one side. Of the paper's values the interval is that of its three meshes by the same rule
-(Table 1), ± {100 * ABOUT:g} % of a value that it calls approximate, and half a digit of any other.
+lies on one side. The paper's interval is that of its three meshes by the same rule (Table 1),
+± {100 * ABOUT:g} % of a value that it calls approximate, and half a digit of any other.
 """
 
 
@@ -134,10 +134,9 @@ def _cost(evidence: Evidence) -> str:
     paper = next(p.value for p in PUBLISHED if p.quantity.startswith("cost of 3D over 2D"))
     return (
         "## Cost ladder\n\n"
-        "Processor time of the runs at the k\\* that the embedded solver was run at too, for each "
-        "convective time simulated. Ratios are to the section of the sweep. The paper's "
-        f"cells and time steps make the plate {paper:.0f} times the section. The embedded solver "
-        "is measured by running it (`make cost`).\n\n"
+        "Processor time for each convective time simulated, at the k\\* of the embedded solver's "
+        "runs (`make cost`). Ratios are to the section of the sweep; the paper's cells and time "
+        f"steps make the plate {paper:.0f} times the section.\n\n"
     ) + _table(columns, rows)
 
 
@@ -146,8 +145,7 @@ def _kept(kept: pd.DataFrame) -> str:
     return (
         "## Runs that are kept\n\n"
         f"[`{RUNS.name}`]({RUNS.name}) has the {len(kept)} releases of the paper's plate and its "
-        "sections in `results/reference/`: mesh, verdict, growth (V/c), amplitude (deg), zigzag of "
-        f"the loads, end (c/V) and processor time (s). Of {zigzag} the zigzag is above "
+        f"sections in `results/reference/`. Of {zigzag} the zigzag of the loads is above "
         f"{LARGEST_ZIGZAG:g}: [not converged in their time "
         "step](openfoam-sweep.md#loads-that-zigzag).\n"
     )

@@ -123,14 +123,13 @@ def percent(difference: float) -> str:
 
 
 def resolution_of(summary: pd.DataFrame, *models: str) -> str:
-    """Return mesh and cost of some models of a ``summary.csv`` in words."""
+    """Return mesh and number of runs of some models of a ``summary.csv`` in words."""
     runs = summary[summary["model"].isin(models)]
     if runs.empty:
         return ""
     meshes = ", ".join(sorted(set(runs["resolution"])))
     solvers = ", ".join(sorted(set(runs["solver"])))
-    hours = runs["cpu_seconds"].sum() / 3600
-    words = f"{solvers}, mesh {meshes}; {len(runs)} runs, {hours:.2g} h of one core"
+    words = f"{solvers}, mesh {meshes}, {len(runs)} runs"
     return words + _not_converged_in_time(runs)
 
 
@@ -141,6 +140,4 @@ def _not_converged_in_time(runs: pd.DataFrame) -> str:
     count = int((runs["loads_zigzag"] > LARGEST_ZIGZAG).sum())
     if not count:
         return ""
-    return (
-        f"; {count} of them [not converged in their time step](openfoam-sweep.md#loads-that-zigzag)"
-    )
+    return f", {count} of them [not converged in time](openfoam-sweep.md#loads-that-zigzag)"

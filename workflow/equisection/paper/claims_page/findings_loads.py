@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 import numpy as np
 import pandas as pd
@@ -90,14 +91,13 @@ def property_ratios(evidence: Evidence) -> Finding:
         here,
         "modes of the solid plate, reduction `paper`",
         "They come out with A_theta,w under both bending terms, not with the A_theta that Eq. 17 "
-        "prints under m_2D. The consistent reduction has other ratios, and the natural frequencies "
-        "of the plate ([errata](errata.md)).",
+        "prints under m_2D ([errata](errata.md)).",
     )
 
 
 def rigid_plate(evidence: Evidence) -> Finding:
     """Judge Table 1, coefficient by coefficient: limits of the meshes here and of the paper's."""
-    parts: dict[ClaimVerdict, list[str]] = {}
+    parts: dict[ClaimVerdict, dict[str, list[str]]] = {}
     for angle in next(iter(TABLE_1.values())):
         for name in COEFFICIENTS:
             here = evidence.limit(name, RIGID["3d"], f"{angle:g} deg")
@@ -105,17 +105,20 @@ def rigid_plate(evidence: Evidence) -> Finding:
                 continue
             printed = printed_limit(name, angle)
             stated = Known(printed.value, printed.low, printed.high)
-            words = f"{name} at {angle:g} deg {here.words()}, paper {stated.words()}"
-            parts.setdefault(here.meets(stated), []).append(words)
+            angles = parts.setdefault(here.meets(stated), {}).setdefault(name, [])
+            angles.append(f"{angle:g}")
     if not parts:
         return open_finding("steady runs of the plate (`config/openfoam3d.yaml`)")
     return Finding(
         together(parts),
-        "; ".join(f"{verdict}: {', '.join(words)}" for verdict, words in parts.items()),
+        "; ".join(
+            f"{verdict}: " + ", ".join(f"{name} at {'/'.join(at)} deg" for name, at in of.items())
+            for verdict, of in parts.items()
+        ),
         "; ".join(sorted(set(evidence.table_1["made_by"].dropna()))),
-        "Three meshes of it are kept at 2.5 deg alone, two at the others "
-        "([mesh-convergence.md](mesh-convergence.md#loads-of-the-rigid-plate-table-1), "
-        "[plate-polar.md](plate-polar.md)).",
+        "Values and intervals, the paper's too: "
+        "[mesh-convergence.md](mesh-convergence.md#loads-of-the-rigid-plate-table-1). Three meshes "
+        "are kept at 2.5 deg alone, two at the others ([plate-polar.md](plate-polar.md)).",
     )
 
 
@@ -127,10 +130,9 @@ def independence_of_the_mesh(evidence: Evidence) -> Finding:
     if study.empty:
         return open_finding("the section's polar on three meshes")
     coarser = [name for name in ("coarse", "medium") if name in study]
-    words = "; ".join(
-        f"{row['coefficient']} at {row['incidence_deg']:g} deg: "
-        + ", ".join(f"{name} {percent(row[name] / row['fine'] - 1)}" for name in coarser)
-        + " from fine"
+    words = f"{' and '.join(coarser)} from fine: " + "; ".join(
+        f"{row['coefficient']} at {row['incidence_deg']:g} deg "
+        + ", ".join(percent(row[name] / row["fine"] - 1) for name in coarser)
         for _, row in study.iterrows()
     )
     near_stall = study["incidence_deg"].max() >= 5.0
@@ -160,24 +162,31 @@ def wall_distance(evidence: Evidence) -> Finding:
         row = of_mesh.iloc[int(np.argmin(np.abs(of_mesh["incidence_deg"] - 2.5)))]
         shares.append(float(row["y_plus_below_1"]))
         parts.append(
-            f"{resolution}: below 1 on {100 * shares[-1]:.1f} % of both sides at "
-            f"{row['incidence_deg']:g} deg, largest {row['y_plus_largest']:.2g}"
+            f"{100 * shares[-1]:.1f} % at {row['incidence_deg']:g} deg on {resolution}, "
+            f"largest {row['y_plus_largest']:.2g}"
         )
     worst = rows.loc[rows["y_plus_below_1"].idxmin()]
     parts.append(
-        f"least at {worst['incidence_deg']:g} deg on {worst['resolution']}, "
-        f"{100 * worst['y_plus_below_1']:.0f} %"
+        f"least {100 * worst['y_plus_below_1']:.0f} % at {worst['incidence_deg']:g} deg on "
+        f"{worst['resolution']}"
     )
     everywhere = rows["y_plus_largest"].max() < 1.0
     return Finding(
         ClaimVerdict.AGREES if everywhere else ClaimVerdict.PARTLY,
-        "; ".join(parts),
-        "; ".join(dict.fromkeys(rows["solver"])),
+        f"below 1 on this part of both sides: {'; '.join(parts)}",
+        _described(rows["solver"]),
         ""
         if everywhere
         else "It is above 1 at the sharp edges, and on the pressure side at "
         "larger incidence; inside the viscous sublayer (below 5) it is everywhere.",
     )
+
+
+def _described(solvers: Iterable[str]) -> str:
+    """Return descriptions of solvers, with what they begin with in common once."""
+    first, *others = dict.fromkeys(solvers)
+    begin = first.rpartition(", ")[0]
+    return ", ".join([first, *(other.removeprefix(f"{begin}, ") for other in others)])
 
 
 def bubble_of_the_section(evidence: Evidence) -> Finding:
@@ -199,9 +208,8 @@ def bubble_of_the_section(evidence: Evidence) -> Finding:
     return Finding(
         together(verdicts),
         "; ".join(parts),
-        "; ".join(dict.fromkeys(used)),
-        f"The paper's lengths are taken to be good to {_OF_CHORD:g} c. It contradicts itself: half "
-        "of the chord at 1 deg here, a quarter at 2 deg at the plate's root "
+        _described(used),
+        f"The paper's lengths are taken to be good to {_OF_CHORD:g} c. It contradicts itself "
         "([errata](errata.md#2-what-is-misprinted)).",
     )
 
@@ -241,9 +249,8 @@ def bubble_of_the_plate(evidence: Evidence) -> Finding:
     return Finding(
         together(verdicts),
         "; ".join(parts),
-        "; ".join(dict.fromkeys(used)),
-        f"{note} One mesh has no interval. The paper's length at the root, at 2 deg, is half of "
-        "what it says of the section at 1 deg ([errata](errata.md#2-what-is-misprinted)).",
+        _described(used),
+        f"{note} One mesh has no interval.",
     )
 
 
@@ -261,9 +268,7 @@ def courant_number(evidence: Evidence) -> Finding:
         f"below 2 in {100 * cells_below_2:.0f} % of the cells, below 1.5 in "
         f"{100 * area_below:.1f} % of the area; largest {courant.max():.2g}",
         f"{mesh.attrs['solver_description']}, {float(mesh.attrs['time_step']):g} c/V a step",
-        "The paper's step is 2.5e-4 c/V if its 1.25e-6 are seconds, and 0.05 c/V if they are "
-        "dt c/V in SI units, as printed "
-        "([openfoam-polar.md](openfoam-polar.md#the-papers-cell-sizes)).",
+        "Which step the paper has is not clear ([errata](errata.md#2-what-is-misprinted)).",
     )
 
 
@@ -291,8 +296,7 @@ def section_against_plate(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         "limits of this project's section and plate over their meshes",
-        "With the paper's plate in the place of this project's: "
-        f"{_by_table_1(evidence.correction)}.",
+        f"With the paper's plate: {_by_table_1(evidence.correction)}.",
     )
 
 

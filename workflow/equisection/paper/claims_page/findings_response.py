@@ -89,9 +89,7 @@ def first_modes(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         resolution_of(evidence.summary, _BEAM),
-        "The share of the second mode is set by the shape of the load along the span and the ratio "
-        "of the natural frequencies: a load that is uniform along the span gives 70 (bending) and "
-        "26 (torsion).",
+        "A load that is uniform along the span gives 70 (bending) and 26 (torsion).",
     )
 
 
@@ -169,19 +167,25 @@ def _of_the_mesh(evidence: Evidence, columns: tuple[str, ...]) -> str:
             f"{100 * part:.2g} % ({_name(column)})"
             for column, part in zip(columns, parts, strict=True)
         )
-        return f". Mesh and iterations may change section over plate by {words}"
+        return f". By mesh and iterations ± {words}"
     return ". What mesh and iterations change in it is not known"
 
 
 def _by_the_other_reduction(evidence: Evidence, model: str, columns: tuple[str, ...]) -> str:
     """Say the same of the consistent reduction, which is not what the claim speaks of."""
     found = [
-        _deviations(pairs, column)
+        _range(pairs, column)
         for column in columns
         if not (pairs := _pairs(evidence.reductions, f"{model}-consistent", column)).empty
     ]
-    words = f"With the consistent reduction {'; '.join(found)}. " if found else ""
-    return f"{words}Cells in the plane are [the same](reductions.md)."
+    words = f"With the consistent reduction {', '.join(found)}, on" if found else "On"
+    return f"{words} [the same cells](reductions.md)."
+
+
+def _range(pairs: pd.DataFrame, column: str) -> str:
+    relative = pairs["here"] / pairs["beam"] - 1.0
+    ends = dict.fromkeys((percent(relative.min()), percent(relative.max())))
+    return f"{_name(column)} {' to '.join(ends)}"
 
 
 def _pairs(runs: pd.DataFrame, model: str, column: str) -> pd.DataFrame:
@@ -307,8 +311,8 @@ def limit_cycle(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         resolution_of(evidence.summary, _CORRECTED),
-        "A motion whose growth is within a few 1e-4 V/c of zero keeps its amplitude over the "
-        "length of a run; whether it is a cycle for good cannot be told from that.",
+        "A motion whose growth is within a few 1e-4 V/c of zero keeps its amplitude over a run; "
+        "whether it is a cycle for good cannot be told from that.",
     )
 
 
@@ -334,8 +338,8 @@ def growing_inside(evidence: Evidence) -> Finding:
         f"growth of section and plate (V/c, from 20 c/V after the release on): {'; '.join(parts)} "
         f"(k*). The error of the mesh is {words}",
         resolution_of(evidence.reductions, model, _BEAM),
-        "Cells in the plane are [the same](reductions.md). Without the first 20 of 60 c/V, in "
-        "which the release shows, the plate's record is short for a growth rate.",
+        "On [the same cells](reductions.md). Without the first 20 of 60 c/V, in which the release "
+        "shows, the plate's record is short for a growth rate.",
     )
 
 
@@ -420,9 +424,8 @@ def not_classical_flutter(evidence: Evidence) -> Finding:
         f"{fastest['growth_rate']:+.4f} V/c. {own}divergence at {divergence:.2f} "
         f"({by_polar:.2f} with the slope of the section's own c_m)",
         "Theodorsen's loads, k and p-k methods; fractions of a second",
-        "The instability is none of attached, linear flow. With centre of mass and pitch axis in "
-        "one there is still a linear flutter, next to divergence and far below the k* at which the "
-        "section stalls ([linear.md](linear.md)).",
+        "The instability is none of attached, linear flow. There is a linear flutter, next to "
+        "divergence and far below the k* at which the section stalls ([linear.md](linear.md)).",
     )
 
 
