@@ -177,6 +177,38 @@ def test_section_whose_mesh_has_left_the_channel_is_refused(tmp_path: Path) -> N
     assert around_airfoil().reach(0.3, 0.5) == pytest.approx(1.5, abs=0.02)
 
 
+def test_ends_of_the_section_s_mesh_turn_with_it_about_its_axis() -> None:
+    """A corner comes forward as it turns; a disc stays, but where its axis takes mid-chord."""
+    turned = math.atan2(0.45, 0.9)
+    front, rear = meshes(0.0).ends(np.array([0.0, turned]), 0.0)
+    assert front == pytest.approx([-0.9, -math.hypot(0.9, 0.45)])
+    assert rear[0] == pytest.approx(1.2)
+    for twist in (0.0, 0.3):
+        ends = np.array(around_airfoil().ends(twist, 0.5)) - 0.5
+        assert ends == pytest.approx([-1.0, 1.0], abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("upstream", "downstream", "said"),
+    [
+        (0.95, 15.0, r"reaches -0\.983 c, the inlet is at -0\.95 c"),
+        (5.0, 1.25, r"reaches 1\.27 c, the outlet is at 1\.25 c"),
+    ],
+)
+def test_section_whose_mesh_has_reached_an_end_of_the_channel_is_refused(
+    tmp_path: Path, upstream: float, downstream: float, said: str
+) -> None:
+    run = run_in(tmp_path)
+    run = replace(run, mesh=replace(run.mesh, channel=ChannelBox(0.04, 4.0, upstream, downstream)))
+    level = -run.mesh.incidence
+    turn = 0.25 if downstream == 15.0 else -0.2
+    twist = np.array([level, level + turn])
+    history = SectionHistory(np.array([0.0, 0.02]), twist, *np.zeros((4, 2)))
+    with pytest.raises(BlowUpError, match=rf"^at 0\.02 c/V the section's mesh {said}"):
+        run.require_room(history)
+    assert run.within_room(history).time.tolist() == [0.0]
+
+
 STEP = """
 Time = {time}
 

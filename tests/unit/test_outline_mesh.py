@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import resource
 import subprocess
 import sys
 from dataclasses import replace
@@ -19,7 +20,7 @@ from equisection.cases import SteadyCase, case_hash
 from equisection.config import load_config
 from equisection.errors import ConfigError, SolverError
 from equisection.solvers.openfoam.adapter import Adapter
-from equisection.solvers.openfoam.mesh import gmsh_fill
+from equisection.solvers.openfoam.mesh import gmsh_fill, outline_mesh
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
 from equisection.solvers.openfoam.mesh.outline_layers import layers_of
 from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh, require_mesher
@@ -238,8 +239,20 @@ def test_narrow_channel_is_refused() -> None:
 
 
 def test_hung_gmsh_is_ended(tmp_path: Path) -> None:
-    with pytest.raises(SolverError, match=r"gmsh did not end the mesh .* within 0\.01 s"):
-        airfoil_mesh().write(tmp_path, time_limit=0.01)
+    with pytest.raises(SolverError, match=r"gmsh did not end the mesh .* within 0\.06 s and"):
+        airfoil_mesh().write(tmp_path, time_limit=0.005)
+
+
+@pytest.mark.skipif(not hasattr(resource, "prlimit"), reason="no limit of processor time here")
+def test_gmsh_that_computes_for_ever_is_ended_by_its_processor_time(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A busy machine ends no mesh: here the clock may go on for 600 times as long."""
+    monkeypatch.setattr(outline_mesh, "BY_THE_CLOCK", 600.0)
+    (tmp_path / "gmsh.py").write_text("while True: pass")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    with pytest.raises(SolverError, match="within 1 s of processor and was ended"):
+        airfoil_mesh().write(tmp_path / "case", time_limit=1.0)
 
 
 @pytest.mark.parametrize(

@@ -56,10 +56,6 @@ _WITHOUT = (
         "0.177 on one mesh here, 0.139 to 0.156 in the source: why is not known",
     ),
     (
-        "blunt plate at 0 deg, reattachment",
-        "no published number was at hand",
-    ),
-    (
         "rectangle of 5:1 (BARC; Bruno, Salvetti and Ricciardelli, 2014)",
         "not run; drags by unsteady RANS spread from 0.965 to 1.295",
     ),

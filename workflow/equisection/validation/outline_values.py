@@ -9,6 +9,7 @@ from equisection.aerodynamics.derivatives import Derivatives
 from equisection.analysis.forced_derivatives import derivatives_of
 from equisection.cases import ForcedCase
 from equisection.results.netcdf import read_dataset
+from equisection.results.surface import surface_from_dataset
 from equisection.store.kept import kept_results
 from equisection.validation.known_values import KnownValue, Source
 
@@ -35,6 +36,13 @@ _SOHANKAR = Source(
 _DENNIS = Source(
     "unconfirmed",
     "Dennis and Chang, Journal of Fluid Mechanics 42, 1970, as others quote them",
+)
+_DJILALI = Source(
+    "published",
+    "Djilali, thesis, University of British Columbia, 1987: 4.7, read in its abstract, in a "
+    "catalogue that does not name the author; Reynolds number from the abstract of Djilali and "
+    "Gartshore, Journal of Fluids Engineering 113, 1991; blockage of 5.6 % from that of a "
+    "large-eddy simulation of the same flow",
 )
 _SYMMETRY = Source("independent", "symmetry of section and flow")
 
@@ -67,6 +75,16 @@ def kept_load(name: str, coefficient: str) -> float:
         The result is missing or altered.
     """
     return float(read_dataset(_KEPT / f"{name}.nc")[coefficient])
+
+
+def _reattachment(name: str, thickness: float) -> float:
+    """Return the length of the bubble behind the upper leading edge, in thicknesses.
+
+    ``thickness`` is that of the plate over its chord.
+    """
+    surface = surface_from_dataset(read_dataset(_KEPT / f"{name}.nc"))
+    assert surface is not None
+    return surface.reattachment("upper") / thickness
 
 
 def _lift_slope(name: str, incidence_deg: float) -> float:
@@ -124,7 +142,7 @@ def _moved_plate() -> list[KnownValue]:
 
 
 def outline_values() -> list[KnownValue]:
-    """Return known loads of an airfoil and of a thin plate."""
+    """Return known loads of an airfoil and of thin plates, and the bubble of a blunt one."""
     coarse = "coarse mesh, of some 1e4 cells"
     return [
         KnownValue(
@@ -193,6 +211,17 @@ def outline_values() -> list[KnownValue]:
                 (20, 2.045, "circular-cylinder-20"),
                 (40, 1.522, "circular-cylinder"),
             )
+        ),
+        KnownValue(
+            "Blunt plate at 0 deg by OpenFOAM, Re 5e4 by its thickness",
+            "reattachment, in thicknesses",
+            "-",
+            4.7,
+            _DJILALI,
+            partial(_reattachment, "blunt-plate/steady/2d/coarse_a0", 0.05),
+            0.18,
+            "turbulence model: k-omega SST here, and k-epsilon misses the source by 30 %, to the "
+            "other side; blockage of 2 % here; coarse mesh, whose part is not known",
         ),
         *_moved_plate(),
     ]

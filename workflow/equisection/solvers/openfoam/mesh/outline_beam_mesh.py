@@ -88,7 +88,7 @@ class OutlineBeamMesh:
             The outline has no mesh.
         SolverError
             The channel has no room for it; or gmsh is missing, crashed, or did not end within the
-            time limit (s).
+            time limit (processor s).
         """
         self.section.require_room()
         made_by(_MESHER, folder, asdict(self), time_limit)

@@ -107,6 +107,16 @@ class OutlineOversetMesh:
         height = self.channel.section_height + np.asarray(deflection)
         return np.abs(height + y * np.cos(angle) - x * np.sin(angle)) + self.section.disc_radius
 
+    def ends(self, twist: ArrayLike, along: ArrayLike) -> tuple[Floats, Floats]:
+        """Return the foremost and the rearmost x of the disc (chords).
+
+        The section is at twists (rad) beyond those of the mesh, mid-chord at places along the
+        stream (chords).
+        """
+        (x, y), angle = self.section.centre, self.section.incidence + np.asarray(twist)
+        centre = np.asarray(along) + x * np.cos(angle) + y * np.sin(angle)
+        return centre - self.section.disc_radius, centre + self.section.disc_radius
+
     def write(self, folder: Path, time_limit: float = TIME_LIMIT) -> int:
         """Make both meshes, write ``constant/polyMesh``, and return their number of cells.
 
@@ -117,7 +127,7 @@ class OutlineOversetMesh:
         BlowUpError
             The outline has no mesh.
         SolverError
-            The disc has no room; gmsh is missing, crashed, or did not end in time (s).
+            The disc has no room; gmsh is missing, crashed, or did not end in time (processor s).
         """
         self.require_room()
         made_by(_MESHER, folder, asdict(self.section), time_limit)

@@ -182,6 +182,21 @@ class OversetMesh:
         ]
         return np.asarray(np.abs(heights).max(axis=0))
 
+    def ends(self, twist: ArrayLike, along: ArrayLike) -> tuple[Floats, Floats]:
+        """Return the foremost and the rearmost x of the component (chords).
+
+        The section is at twists (rad) beyond those of the mesh, mid-chord at places along the
+        stream (chords).
+        """
+        angle = self.incidence + np.asarray(twist)
+        places = np.asarray(
+            [
+                np.asarray(along) + xi * np.cos(angle) + eta * np.sin(angle)
+                for xi, eta in self._level_points()
+            ]
+        )
+        return np.asarray(places.min(axis=0)), np.asarray(places.max(axis=0))
+
     def _component_points(self) -> list[tuple[float, float]]:
         cosine, sine = math.cos(self.incidence), math.sin(self.incidence)
         return [

@@ -22,6 +22,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from equisection.errors import SolverError
 from equisection.files import write_text
@@ -50,6 +51,7 @@ from equisection.solvers.openfoam.section.section_motion import (
 
 #: Meshes that lie above each other, around the plate or around any outline.
 OverlappingMeshes = OversetMesh | OutlineOversetMesh
+Floats = NDArray[np.float64]
 
 #: Edge of the boxes in which the library looks for the other mesh (chords): those that the plate
 #: touches are its hole.
@@ -142,11 +144,30 @@ class OversetRun(SectionRun):
 
     def mesh_fault(self, rotation: float, height: float) -> str:
         """Return the fault of the section's mesh where it has left the channel, else ''."""
-        half = self.mesh.channel.height / 2
+        channel, half = self.mesh.channel, self.mesh.channel.height / 2
         reach = float(self.meshes.reach(rotation, height))
-        if reach < half:
+        if reach >= half:
+            return (
+                f"the section's mesh reaches {reach:.3g} c off the middle of a channel of "
+                f"{half:g} c"
+            )
+        front, rear = map(float, self._ends(rotation))
+        if front <= -channel.upstream:
+            place, end = front, f"inlet is at {-channel.upstream:g} c"
+        elif rear >= channel.downstream:
+            place, end = rear, f"outlet is at {channel.downstream:g} c"
+        else:
             return ""
-        return f"the section's mesh reaches {reach:.3g} c off the middle of a channel of {half:g} c"
+        return f"the section's mesh reaches {place:.3g} c, the {end}"
+
+    def _ends(self, rotation: ArrayLike) -> tuple[Floats, Floats]:
+        """Return the ends of the section's mesh along the stream at rotations since the release.
+
+        An axis off mid-chord stays where it is along the stream, and mid-chord turns about it.
+        """
+        twist = np.asarray(rotation) + self.axes.start_twist
+        along, _ = self.axes.mid_chord_places(twist, np.zeros_like(twist))
+        return self.meshes.ends(rotation, along)
 
     def require_room_at_release(self) -> None:
         """Refuse a channel that both meshes at the release do not fit into."""
@@ -158,8 +179,13 @@ class OversetRun(SectionRun):
         What is beyond it takes no values from the channel's mesh, and the loads are wrong.
         """
         _, height = self.axes.mid_chord_places(so_far.twist, so_far.deflection)
-        reach = self.meshes.reach(so_far.twist - self.axes.start_twist, height)
-        outside = np.flatnonzero(reach >= self.mesh.channel.height / 2)
+        rotation, channel = so_far.twist - self.axes.start_twist, self.mesh.channel
+        front, rear = self._ends(rotation)
+        outside = np.flatnonzero(
+            (self.meshes.reach(rotation, height) >= channel.height / 2)
+            | (front <= -channel.upstream)
+            | (rear >= channel.downstream)
+        )
         return so_far.first(int(outside[0])) if outside.size else so_far
 
     def history(self, loads: Loads | None = None) -> SectionHistory:
