@@ -63,6 +63,20 @@ def test_what_is_no_file_is_said(tmp_path: Path) -> None:
     assert "cannot be read" in odd
 
 
+def test_file_that_only_the_clone_has_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(ConfigError) as caught:
+        check_config_files([Path("config/openfoam.yaml"), Path("config/none.yaml")])
+    of_clone, of_none = str(caught.value).splitlines()
+    named = Path(of_clone.partition("the clone has one: ")[2])
+    assert named.is_absolute()
+    assert named.parts[-2:] == ("config", "openfoam.yaml")
+    check_config_files([named])
+    assert "the clone" not in of_none
+
+
 @pytest.mark.parametrize(
     "content",
     [

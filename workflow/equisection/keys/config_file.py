@@ -19,6 +19,8 @@ _EXECUTES = "__use_yte__"
 _MOST_BYTES = 1_000_000
 _MOST_LINES = 10
 _ALLOWED = "allowed is a file of sections, as config/config.yaml is"
+#: Where this package is: the clone, if it is installed from one.
+_PROJECT = Path(__file__).resolve().parents[3]
 #: How files of other encodings begin; UTF-32 first, whose mark begins with that of UTF-16.
 _MARKS = {
     codecs.BOM_UTF32_LE: "UTF-32",
@@ -83,6 +85,12 @@ def check_config_files(paths: Iterable[Path]) -> None:
         raise ConfigError("\n".join(problems))
 
 
+def _in_clone(path: Path) -> str:
+    """Return where the project has a file of this relative path, as the end of a sentence."""
+    there = _PROJECT / path
+    return f"; the clone has one: {there}" if there.is_file() else ""
+
+
 def _text(path: Path) -> str:
     try:
         with path.open("rb") as file:
@@ -91,7 +99,7 @@ def _text(path: Path) -> str:
         raise ConfigError(f"config: {path}: is a folder; {_ALLOWED}") from None
     except FileNotFoundError:
         raise ConfigError(
-            f"config: {path}: no such file, seen from {Path.cwd()}; {_ALLOWED}"
+            f"config: {path}: no such file, seen from {Path.cwd()}; {_ALLOWED}{_in_clone(path)}"
         ) from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error

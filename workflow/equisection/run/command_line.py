@@ -528,7 +528,7 @@ def _status(folders: Sequence[Path], plain: bool, page: Path | None) -> None:
         print("\n".join(plain_lines(runs)), flush=True)
         return
     if not runs:
-        print(f"There is no run in {where} yet. Start one with 'snakemake --cores 2'.")
+        print(f"There is no run in {where} yet. Start one with 'equisection run CONFIGFILE'.")
     console = Console(highlight=False)
     for run in runs:
         print_status(console, run)

@@ -124,7 +124,7 @@ def find_runs(folder: Path) -> list[Path]:
     if not folder.is_dir():
         raise StatusError(
             f"{folder}: no such folder; give that of a run, for instance 'results/paper-plate', "
-            "or start one with 'snakemake --cores 2'"
+            "or start one with 'equisection run CONFIGFILE'"
         )
     if _is_run(folder):
         return [folder]

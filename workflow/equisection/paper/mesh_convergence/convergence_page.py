@@ -46,13 +46,13 @@ python -m equisection.paper.mesh_convergence
 writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from the kept
 results, with no flow solver: do not edit it.
 
-A **limit** is the value at vanishing cell size:
+A **limit** is the value at vanishing cell size. Its interval depends on the meshes:
 
 | of | interval |
 | --- | --- |
-| three meshes | grid convergence index, order of at most 2, factor 1.25 (Celik et al. 2008) |
+| three meshes | grid convergence index, observed order up to 2, factor 1.25 (Celik et al. 2008) |
 | two meshes | the same with order 2 and factor 3 (Roache 1998) |
-| orders beyond 0.5 to 4 or none | 3 times the largest difference (Eca and Hoekstra 2014) |
+| three, order not 0.5 to 4 or none | 3 times the largest difference (Eca and Hoekstra 2014) |
 | one mesh | not known |
 
 Intervals of growth rates and bands of learnt models are added as independent errors. *Converged*
@@ -196,7 +196,7 @@ def _of_one_plate(series: Sequence[MeshSeries]) -> str:
     return f"""
 ## Section over plate
 
-Rigid, on equal cells in the plane:
+Loads of the rigid section over those of the rigid plate, on equal cells in the plane:
 
 {_limits("incidence", ratios, form=".3f")}
 ## Modes of the plate
