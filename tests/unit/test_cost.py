@@ -271,6 +271,13 @@ def test_command_tells_what_jobs_ask_for(
     own.write_text("solver: nothing\n")
     assert main(["cost", str(own)]) == 1
     assert "solver" in capsys.readouterr().err
+    own.write_text(
+        yaml.safe_dump(
+            {"beam": {"length": 0.6}, "steady": {"beam_polar": "config/polars/paper_plate_3d.csv"}}
+        )
+    )
+    assert main(["cost", str(own)]) == 1
+    assert "steady.beam_polar" in capsys.readouterr().err
     own.unlink()
     assert main(["cost", str(own)]) == 1
     assert f"{own}: no such file" in capsys.readouterr().err

@@ -524,7 +524,9 @@ def test_runs_whose_loads_zigzag_are_named() -> None:
         loads_zigzag=np.where(whole.reductions["model"] == "3d", 0.06, 0)
     )
     how = response.mean_twist_uncorrected(replace(whole, reductions=zigzag)).how
-    assert "3 of them [not converged in time](openfoam-sweep.md#loads-that-zigzag)" in how
+    assert (
+        "3 of them [not converged in their time step](openfoam-sweep.md#loads-that-zigzag)" in how
+    )
     assert "zigzag" not in response.mean_twist_uncorrected(whole).how
     some = whole.kept.assign(loads_zigzag=[0.06, np.nan, 0.001, 0.001])
     assert "(kept-runs.csv) has the 4 releases" in page(replace(whole, kept=some))

@@ -451,10 +451,15 @@ def _cost(files: Sequence[Path]) -> None:
 
     from equisection.run.cost import COST_MODEL, read_cost_model  # noqa: PLC0415
     from equisection.run.jobs import solver_jobs, table  # noqa: PLC0415
-    from equisection.run.start import here_or_in_project, project_of_package  # noqa: PLC0415
+    from equisection.run.start import (  # noqa: PLC0415
+        checked_config,
+        here_or_in_project,
+        project_of_package,
+    )
 
-    model = here_or_in_project(COST_MODEL, project_of_package())
-    jobs = solver_jobs(_config(files), read_cost_model(model))
+    project = project_of_package()
+    config = checked_config(_keys(files), project or Path.cwd())
+    jobs = solver_jobs(config, read_cost_model(here_or_in_project(COST_MODEL, project)))
     if jobs:
         Console(highlight=False).print(table(jobs))
     else:

@@ -18,7 +18,7 @@ DIGITS = "digits of the known value"
 ORIGINS: dict[Origin, str] = {
     "published": "read in the source that is named",
     "independent": "another computation of the same equations, in a code of its own, not "
-    f"published; {OWN_CODE}, of the embedded solver {OWN_JONES}, where nothing else is named",
+    f"published; where nothing else is named, {OWN_CODE}, and for the embedded solver {OWN_JONES}",
     "unconfirmed": "quoted from the source that is named, which was not at hand to look it up",
 }
 """Origin of a known value, in words."""

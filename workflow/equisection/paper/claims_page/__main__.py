@@ -145,7 +145,8 @@ def _kept(kept: pd.DataFrame) -> str:
     return (
         "## Runs that are kept\n\n"
         f"[`{RUNS.name}`]({RUNS.name}) has the {len(kept)} releases of the paper's plate and its "
-        f"sections in `results/reference/`. Of {zigzag} the zigzag of the loads is above "
+        "sections in `results/reference/`, rates in V/c and times in c/V. Of "
+        f"{zigzag} the zigzag of the loads is above "
         f"{LARGEST_ZIGZAG:g}: [not converged in their time "
         "step](openfoam-sweep.md#loads-that-zigzag).\n"
     )

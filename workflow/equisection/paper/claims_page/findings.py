@@ -140,4 +140,5 @@ def _not_converged_in_time(runs: pd.DataFrame) -> str:
     count = int((runs["loads_zigzag"] > LARGEST_ZIGZAG).sum())
     if not count:
         return ""
-    return f", {count} of them [not converged in time](openfoam-sweep.md#loads-that-zigzag)"
+    words = "not converged in their time step"
+    return f", {count} of them [{words}](openfoam-sweep.md#loads-that-zigzag)"
