@@ -321,6 +321,7 @@ def test_targets_are_judged_by_the_narrowest_limit_of_each_model() -> None:
             onset_of_model("2d-corrected", "releases", [6.0], 0.1),
             onset_of_model("3d", "releases", [10.0, 7.0], 0.1),
             onset_of_model("3d", BY_EQUILIBRIUM, [8.0, 7.0], 0.1),
+            onset_of_model("3d", LEARNT_FROM_EQUILIBRIUM, [100.0, 97.0], 0.1),  # 7 % of its limit
         ]
     )
     found = targets(table).set_index("model")

@@ -135,7 +135,24 @@ def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
 the interval {limit.low:.1f} to {limit.high:.1f}{order}{first}.
 From rest only the difference of `medium` from `coarse` over 30 c/V is known; the longer run
 is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
-"""
+{_contradictions([one for one in chosen if one.model == "3d"])}"""
+
+
+def _contradictions(chosen: Sequence[MeshSeries]) -> str:
+    """Return where a learnt model and the releases on one mesh exclude each other."""
+    lines = [
+        f"On `{here.mesh}` *{learnt.basis}* ({_of_mesh([here], here.mesh, '.2f')}) and "
+        f"*{runs.basis}* ({_of_mesh([there], there.mesh, '.2f')}) exclude each other. The runs "
+        "count: a model learnt there is not to be trusted away from the k\\* of its release.\n"
+        for learnt in chosen
+        if learnt.basis in (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
+        for runs in chosen
+        if runs.basis not in (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
+        for here in learnt.values
+        for there in runs.values
+        if here.mesh == there.mesh and (here.low > there.high or here.high < there.low)
+    ]
+    return "".join(lines)
 
 
 def _by_first_order(one: MeshSeries) -> float:

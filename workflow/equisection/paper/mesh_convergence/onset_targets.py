@@ -17,8 +17,9 @@ WANTED = {"2d": 0.05, "2d-corrected": 0.05, OWN_RATIOS: 0.05, "3d": 0.10}
 def best_limit(table: pd.DataFrame, model: str) -> pd.Series | None:
     """Return the line of the best limit of the onset of a model without damping.
 
-    That is the narrowest interval, as a part of the limit. Without any interval it is the onset on
-    one mesh that the table has first; None where the model has none.
+    That is the narrowest interval of k*: as a part of the limit, whatever errs high would look
+    surer. Without any interval it is the onset on one mesh that the table has first; None where the
+    model has none.
 
     Parameters
     ----------
@@ -35,9 +36,9 @@ def best_limit(table: pd.DataFrame, model: str) -> pd.Series | None:
     ]
     if chosen.empty:
         return None
-    part = 0.5 * (chosen["high"] - chosen["low"]) / chosen["value"].abs()
-    part = part.where(part < math.inf)
-    return chosen.iloc[0] if part.isna().all() else chosen.loc[part.idxmin()]
+    width = chosen["high"] - chosen["low"]
+    width = width.where(width < math.inf)
+    return chosen.iloc[0] if width.isna().all() else chosen.loc[width.idxmin()]
 
 
 def targets(table: pd.DataFrame) -> pd.DataFrame:
