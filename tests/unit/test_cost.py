@@ -152,6 +152,12 @@ def test_model_is_what_the_kept_results_say() -> None:
         assert getattr(per_cell, fit.term) == pytest.approx(fit.value, rel=0.2)
 
 
+def test_beam_released_from_equilibrium_is_no_measure_of_a_step() -> None:
+    """Its time has the way of its mesh to the equilibrium, too."""
+    assert fits([KEPT / "plate-equilibrium"]) == []
+    assert [fit.term for fit in fits([KEPT / "plate-equilibrium-medium"])] == ["iteration"]
+
+
 def result(folder: Path, name: str, cpu_seconds: float, **attributes: object) -> None:
     """Write a result of 20 c/V on the coarse mesh that took some time."""
     settings = {"mesh": "coarse", "outer_correctors": 2}

@@ -219,7 +219,7 @@ def outline_values() -> list[KnownValue]:
             4.7,
             _DJILALI,
             partial(_reattachment, "blunt-plate/steady/2d/medium_a0", 0.05),
-            0.30,
+            0.18,
             "turbulence model of two equations: k-epsilon misses the source by 30 %, to the other "
             "side; blockage of 2 % here; mesh medium, 1.5 % below coarse",
         ),
