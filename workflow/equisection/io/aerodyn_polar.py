@@ -58,13 +58,14 @@ def _read(path: Path, lines: Lines) -> list[Row]:
         )
     _check_order(path, lines, line)
     rows = [(row_line, text.partition("!")[0].split()) for row_line, text in points]
+    found = [_row(path, row_line, fields) for row_line, fields in rows]
     for row_line, fields in rows:
         if len(fields) != len(rows[0][1]):
             raise PolarFileError(
                 f"{path}, line {row_line}: {len(fields)} values under rows of {len(rows[0][1])}; "
                 "correct the line or leave it out"
             )
-    return [_row(path, row_line, fields) for row_line, fields in rows]
+    return found
 
 
 def _check_order(path: Path, lines: Lines, count_line: int) -> None:
