@@ -16,6 +16,7 @@ from equisection.analysis.reduced_model import onset_of
 from equisection.cases import UnsteadyCase
 from equisection.motion.beam_lesson import learn_strips
 from equisection.motion.learnt_beams import LearntBeams
+from equisection.paper.mesh_convergence.convergence_page import page
 from equisection.paper.mesh_convergence.kept_releases import (
     FROM_EQUILIBRIUM,
     MeshLoads,
@@ -311,6 +312,20 @@ def onset_of_model(model: str, basis: str, k_star: list[float], half: float) -> 
     meshes = zip(("coarse", "medium", "fine"), (85284, 300912, 1003392), k_star, strict=False)
     values = tuple(MeshValue(*one, one[2] - half, one[2] + half) for one in meshes)
     return MeshSeries(ONSET, model, "", basis, 3, values)
+
+
+@pytest.mark.parametrize(("medium", "said"), [(13.6, True), (8.6, False)])
+def test_learnt_model_that_the_runs_exclude_is_named(medium: float, said: bool) -> None:
+    text = page(
+        [
+            onset_of_model("3d", BY_EQUILIBRIUM, [10.2, 8.4], 0.4),
+            onset_of_model("3d", LEARNT_FROM_EQUILIBRIUM, [10.4, medium], 0.4),
+        ],
+        "",
+    )
+    words = f"*{LEARNT_FROM_EQUILIBRIUM}* (13.60 ± 0.40) and *{BY_EQUILIBRIUM}* (8.40 ± 0.40)"
+    assert (words in text) == said
+    assert ("exclude each other" in text) == said
 
 
 def test_targets_are_judged_by_the_narrowest_limit_of_each_model() -> None:

@@ -181,7 +181,10 @@ def _shifted(
     half = math.hypot(half_width(here), half_width(there), change * shift)
     of = curve.mesh if group.mesh != curve.mesh else f"{curve.iterations} iterations"
     note = f"growth of {of} {shift:+.4f} +- {half:.4f} V/c, the difference at k* = "
-    return [moved_onset(table, (shift, half), base, run, f"{note}{run.case.k_star:g}")]
+    note += f"{run.case.k_star:g}"
+    if group.mesh != curve.mesh and group.iterations != curve.iterations:
+        note += f", a part of it that of {group.iterations} iterations beside {curve.iterations}"
+    return [moved_onset(table, (shift, half), base, run, note)]
 
 
 def _zigzag_in_words(group: _Runs) -> str:
