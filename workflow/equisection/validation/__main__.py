@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from equisection.clone import CLONE
 from equisection.generated import write_or_check
 from equisection.validation.attached_values import attached_values
 from equisection.validation.flutter_values import flutter_values
@@ -27,7 +28,6 @@ from equisection.validation.wing_values import wing_values
 
 COMMAND = "python -m equisection.validation"
 PAGE = Path("docs/validation.md")
-ROOT = Path(__file__).parents[3]
 
 _INTRODUCTION = f"""# Validation
 
@@ -124,7 +124,7 @@ def _percent(difference: float) -> str:
     return f"{rounded + 0.0:+.3f} %" if rounded else "0.000 %"
 
 
-def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
+def main(arguments: Sequence[str] | None = None, root: Path = CLONE) -> int:
     """Write or check the page; return the exit status."""
     about = "Known values, computed here."
     return write_or_check({PAGE: page(known_values())}, root, COMMAND, about, arguments)

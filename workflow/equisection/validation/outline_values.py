@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from functools import cache, partial
-from pathlib import Path
 
 from equisection.aerodynamics.derivatives import Derivatives
 from equisection.analysis.forced_derivatives import derivatives_of
 from equisection.cases import ForcedCase
+from equisection.clone import CLONE
 from equisection.results.netcdf import read_dataset
 from equisection.results.surface import surface_from_dataset
 from equisection.store.kept import kept_results
 from equisection.validation.known_values import KnownValue, Source
 
-_KEPT = Path(__file__).parents[3] / "results" / "reference"
+_KEPT = CLONE / "results" / "reference"
 _TRIPPED, _LAMINAR = "naca0012/steady/2d/coarse", "naca0012-laminar/steady/2d/coarse"
 
 _LADSON = Source(
