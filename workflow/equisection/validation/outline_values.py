@@ -141,7 +141,7 @@ def _moved_plate() -> list[KnownValue]:
 
 def outline_values() -> list[KnownValue]:
     """Return known loads of an airfoil and of thin plates, and the bubble of a blunt one."""
-    coarse = "coarse mesh, of some 1e4 cells"
+    coarse = "coarse mesh, some 1e4 cells"
     return [
         KnownValue(
             _AIRFOIL,

@@ -33,7 +33,7 @@ _DOUBLETS = Source(
     "Riso and Cesnik (UM-A2SRL/AePW3-LDWG), 2023: built-up model, without tip mass, doublet "
     "lattice of 36 by 18 panels (MSC Nastran)",
 )
-_ONE_VORTEX = "one bound vortex along the chord in the place of a lattice"
+_ONE_VORTEX = "one bound vortex along the chord, not a lattice"
 
 
 def lift_slope(aspect_ratio: float) -> float:

@@ -12,7 +12,8 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -25,7 +26,7 @@ from equisection.paper.claims_page.findings import Finding
 from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
 from equisection.paper.mesh_convergence.__main__ import TABLE
 from equisection.paper.mesh_convergence.convergence_page import CONVERGED
-from equisection.paper.printed_values import ABOUT, PUBLISHED
+from equisection.paper.printed_values import ABOUT
 from equisection.verdict.zigzag import LARGEST_ZIGZAG
 
 PAGE = Path("docs/side-by-side.md")
@@ -58,25 +59,35 @@ writes this page from `results/reference/`, with no flow solver: do not edit it.
 | verdict | means |
 | --- | --- |
 | **agrees** | the value here is converged, its interval meets the paper's |
-| **differs** | it is converged, its interval does not meet the paper's |
+| **differs** | it is converged, its interval does not |
 | **not converged** | its interval is too wide for either, or not known |
 | **partly** | a part of the claim agrees |
 
 A value here is the limit over the meshes with its interval ([how](mesh-convergence.md)),
 converged at ± {100 * CONVERGED:g} % or less; against a bound, where all of it lies on one side.
 The paper's interval is that of its three meshes by the same rule (Table 1), ± {100 * ABOUT:g} % of
-a value that it calls approximate, and half a digit of any other. ± {100 * ABOUT:g} % is taken to be
-a fair agreement.
+a value that it calls approximate, and half a digit of any other. ± {100 * ABOUT:g} % counts as
+fair agreement.
 """
 
 
 def page(evidence: Evidence) -> str:
     """Return the page."""
     findings = [(claim, claim.judge(evidence)) for claim in CLAIMS]
+    findings = list(_once(findings))
     parts = [_HEAD, _overview(findings)]
     parts += [_section(number, *pair) for number, pair in enumerate(findings, start=1)]
     parts += [_cost(evidence), _kept(evidence.kept), _missing(evidence.missing)]
     return "\n".join(parts)
+
+
+def _once(findings: Iterable[tuple[Claim, Finding]]) -> Iterator[tuple[Claim, Finding]]:
+    """Yield the findings; resolution and cost that an earlier one has too refer to that one."""
+    first: dict[str, int] = {}
+    for number, (claim, finding) in enumerate(findings, start=1):
+        before = first.setdefault(finding.how, number)
+        how = f"as in {before}" if finding.how and before < number else finding.how
+        yield claim, replace(finding, how=how)
 
 
 def _overview(findings: Iterable[tuple[Claim, Finding]]) -> str:
@@ -121,12 +132,10 @@ def _cost(evidence: Evidence) -> str:
         for row in ladder.itertuples()
     ]
     columns = ("mesh, outer correctors", "cells", "step, c/V", "s for each c/V", "ratio")
-    paper = next(p.value for p in PUBLISHED if p.quantity.startswith("cost of 3D over 2D"))
     return (
         "## Cost ladder\n\n"
         "Processor time (s) for each c/V simulated, by OpenFOAM or embedded, at the k\\* of "
-        "the embedded solver's runs (`make cost`). Ratio: to the section of the sweep; by "
-        f"the paper's cells and steps the plate is {paper:.0f} times the section.\n\n"
+        "the embedded solver's runs (`make cost`). Ratio: to the section of the sweep.\n\n"
     ) + _table(columns, rows)
 
 

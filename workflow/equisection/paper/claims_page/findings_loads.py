@@ -134,9 +134,12 @@ def independence_of_the_mesh(evidence: Evidence) -> Finding:
         return open_finding("the section's polar on three meshes")
     coarser = [name for name in ("coarse", "medium") if name in study]
     words = f"{' and '.join(coarser)} from fine: " + "; ".join(
-        f"{row['coefficient']} at {row['incidence_deg']:g} deg "
-        + ", ".join(percent(row[name] / row["fine"] - 1) for name in coarser)
-        for _, row in study.iterrows()
+        f"{coefficient} at {'/'.join(f'{angle:g}' for angle in rows['incidence_deg'])} deg "
+        + ", ".join(
+            " and ".join(percent(row[name] / row["fine"] - 1) for name in coarser)
+            for _, row in rows.iterrows()
+        )
+        for coefficient, rows in study.groupby("coefficient", sort=False)
     )
     near_stall = study["incidence_deg"].max() >= 5.0
     fair = [
@@ -149,8 +152,8 @@ def independence_of_the_mesh(evidence: Evidence) -> Finding:
         together(fair) if near_stall else ClaimVerdict.PARTLY,
         words + ("" if near_stall else "; three meshes were not run at angles near to stall"),
         f"cells {study['cells'].iloc[0]}",
-        "The paper's meshes have 3.5e4 and 5.1e4 cells, between medium and fine. From 5 deg on, "
-        "the steady solver finds no steady flow on the finer meshes "
+        "The paper's 3.5e4 and 5.1e4 cells are between medium and fine. From 5 deg on, the "
+        "steady solver finds no steady flow on the finer meshes "
         "([openfoam-polar.md](openfoam-polar.md)).",
     )
 

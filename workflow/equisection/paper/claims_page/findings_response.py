@@ -271,7 +271,7 @@ def _with_damping(evidence: Evidence) -> str:
         return ""
     words = (f"{'; '.join(models)} at {dampings} %" for dampings, models in parts.items())
     return (
-        "The paper gives no structural damping; with some (of critical, both motions) the learnt "
+        "With structural damping (of critical, both motions; the paper gives none) the learnt "
         f"models on the finest mesh have k* = {'; '.join(words)}."
     )
 
@@ -313,8 +313,8 @@ def limit_cycle(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         resolution_of(evidence.summary, _CORRECTED),
-        "With a growth within a few 1e-4 V/c of zero the amplitude stays over a run; whether it is "
-        "a cycle for good cannot be told from that.",
+        "A growth within a few 1e-4 V/c of zero keeps the amplitude over a run, which is no proof "
+        "of a cycle for good.",
     )
 
 
@@ -436,7 +436,7 @@ def not_classical_flutter(evidence: Evidence) -> Finding:
         f"motion of linear theory ({fastest['motion']}) decays by "
         f"{fastest['growth_rate']:+.4f} V/c. {own}divergence at {divergence:.2f} "
         f"({by_polar:.2f} with the slope of the section's own c_m)",
-        "Theodorsen's loads, k and p-k methods; fractions of a second",
+        "Theodorsen's loads, k and p-k methods",
         "The instability is none of attached, linear flow. There is [a linear flutter](linear.md), "
         "next to divergence and far below the k* at which the section stalls.",
     )
