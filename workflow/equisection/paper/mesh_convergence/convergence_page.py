@@ -167,10 +167,11 @@ def _by_first_order(one: MeshSeries) -> float:
 
 def _targets(chosen: Sequence[MeshSeries]) -> str:
     """Return how sure the best limit of each model is, and how sure it is wanted."""
-    lines = [("model", "basis", "interval", "wanted"), ("---",) * 4]
+    lines = [("model", "basis", "interval", "wanted", "reached"), ("---",) * 5]
     for row in targets(as_table(chosen)).itertuples():
         interval = f"± {row.interval:.1f} %" if math.isfinite(row.interval) else "none"
-        lines.append((row.model, row.basis, interval, f"± {row.wanted:g} %"))
+        reached = "yes" if row.lacking == 0.0 else "no"
+        lines.append((row.model, row.basis, interval, f"± {row.wanted:g} %", reached))
     table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
     return f"""
 Best limit of each model: its interval, and the one wanted
