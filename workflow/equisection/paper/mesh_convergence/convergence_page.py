@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Callable, Iterable, Sequence
 
 from equisection.analysis.grid_limit import FORMAL_ORDER
@@ -140,7 +141,7 @@ is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
 
 def _contradictions(chosen: Sequence[MeshSeries]) -> str:
     """Return where a learnt model and the releases on one mesh exclude each other."""
-    lines = ""
+    lines, between = "", " and\n"
     for learnt in chosen:
         for here in learnt.values if learnt.basis in _LEARNT else ():
             excluded = [
@@ -153,7 +154,7 @@ def _contradictions(chosen: Sequence[MeshSeries]) -> str:
             if excluded:
                 lines += (
                     f"On `{here.mesh}` *{learnt.basis}* ({_of_mesh([here], here.mesh, '.2f')}) "
-                    f"excludes {' and '.join(excluded)}.\nThe runs count: do not trust a model "
+                    f"excludes {between.join(excluded)}.\nThe runs count: do not trust a model "
                     "learnt there away from the k\\* of its release.\n"
                 )
     return lines
@@ -290,7 +291,8 @@ Rigid loads, on equal cells in the plane:
 {_limits("incidence", ratios, form=".3f")}
 ## Iterations of a time step
 
-Means of the plate with two over those with four, at {at}, 10 to 30 c/V: {quotients}.
+Means of the plate with two over those with four, at {at}, 10 to 30 c/V:
+{quotients}.
 Two are enough on `coarse`, not on `medium`.
 """
 
@@ -397,7 +399,8 @@ def _notes(series: Iterable[MeshSeries]) -> str:
         for (basis, mesh), models in places.items():
             meshes.setdefault(("; ".join(models), basis), []).append(mesh)
         names = (f"{m} ({basis}, {', '.join(on)})" for (m, basis), on in meshes.items())
-        lines += f"- {', '.join(names)}: {_plain(note)}.\n"
+        line = f"- {', '.join(names)}: {_plain(note)}."
+        lines += textwrap.fill(line, 100, subsequent_indent="  ", break_on_hyphens=False) + "\n"
     return lines
 
 
