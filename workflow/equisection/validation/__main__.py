@@ -6,8 +6,9 @@ python -m equisection.validation --check   tells whether it is up to date
 
 from __future__ import annotations
 
+import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from equisection.clone import CLONE
@@ -31,29 +32,31 @@ PAGE = Path("docs/validation.md")
 
 _INTRODUCTION = f"""# Validation
 
-Numbers known from elsewhere, and what this package makes of them.
+Numbers known from elsewhere, and the difference of what this package computes.
 
 ```
-make validation        # {COMMAND}, about twenty seconds
+make validation        # {COMMAND}, about twenty seconds; writes this page
 ```
 
-The command computes the column *here* and writes this page. `tests/physics/test_validation.py`
-asserts each number within its tolerance: the digits of the known value, where nothing else is below
-the table.
+`tests/physics/test_validation.py` asserts each number within its
+tolerance: the digits of the known value, unless the table names another.
 
 | origin | is |
 |---|---|
 """
 
+#: Number that is no part of a name.
+_NUMBER = re.compile(r"(?<![\w.-])\d+(?:\.\d+)?(?![\w.])")
+
 #: Problems that have no row, and the reason.
 _WITHOUT = (
     (
         "square prism, amplitude of galloping (Parkinson and Smith, 1964)",
-        "the coefficients beyond A_1 were not at hand",
+        "coefficients beyond A_1 were not at hand",
     ),
     (
         "square cylinder at Re 100, rms of the lift (Sohankar and others, 1998)",
-        "0.177 on one mesh here, 0.139 to 0.156 in the source: why is not known",
+        "0.177 on one mesh here, 0.139 to 0.156 in the source: not known why",
     ),
     (
         "rectangle of 5:1 (BARC; Bruno, Salvetti and Ricciardelli, 2014)",
@@ -61,11 +64,11 @@ _WITHOUT = (
     ),
     (
         "Pazy wing, flutter at an incidence",
-        "it bends by a tenth of its span and more; geometry is linear here",
+        "it bends by a tenth of its span and more; linear here",
     ),
     (
         "NACA 0012 of SU2's tutorial by CFD",
-        "the flow there is compressible",
+        "compressible there",
     ),
     (
         "embedded plate with separation",
@@ -98,20 +101,63 @@ def page(values: Sequence[KnownValue]) -> str:
 
 
 def _table(values: Sequence[KnownValue]) -> str:
-    lines = ["| quantity | known | here | difference | origin |", "|---|---|---|---|---|"]
-    lines += [
-        f"| {value.quantity} | {value.known:.9g} {_unit(value)} | {value.computed:.6g} "
-        f"| {_percent(value.difference)} | {value.source.origin} |"
-        for value in values
-    ]
+    units = dict.fromkeys(_unit(value) for value in values)
+    origins = dict.fromkeys(value.source.origin for value in values)
+    shared = next(iter(units)) if len(units) == 1 else ""
+    head = ["quantity", f"known, {shared}" if shared else "known", "difference"]
+    lines = [head + ["origin"] * (len(origins) > 1)]
+    lines.append(["---"] * len(lines[0]))
+    for rows in _alike(values):
+        line = [
+            _quantities(rows),
+            _listed((f"{row.known:.9g}" for row in rows), "" if shared else _unit(rows[0])),
+            _listed((_percent(row.difference) for row in rows), "%"),
+        ]
+        lines.append(line + [rows[0].source.origin] * (len(origins) > 1))
+    table = "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    return f"{table}\n{notes}" if (notes := _notes(values, alone=len(origins) == 1)) else table
+
+
+def _notes(values: Sequence[KnownValue], *, alone: bool) -> str:
+    """Return sources and reasons; an origin that is alone is named without a source, too."""
     sources = dict.fromkeys((value.source.origin, value.source.words) for value in values)
-    reasons = dict.fromkeys(value.reason for value in values)
-    notes = [
+    named = [
         f"- {origin}: {words}.\n" for origin, words in sources if words not in (OWN_CODE, OWN_JONES)
     ]
+    if alone and not named:
+        named = [f"- {values[0].source.origin}.\n"]
+    reasons = dict.fromkeys(value.reason for value in values)
     if list(reasons) != [DIGITS]:
-        notes.append(f"- tolerance: {'; '.join(reasons)}.\n")
-    return "\n".join((*lines, "", "".join(notes))) if notes else "\n".join((*lines, ""))
+        named.append(f"- tolerance: {'; '.join(reasons)}.\n")
+    return "".join(named)
+
+
+def _alike(values: Iterable[KnownValue]) -> list[list[KnownValue]]:
+    """Return values in lines: those that differ in one number of their quantity share one."""
+    lines: list[list[KnownValue]] = []
+    for value in values:
+        if lines and _kind(lines[-1][0]) == _kind(value):
+            lines[-1].append(value)
+        else:
+            lines.append([value])
+    return lines
+
+
+def _kind(value: KnownValue) -> tuple[str, str, str, str]:
+    text, count = _NUMBER.subn("", value.quantity)
+    source = value.source
+    return text if count == 1 else value.quantity, value.unit, source.origin, source.words
+
+
+def _quantities(rows: Sequence[KnownValue]) -> str:
+    if len(rows) == 1:
+        return rows[0].quantity
+    numbers = ", ".join(_NUMBER.findall(row.quantity)[0] for row in rows)
+    return _NUMBER.sub(numbers, rows[0].quantity)
+
+
+def _listed(numbers: Iterable[str], unit: str = "") -> str:
+    return f"{', '.join(numbers)} {unit}".rstrip()
 
 
 def _unit(value: KnownValue) -> str:
@@ -119,9 +165,9 @@ def _unit(value: KnownValue) -> str:
 
 
 def _percent(difference: float) -> str:
-    """Return a relative difference as per cent, to a thousandth of one per cent."""
+    """Return a relative difference in per cent, to a thousandth of one per cent."""
     rounded = round(100.0 * difference, 3)
-    return f"{rounded + 0.0:+.3f} %" if rounded else "0.000 %"
+    return f"{rounded + 0.0:+.3f}" if rounded else "0.000"
 
 
 def main(arguments: Sequence[str] | None = None, root: Path = CLONE) -> int:

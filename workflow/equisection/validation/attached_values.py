@@ -23,7 +23,7 @@ _HIGH_AIR = 0.0889
 _PATIL = Source(
     "unconfirmed",
     "Patil, Hodges and Cesnik, Journal of Aircraft 38, 2001, undeformed wing, as AeroBeams.jl "
-    "quotes their solution: mixed finite elements, loads by finite states",
+    "quotes them: mixed finite elements, loads by finite states",
 )
 _PATIL_EXACT = Source(
     "unconfirmed",
