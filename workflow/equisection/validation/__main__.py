@@ -6,9 +6,8 @@ python -m equisection.validation --check   tells whether it is up to date
 
 from __future__ import annotations
 
-import re
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from equisection.clone import CLONE
@@ -32,7 +31,7 @@ PAGE = Path("docs/validation.md")
 
 _INTRODUCTION = f"""# Validation
 
-Numbers known from elsewhere, and the difference of what this package computes.
+Numbers known from elsewhere, and what this package computes.
 
 ```
 make validation        # {COMMAND}, about twenty seconds; writes this page
@@ -44,9 +43,6 @@ tolerance: the digits of the known value, unless the table names another.
 | origin | is |
 |---|---|
 """
-
-#: Number that is no part of a name.
-_NUMBER = re.compile(r"(?<![\w.-])\d+(?:\.\d+)?(?![\w.])")
 
 #: Problems that have no row, and the reason.
 _WITHOUT = (
@@ -101,21 +97,16 @@ def page(values: Sequence[KnownValue]) -> str:
 
 
 def _table(values: Sequence[KnownValue]) -> str:
-    units = dict.fromkeys(_unit(value) for value in values)
     origins = dict.fromkeys(value.source.origin for value in values)
-    shared = next(iter(units)) if len(units) == 1 else ""
-    head = ["quantity", f"known, {shared}" if shared else "known", "difference"]
-    lines = [head + ["origin"] * (len(origins) > 1)]
+    several = len(origins) > 1
+    lines = [["quantity", "known", "here", "difference, %", "origin"][: 4 + several]]
     lines.append(["---"] * len(lines[0]))
-    for rows in _alike(values):
-        line = [
-            _quantities(rows),
-            _listed((f"{row.known:.9g}" for row in rows), "" if shared else _unit(rows[0])),
-            _listed((_percent(row.difference) for row in rows), "%"),
-        ]
-        lines.append(line + [rows[0].source.origin] * (len(origins) > 1))
+    for value in values:
+        known = f"{value.known:.9g} {_unit(value)}".rstrip()
+        line = [value.quantity, known, f"{value.computed:.6g}", _percent(value.difference)]
+        lines.append(line + [value.source.origin] * several)
     table = "".join(f"| {' | '.join(line)} |\n" for line in lines)
-    return f"{table}\n{notes}" if (notes := _notes(values, alone=len(origins) == 1)) else table
+    return f"{table}\n{notes}" if (notes := _notes(values, alone=not several)) else table
 
 
 def _notes(values: Sequence[KnownValue], *, alone: bool) -> str:
@@ -130,34 +121,6 @@ def _notes(values: Sequence[KnownValue], *, alone: bool) -> str:
     if list(reasons) != [DIGITS]:
         named.append(f"- tolerance: {'; '.join(reasons)}.\n")
     return "".join(named)
-
-
-def _alike(values: Iterable[KnownValue]) -> list[list[KnownValue]]:
-    """Return values in lines: those that differ in one number of their quantity share one."""
-    lines: list[list[KnownValue]] = []
-    for value in values:
-        if lines and _kind(lines[-1][0]) == _kind(value):
-            lines[-1].append(value)
-        else:
-            lines.append([value])
-    return lines
-
-
-def _kind(value: KnownValue) -> tuple[str, str, str, str]:
-    text, count = _NUMBER.subn("", value.quantity)
-    source = value.source
-    return text if count == 1 else value.quantity, value.unit, source.origin, source.words
-
-
-def _quantities(rows: Sequence[KnownValue]) -> str:
-    if len(rows) == 1:
-        return rows[0].quantity
-    numbers = ", ".join(_NUMBER.findall(row.quantity)[0] for row in rows)
-    return _NUMBER.sub(numbers, rows[0].quantity)
-
-
-def _listed(numbers: Iterable[str], unit: str = "") -> str:
-    return f"{', '.join(numbers)} {unit}".rstrip()
 
 
 def _unit(value: KnownValue) -> str:
