@@ -229,7 +229,7 @@ class SectionRun(FreeRun[SectionCells]):
             so_far = self.history(loads)
             self.require_room(so_far)
             iterations.look(so_far.time, so_far.lift, so_far.moment)
-            history = so_far.sampled(case.time_step, case.output_interval, last_look(time))
+            history = _from_release(self.folder, so_far, case, last_look(time))
             return is_decided(case, _tip(case.section, history))
 
         return decided
