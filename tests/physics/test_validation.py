@@ -8,7 +8,8 @@ from pathlib import Path
 import pytest
 
 from equisection.aerodynamics.derivatives import Derivatives
-from equisection.validation.__main__ import COMMAND, PAGE, ROOT, known_values, main
+from equisection.clone import CLONE
+from equisection.validation.__main__ import COMMAND, PAGE, known_values, main
 from equisection.validation.known_values import ORIGINS, KnownValue
 from equisection.validation.outline_values import derivatives_of_moved_plate
 
@@ -46,7 +47,7 @@ def test_a_page_that_is_out_of_date_is_told(
 ) -> None:
     old = tmp_path / PAGE
     old.parent.mkdir()
-    old.write_text((ROOT / PAGE).read_text(encoding="utf-8").replace("# Validation", "# Other", 1))
+    old.write_text((CLONE / PAGE).read_text(encoding="utf-8").replace("# Validation", "# Other", 1))
     assert main(["--check"], tmp_path) == 1
     told = capsys.readouterr()
     assert "-# Other" in told.out

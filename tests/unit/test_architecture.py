@@ -15,6 +15,7 @@ PACKAGE = Path(equisection.__file__).parent
 
 #: Rooms of the package from the bottom up: each may import from those before it.
 ROOMS = (
+    "clone",
     "needs",
     "conventions",
     "errors",

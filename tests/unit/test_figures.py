@@ -10,11 +10,13 @@ import numpy as np
 import pandas as pd
 import pytest
 import xarray as xr
+import yaml
 from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.patches import Polygon
 from matplotlib.text import Text
+from tests.conftest import ROOT
 from tests.sample_cases import PAPER
 
 import equisection
@@ -22,6 +24,7 @@ from equisection.analysis.bubble import bubble_table
 from equisection.analysis.deviations import deviations
 from equisection.analysis.grid_study import grid_study
 from equisection.analysis.summary import summarise
+from equisection.config import load_config
 from equisection.figures import (
     courant_number,
     critical_speed,
@@ -49,6 +52,7 @@ from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.references import read_references
 from equisection.figures.save import FigureFormatError, save_figure
 from equisection.figures.style import drawing_style
+from equisection.results.modes_dataset import modes_to_dataset
 from equisection.results.netcdf import write_dataset
 from equisection.results.plate_grid import PlateGrid
 from equisection.results.plate_surface import PlateSurface
@@ -58,9 +62,11 @@ from equisection.results.steady_result import SteadyResult
 from equisection.results.surface import SectionSurface
 from equisection.results.tip_flow import TipFlow
 from equisection.results.unsteady_result import UnsteadyResult
+from equisection.structure.modes import compute_modes
 from equisection.study.axes import INCIDENCE, K_STAR, SPEED, AsGiven
 
-STYLE = Path(__file__).parents[2] / "envs" / "equisection.mplstyle"
+STYLE = ROOT / "envs" / "equisection.mplstyle"
+EXAMPLES = sorted((ROOT / "config" / "examples").glob("*.yaml"))
 SOLVER = "made-up solver, 5 cells"
 
 NOTHING = read_references([], "bubble")
@@ -328,6 +334,18 @@ def test_modes_have_no_flow_solver():
 def test_modes_may_be_few(count):
     figure = mode_shapes.draw(modes(count), mode_shapes.analytic_shapes(PAPER))
     assert ("No bending mode was computed." in words(figure)) == (count == 0)
+    lay_out(figure)
+
+
+@pytest.mark.parametrize("example", EXAMPLES, ids=lambda path: path.stem)
+def test_modes_of_every_example_are_drawn(example, tmp_path):
+    """Whatever holds the beam: free ends, supports and lumped masses along the span."""
+    config = load_config(yaml.safe_load(example.read_text(encoding="utf-8")))
+    beam = config.beam
+    found = compute_modes(beam, "beam", (24, 20, 2), 6)
+    write_dataset(tmp_path / "modes.nc", modes_to_dataset(found, [0.0] * 6))
+    figure = mode_shapes.from_files(tmp_path / "modes.nc", beam.model_dump())
+    assert ("analytic beam" in words(figure)) != beam.has_fittings
     lay_out(figure)
 
 

@@ -33,7 +33,7 @@ def test_an_old_python_is_named_with_the_one_that_is_needed() -> None:
     assert "\n" not in said
 
 
-@pytest.mark.parametrize("name", ["__init__.py", "needs.py"])
+@pytest.mark.parametrize("name", ["__init__.py", "clone.py", "needs.py"])
 def test_an_old_python_can_read_what_tells_it(name: str) -> None:
     ast.parse((PACKAGE / name).read_text(), feature_version=(3, 7))
 

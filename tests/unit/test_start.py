@@ -128,7 +128,7 @@ def test_project_of_rules_that_are_fetched_is_that_of_the_package(
 ) -> None:
     fetched = Path("https://forge.example/equisection/workflow/rules")
     assert start.project_of(fetched) == ROOT
-    monkeypatch.setattr(start, "project_of_package", lambda: None)
+    monkeypatch.setattr(start, "clone_of_package", lambda: None)
     with pytest.raises(ConfigError, match="clone it"):
         start.project_of(fetched)
 

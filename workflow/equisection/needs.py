@@ -1,11 +1,14 @@
 """Python and the packages that equisection runs on, looked for before any of them is imported.
 
-It is the first module of the package to be imported, and an old Python must be able to read it.
+It and `clone` are the first modules of the package to be imported, and an old Python must be able
+to read them.
 """
 
 import sys
 from importlib.util import find_spec
 from pathlib import Path
+
+from equisection.clone import CLONE
 
 #: The oldest Python that is supported.
 OLDEST_PYTHON = (3, 11)
@@ -28,8 +31,6 @@ MODULES = (
     "jinja2",
     "docutils",
 )
-#: Where this package is, in a clone of the project or installed without one.
-_PROJECT = Path(__file__).resolve().parents[2]
 
 
 def require() -> None:
@@ -56,7 +57,7 @@ def missing(version: "tuple[int, ...]" = sys.version_info[:2]) -> str:
     if version < OLDEST_PYTHON:
         return (
             f"equisection needs Python {_dotted(OLDEST_PYTHON)} or newer, and {sys.executable} is "
-            f"{_dotted(version)}: 'make run PYTHON=python3.12' in {_PROJECT} makes an environment "
+            f"{_dotted(version)}: 'make run PYTHON=python3.12' in {CLONE} makes an environment "
             "with another one"
         )
     absent = [name for name in MODULES if name not in sys.modules and not find_spec(name)]
@@ -64,7 +65,7 @@ def missing(version: "tuple[int, ...]" = sys.version_info[:2]) -> str:
         return ""
     return (
         f"equisection is not installed in {sys.prefix} (missing: {', '.join(absent)}): "
-        f"'pip install -c envs/constraints.txt -e .' in {_PROJECT}, or 'make run' there"
+        f"'pip install -c envs/constraints.txt -e .' in {CLONE}, or 'make run' there"
     )
 
 
@@ -79,6 +80,6 @@ def _runs_a_program() -> bool:
     return (
         sys.argv[:1] == ["-m"]
         or program.name == "equisection"
-        or program.parent == _PROJECT / "scripts"
+        or program.parent == CLONE / "scripts"
         or program.parts[-3:-1] == (".snakemake", "scripts")
     )

@@ -12,6 +12,7 @@ from pathlib import Path
 
 import yaml
 
+from equisection.clone import CLONE
 from equisection.config.reference import reference
 from equisection.config.words import schema
 from equisection.generated import write_or_check
@@ -21,7 +22,6 @@ SCHEMA = Path("workflow/schemas/config.schema.yaml")
 README = Path("config/README.md")
 #: What stands above it in the README is written by hand.
 MARK = f"<!-- From here on written by `{COMMAND}`; edit the models instead. -->\n"
-ROOT = Path(__file__).parents[3]
 
 
 def schema_text() -> str:
@@ -42,7 +42,7 @@ def readme_text(readme: Path) -> str:
     return f"{text.partition(MARK)[0]}{MARK}\n{reference()}"
 
 
-def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
+def main(arguments: Sequence[str] | None = None, root: Path = CLONE) -> int:
     """Write or check both files; return the exit status."""
     wanted = {SCHEMA: schema_text(), README: readme_text(root / README)}
     return write_or_check(wanted, root, COMMAND, (__doc__ or "").strip(), arguments)

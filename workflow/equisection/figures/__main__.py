@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from equisection.clone import CLONE
 from equisection.figures.catalogue import CATALOGUE, Entry
 from equisection.generated import write_or_check
 
@@ -17,7 +18,6 @@ COMMAND = "python -m equisection.figures"
 PAGE = Path("docs/files.md")
 BEGIN = f"<!-- Written by `{COMMAND}` from the first line of each figure's module. -->\n"
 END = "<!-- End of what is written. -->\n"
-ROOT = Path(__file__).parents[3]
 
 
 def first_line(entry: Entry) -> str:
@@ -47,7 +47,7 @@ def page_text(page: str) -> str:
     return f"{before}{begin}\n{table()}\n{end}{after}"
 
 
-def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
+def main(arguments: Sequence[str] | None = None, root: Path = CLONE) -> int:
     """Write or check the list; return the exit status."""
     wanted = {PAGE: page_text((root / PAGE).read_text(encoding="utf-8"))}
     return write_or_check(wanted, root, COMMAND, (__doc__ or "").strip(), arguments)

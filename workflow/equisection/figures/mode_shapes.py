@@ -46,8 +46,13 @@ class AnalyticShapes:
     torsion: Floats
 
 
-def analytic_shapes(beam: Beam) -> AnalyticShapes:
-    """Return the first shapes of the analytic beam with the beam's ends."""
+def analytic_shapes(beam: Beam) -> AnalyticShapes | None:
+    """Return the first shapes of the analytic beam with the beam's ends.
+
+    There are none of a beam with supports or lumped masses along its span.
+    """
+    if beam.has_fittings:
+        return None
     span = np.linspace(0.0, 1.0, _STATIONS)
     return AnalyticShapes(
         span,
@@ -61,7 +66,7 @@ def from_files(modes: Path, beam: Mapping[str, Any]) -> Figure:
     return draw(read_dataset(modes), analytic_shapes(Beam(**beam)))
 
 
-def draw(modes: xr.Dataset, beam: AnalyticShapes) -> Figure:
+def draw(modes: xr.Dataset, beam: AnalyticShapes | None) -> Figure:
     """Draw the first shapes: bending left, torsion right.
 
     Parameters
@@ -69,13 +74,13 @@ def draw(modes: xr.Dataset, beam: AnalyticShapes) -> Figure:
     modes
         ``structure/modes.nc``.
     beam
-        Shapes of the analytic beam.
+        Shapes of the analytic beam, where there are any.
     """
     figure = Figure(figsize=(PAGE_WIDTH, 3.0))
     left, right = figure.subplots(1, 2, sharey=True)
     shown = max(
-        _shapes(left, modes, "bending", beam.span, beam.bending),
-        _shapes(right, modes, "torsion", beam.span, beam.torsion),
+        _shapes(left, modes, "bending", beam),
+        _shapes(right, modes, "torsion", beam),
     )
     letter(left, "a", "bending")
     letter(right, "b", "torsion")
@@ -85,23 +90,25 @@ def draw(modes: xr.Dataset, beam: AnalyticShapes) -> Figure:
         Line2D([], [], color=COLOURS[i], linestyle=DASHES[i], label=f"mode {i + 1}")
         for i in range(shown)
     ]
-    handles.append(Line2D([], [], color=GREY, linewidth=0.6, label="analytic beam"))
+    if beam is not None:
+        handles.append(Line2D([], [], color=GREY, linewidth=0.6, label="analytic beam"))
     figure.legend(handles=handles, loc="outside upper center", ncols=len(handles))
     mesh = "" if modes.attrs["elements"] == "none" else f", elements: {modes.attrs['elements']}"
     add_provenance(figure, f"modes by method '{modes.attrs['method']}'{mesh}", "no flow solver")
     return figure
 
 
-def _shapes(axes: Axes, modes: xr.Dataset, kind: str, span: Floats, beam: Floats) -> int:
+def _shapes(axes: Axes, modes: xr.Dataset, kind: str, beam: AnalyticShapes | None) -> int:
     """Draw the shapes of one kind and return how many there are."""
     shapes = modes["shape"].values[modes["kind"].values == kind][:COUNT]
     for number, shape in enumerate(shapes):
         axes.plot(modes["span"], shape, color=COLOURS[number], linestyle=DASHES[number])
-    for shape in beam[: len(shapes)]:
-        axes.plot(span, shape, color=GREY, linewidth=0.6)
     if len(shapes) == 0:
         say(axes, f"No {kind} mode was computed.")
         return 0
+    if beam is not None:
+        for line in (beam.bending if kind == "bending" else beam.torsion)[: len(shapes)]:
+            axes.plot(beam.span, line, color=GREY, linewidth=0.6)
     axes.axhline(0.0, color=GREY, linewidth=0.5)
     axes.set(xlim=(0.0, 1.0), ylim=(-1.12, 1.12), xlabel="$z/L$")
     return len(shapes)

@@ -10,6 +10,7 @@ from typing import Any
 
 import yaml
 
+from equisection.clone import CLONE
 from equisection.errors import ConfigError
 from equisection.keys.plain_yaml import BoundError, PlainLoader, oddities
 
@@ -19,8 +20,6 @@ _EXECUTES = "__use_yte__"
 _MOST_BYTES = 1_000_000
 _MOST_LINES = 10
 _ALLOWED = "allowed is a file of sections, as config/config.yaml is"
-#: Where this package is: the clone, if it is installed from one.
-_PROJECT = Path(__file__).resolve().parents[3]
 #: How files of other encodings begin; UTF-32 first, whose mark begins with that of UTF-16.
 _MARKS = {
     codecs.BOM_UTF32_LE: "UTF-32",
@@ -87,7 +86,7 @@ def check_config_files(paths: Iterable[Path]) -> None:
 
 def _in_clone(path: Path) -> str:
     """Return where the project has a file of this relative path, as the end of a sentence."""
-    there = _PROJECT / path
+    there = CLONE / path
     return f"; the clone has one: {there}" if there.is_file() else ""
 
 

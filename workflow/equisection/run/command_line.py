@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import equisection
+from equisection.clone import clone_of_package
 from equisection.errors import ArgumentError, ConfigError, EquisectionError
 from equisection.keys.shown import printable
 from equisection.run.starter import (
@@ -295,7 +296,6 @@ def _add_answers(commands: Any) -> None:
 
 def _init(options: argparse.Namespace) -> None:
     # Imported here, so that --help and --version come at once.
-    from equisection.run import start  # noqa: PLC0415
 
     values: dict[str, float] = {}
     for _, key, _, _ in QUESTIONS:
@@ -313,7 +313,7 @@ def _init(options: argparse.Namespace) -> None:
         if file.exists():
             raise StarterError(f"{file}: is there already; give another name")
         like, values = asked(values)
-    text = starter(like, name, file, examples_folder(start.project_of_package()), values)
+    text = starter(like, name, file, examples_folder(clone_of_package()), values)
     try:
         with file.open("x", encoding="utf-8") as written:
             written.write(text)
@@ -336,7 +336,7 @@ def _run(files: Sequence[Path], further: Sequence[str]) -> int:
     from equisection.run.answer import CRITICAL_SPEEDS, answer_of  # noqa: PLC0415
     from equisection.run.launch import is_whole, launch, snakemake_command  # noqa: PLC0415
 
-    config = start.checked_config(_keys(files), start.project_of_package() or Path.cwd())
+    config = start.checked_config(_keys(files), clone_of_package() or Path.cwd())
     status = launch(snakemake_command(files, further), Console(highlight=False))
     folder = start.RESULTS / config.run
     if status == 0 and is_whole(further) and (folder / CRITICAL_SPEEDS).is_file():
@@ -451,13 +451,9 @@ def _cost(files: Sequence[Path]) -> None:
 
     from equisection.run.cost import COST_MODEL, read_cost_model  # noqa: PLC0415
     from equisection.run.jobs import solver_jobs, table  # noqa: PLC0415
-    from equisection.run.start import (  # noqa: PLC0415
-        checked_config,
-        here_or_in_project,
-        project_of_package,
-    )
+    from equisection.run.start import checked_config, here_or_in_project  # noqa: PLC0415
 
-    project = project_of_package()
+    project = clone_of_package()
     config = checked_config(_keys(files), project or Path.cwd())
     jobs = solver_jobs(config, read_cost_model(here_or_in_project(COST_MODEL, project)))
     if jobs:
@@ -488,7 +484,7 @@ def _keys(files: Sequence[Path]) -> dict[str, Any]:
     from equisection.config import check_config_files, read_config_file  # noqa: PLC0415
     from equisection.run import start  # noqa: PLC0415
 
-    first = start.here_or_in_project(start.CONFIG_FILE, start.project_of_package())
+    first = start.here_or_in_project(start.CONFIG_FILE, clone_of_package())
     paths = start.config_files(first, files)
     check_config_files(paths)
     raw: dict[str, Any] = {}
@@ -502,7 +498,7 @@ def _check(files: Sequence[Path]) -> None:
     # Imported here, so that --help and --version come at once.
     from equisection.run import start  # noqa: PLC0415
 
-    config = start.checked_config(_keys(files), start.project_of_package() or Path.cwd())
+    config = start.checked_config(_keys(files), clone_of_package() or Path.cwd())
     start.say(start.notices(config))
     print(f"the configuration is valid; its results go to {start.RESULTS / config.run}")
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from equisection.run.start import project_of_package
+from equisection.clone import clone_of_package
 
 #: Snakemake's line after each job.
 _STEPS = re.compile(r"^(\d+) of (\d+) steps \(\d+%\) done$")
@@ -42,7 +42,7 @@ def snakemake_command(configfiles: Iterable[Path], further: Sequence[str]) -> li
     files = [str(path) for path in configfiles]
     # before all else, for it would take what follows it without a dash as a further file
     command = [sys.executable, "-m", "snakemake", *(["--configfile", *files] if files else [])]
-    project = project_of_package()
+    project = clone_of_package()
     place = project if project and project != Path.cwd().resolve() else Path()
     if place != Path() and not _given(further, "--snakefile", "-s"):
         command += ["--snakefile", str(place / "Snakefile")]

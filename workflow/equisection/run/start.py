@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import equisection
+from equisection.clone import clone_of_package
 from equisection.config import Config, check_files, find_files, load_config, named_files
 from equisection.errors import ConfigError
 from equisection.provenance import COMMAND_VARIABLE, CONFIG_VARIABLE, refused_by_git
@@ -49,12 +50,6 @@ _CONFIGS: set[str] = set()
 _SAID: set[str] = set()
 
 
-def project_of_package() -> Path | None:
-    """Return the clone that the package is in; none if it is installed without one."""
-    project = Path(equisection.__file__).resolve().parents[2]
-    return project if (project / "workflow" / "Snakefile").is_file() else None
-
-
 def here_or_in_project(path: Path, project: Path | None) -> Path:
     """Return a path as seen from the working directory or, if it is not there, from the project."""
     return path if path.exists() or project is None else project / path
@@ -80,7 +75,7 @@ def project_of(rules: Path) -> Path:
     ConfigError
         There is none, or its path has braces.
     """
-    project = rules.parents[1] if rules.is_dir() else project_of_package()
+    project = rules.parents[1] if rules.is_dir() else clone_of_package()
     if project is None:
         raise ConfigError(
             f"{rules}: the rules are fetched, and the package is in no clone of the project, which "

@@ -6,11 +6,12 @@ from functools import cache
 from pathlib import Path
 
 from equisection.cases import Kind
+from equisection.clone import clone_of_package
 from equisection.config import Config
 from equisection.errors import ConfigError
 from equisection.run import cost
 from equisection.run.listing import Listed
-from equisection.run.start import here_or_in_project, project_of_package
+from equisection.run.start import here_or_in_project
 
 
 class CostOfRun:
@@ -26,7 +27,7 @@ class CostOfRun:
 
     def __init__(self, config: Config | None, model: Path | None = None) -> None:
         self._config = config
-        model = model or here_or_in_project(cost.COST_MODEL, project_of_package())
+        model = model or here_or_in_project(cost.COST_MODEL, clone_of_package())
         try:
             self._model = cost.read_cost_model(model) if model.is_file() else None
         except ConfigError:

@@ -10,6 +10,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from equisection.clone import CLONE
 from equisection.generated import write_or_check
 from equisection.validation.attached_values import attached_values
 from equisection.validation.flutter_values import flutter_values
@@ -27,19 +28,17 @@ from equisection.validation.wing_values import wing_values
 
 COMMAND = "python -m equisection.validation"
 PAGE = Path("docs/validation.md")
-ROOT = Path(__file__).parents[3]
 
 _INTRODUCTION = f"""# Validation
 
-Numbers known from elsewhere, and what this package makes of them.
+Numbers known from elsewhere, and what this package computes.
 
 ```
-make validation        # {COMMAND}, about twenty seconds
+make validation        # {COMMAND}, about twenty seconds; writes this page
 ```
 
-The command computes the column *here* and writes this page. `tests/physics/test_validation.py`
-asserts each number within its tolerance: the digits of the known value, where nothing else is below
-the table.
+`tests/physics/test_validation.py` asserts each number within its
+tolerance: the digits of the known value, unless the table names another.
 
 | origin | is |
 |---|---|
@@ -49,11 +48,11 @@ the table.
 _WITHOUT = (
     (
         "square prism, amplitude of galloping (Parkinson and Smith, 1964)",
-        "the coefficients beyond A_1 were not at hand",
+        "coefficients beyond A_1 were not at hand",
     ),
     (
         "square cylinder at Re 100, rms of the lift (Sohankar and others, 1998)",
-        "0.177 on one mesh here, 0.139 to 0.156 in the source: why is not known",
+        "0.177 on one mesh here, 0.139 to 0.156 in the source: not known why",
     ),
     (
         "rectangle of 5:1 (BARC; Bruno, Salvetti and Ricciardelli, 2014)",
@@ -61,11 +60,11 @@ _WITHOUT = (
     ),
     (
         "Pazy wing, flutter at an incidence",
-        "it bends by a tenth of its span and more; geometry is linear here",
+        "it bends by a tenth of its span and more; linear here",
     ),
     (
         "NACA 0012 of SU2's tutorial by CFD",
-        "the flow there is compressible",
+        "compressible there",
     ),
     (
         "embedded plate with separation",
@@ -98,20 +97,30 @@ def page(values: Sequence[KnownValue]) -> str:
 
 
 def _table(values: Sequence[KnownValue]) -> str:
-    lines = ["| quantity | known | here | difference | origin |", "|---|---|---|---|---|"]
-    lines += [
-        f"| {value.quantity} | {value.known:.9g} {_unit(value)} | {value.computed:.6g} "
-        f"| {_percent(value.difference)} | {value.source.origin} |"
-        for value in values
-    ]
+    origins = dict.fromkeys(value.source.origin for value in values)
+    several = len(origins) > 1
+    lines = [["quantity", "known", "here", "difference, %", "origin"][: 4 + several]]
+    lines.append(["---"] * len(lines[0]))
+    for value in values:
+        known = f"{value.known:.9g} {_unit(value)}".rstrip()
+        line = [value.quantity, known, f"{value.computed:.6g}", _percent(value.difference)]
+        lines.append(line + [value.source.origin] * several)
+    table = "".join(f"| {' | '.join(line)} |\n" for line in lines)
+    return f"{table}\n{notes}" if (notes := _notes(values, alone=not several)) else table
+
+
+def _notes(values: Sequence[KnownValue], *, alone: bool) -> str:
+    """Return sources and reasons; an origin that is alone is named without a source, too."""
     sources = dict.fromkeys((value.source.origin, value.source.words) for value in values)
-    reasons = dict.fromkeys(value.reason for value in values)
-    notes = [
+    named = [
         f"- {origin}: {words}.\n" for origin, words in sources if words not in (OWN_CODE, OWN_JONES)
     ]
+    if alone and not named:
+        named = [f"- {values[0].source.origin}.\n"]
+    reasons = dict.fromkeys(value.reason for value in values)
     if list(reasons) != [DIGITS]:
-        notes.append(f"- tolerance: {'; '.join(reasons)}.\n")
-    return "\n".join((*lines, "", "".join(notes))) if notes else "\n".join((*lines, ""))
+        named.append(f"- tolerance: {'; '.join(reasons)}.\n")
+    return "".join(named)
 
 
 def _unit(value: KnownValue) -> str:
@@ -119,12 +128,12 @@ def _unit(value: KnownValue) -> str:
 
 
 def _percent(difference: float) -> str:
-    """Return a relative difference as per cent, to a thousandth of one per cent."""
+    """Return a relative difference in per cent, to a thousandth of one per cent."""
     rounded = round(100.0 * difference, 3)
-    return f"{rounded + 0.0:+.3f} %" if rounded else "0.000 %"
+    return f"{rounded + 0.0:+.3f}" if rounded else "0.000"
 
 
-def main(arguments: Sequence[str] | None = None, root: Path = ROOT) -> int:
+def main(arguments: Sequence[str] | None = None, root: Path = CLONE) -> int:
     """Write or check the page; return the exit status."""
     about = "Known values, computed here."
     return write_or_check({PAGE: page(known_values())}, root, COMMAND, about, arguments)

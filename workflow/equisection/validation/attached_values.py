@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 from functools import cache
-from pathlib import Path
 
 from equisection.aerodynamics.polar import Polar
 from equisection.aerodynamics.separation import SeparationLags
 from equisection.beam.beam import Beam
 from equisection.beam.section import Section
+from equisection.clone import CLONE
 from equisection.motion.beam_flutter import FlutterOnset, beam_flutter
 from equisection.motion.stability import critical_speed
 from equisection.reduction.reduce import reduce_beam
@@ -18,12 +18,12 @@ from equisection.structure.modes import modes_of_kinds
 from equisection.validation.flutter_values import divergence_speed
 from equisection.validation.known_values import DIGITS, KnownValue, Source
 
-_CONFIGURATION = Path(__file__).parents[3] / "config" / "validation" / "patil_wing.yaml"
+_CONFIGURATION = CLONE / "config" / "validation" / "patil_wing.yaml"
 _HIGH_AIR = 0.0889
 _PATIL = Source(
     "unconfirmed",
     "Patil, Hodges and Cesnik, Journal of Aircraft 38, 2001, undeformed wing, as AeroBeams.jl "
-    "quotes their solution: mixed finite elements, loads by finite states",
+    "quotes them: mixed finite elements, loads by finite states",
 )
 _PATIL_EXACT = Source(
     "unconfirmed",

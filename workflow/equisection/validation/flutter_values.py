@@ -38,7 +38,7 @@ from equisection.validation.known_values import (
 _AIR = 1.225
 _CONTOUR_ROOTS = Source(
     "published",
-    "ContourRoots 0.6, tutorial 11 and validation record (flavioluiz/ContourRoots): the beam by "
+    "ContourRoots 0.6, tutorial 11 and validation record (flavioluiz/ContourRoots): beam by "
     "transfer matrices, exact C(p), centre of mass 0.183 m behind the axis",
 )
 _OWN = Source("independent", OWN_CODE)
@@ -493,7 +493,7 @@ def _deck() -> list[KnownValue]:
     quoted = Source(
         "unconfirmed",
         "Diana et al., Structural Engineering International 30, 2020 (TG 3.1); the deck's values "
-        "were read where others use it",
+        "as others use them",
     )
     found += [
         KnownValue(
@@ -597,8 +597,8 @@ def _flat_plate() -> list[KnownValue]:
             0.0006 / abs(value),
             _DIGITS,
         )
-        for reduced, values in known.items()
-        for number, value in zip((1, 4), values, strict=True)
+        for place, number in enumerate((1, 4))
+        for reduced, value in ((one, values[place]) for one, values in known.items())
     ]
 
 

@@ -16,10 +16,10 @@ OWN_JONES = "the same with the two states of R. T. Jones"
 DIGITS = "digits of the known value"
 """Usual reason of a tolerance."""
 ORIGINS: dict[Origin, str] = {
-    "published": "read in the source that is named",
+    "published": "read in the source named",
     "independent": "another computation of the same equations, in a code of its own, not "
-    f"published; where nothing else is named, {OWN_CODE}, and for the embedded solver {OWN_JONES}",
-    "unconfirmed": "quoted from the source that is named, which was not at hand to look it up",
+    f"published: unless named, {OWN_CODE}, for the embedded solver {OWN_JONES}",
+    "unconfirmed": "quoted from the source named, which was not at hand",
 }
 """Origin of a known value, in words."""
 

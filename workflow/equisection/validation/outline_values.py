@@ -3,29 +3,27 @@
 from __future__ import annotations
 
 from functools import cache, partial
-from pathlib import Path
 
 from equisection.aerodynamics.derivatives import Derivatives
 from equisection.analysis.forced_derivatives import derivatives_of
 from equisection.cases import ForcedCase
+from equisection.clone import CLONE
 from equisection.results.netcdf import read_dataset
 from equisection.results.surface import surface_from_dataset
 from equisection.store.kept import kept_results
 from equisection.validation.known_values import KnownValue, Source
 
-_KEPT = Path(__file__).parents[3] / "results" / "reference"
+_KEPT = CLONE / "results" / "reference"
 _TRIPPED, _LAMINAR = "naca0012/steady/2d/coarse", "naca0012-laminar/steady/2d/coarse"
 
 _LADSON = Source(
     "published",
-    "Ladson, NASA TM 4074, 1988: Mach 0.15, Re 6e6, boundary layer tripped by grit 80, c_l of "
-    "0.4316 at 4.04 deg and -0.4417 at -4.04 deg, read in a copy of the data in NASA's Turbulence "
-    "Modeling Resource",
+    "Ladson, NASA TM 4074, 1988: Mach 0.15, Re 6e6, boundary layer tripped by grit 80, c_l "
+    "0.4316 at 4.04 deg and -0.4417 at -4.04 deg, in NASA's Turbulence Modeling Resource",
 )
 _LOCKARD = Source(
     "unconfirmed",
-    "Lockard, Luo, Milder and Singer, Journal of Statistical Physics 107, 2002, by CFL3D (0.1741) "
-    "and PowerFLOW (0.1717)",
+    "Lockard, Luo, Milder and Singer, Journal of Statistical Physics 107, 2002",
 )
 _THEODORSEN = Source("published", "Theodorsen, NACA Report 496, 1935")
 _SOHANKAR = Source(
@@ -39,7 +37,7 @@ _DENNIS = Source(
 )
 _DJILALI = Source(
     "published",
-    "Djilali, thesis, University of British Columbia, 1987: 4.7, read in its abstract, in a "
+    "Djilali, thesis, University of British Columbia, 1987, its abstract in a "
     "catalogue that does not name the author; Reynolds number from the abstract of Djilali and "
     "Gartshore, Journal of Fluids Engineering 113, 1991; blockage of 5.6 % from that of a "
     "large-eddy simulation of the same flow",
@@ -135,15 +133,15 @@ def _moved_plate() -> list[KnownValue]:
             "coarse mesh, a plate of 2 % thickness with a boundary layer; the moment hangs on "
             "where the lift acts, too",
         )
+        for load in LOADS
         for row, velocity in enumerate(VELOCITIES)
         if velocity in (3.0, 12.0)
-        for load in LOADS
     ]
 
 
 def outline_values() -> list[KnownValue]:
     """Return known loads of an airfoil and of thin plates, and the bubble of a blunt one."""
-    coarse = "coarse mesh, of some 1e4 cells"
+    coarse = "coarse mesh, some 1e4 cells"
     return [
         KnownValue(
             _AIRFOIL,
@@ -153,8 +151,7 @@ def outline_values() -> list[KnownValue]:
             _LADSON,
             partial(_lift_slope, _TRIPPED, 4.0),
             0.06,
-            "Reynolds number below that of the experiment, and a Mach number of 0.15 there, "
-            "which is 1 % of lift",
+            "Reynolds number below the experiment's, whose Mach number of 0.15 is 1 % of lift",
         ),
         KnownValue(
             _AIRFOIL,
@@ -188,8 +185,8 @@ def outline_values() -> list[KnownValue]:
                 _SOHANKAR,
                 partial(kept_load, "square-cylinder/steady/2d/coarse_a0", coefficient),
                 0.02,
-                "C_D of the three grids of the source is 1.460 to 1.478; here it is of 12 periods "
-                "on one mesh, whose halves are 1.5 % apart. The rms of the lift is no row (below)",
+                "C_D of the source's three grids is 1.460 to 1.478; here of 12 periods on one "
+                "mesh, whose halves are 1.5 % apart",
             )
             for quantity, known, coefficient in (
                 ("mean drag", 1.478, "cd"),
@@ -220,8 +217,8 @@ def outline_values() -> list[KnownValue]:
             _DJILALI,
             partial(_reattachment, "blunt-plate/steady/2d/medium_a0", 0.05),
             0.18,
-            "turbulence model of two equations: k-epsilon misses the source by 30 %, to the other "
-            "side; blockage of 2 % here; mesh medium, 1.5 % below coarse",
+            "turbulence model of two equations (k-epsilon misses the source by 30 %, to the other "
+            "side); blockage of 2 % here; mesh medium, 1.5 % below coarse",
         ),
         *_moved_plate(),
     ]

@@ -24,7 +24,7 @@ from equisection.validation.known_values import KnownValue, Source
 _AXIS, _AIR = 0.44, 1.225
 #: Distributed mass and inertia, of which a beam must have some: a thousandth of a node's.
 _MASS, _INERTIA = 5e-4, 3e-7
-_ONE_STIFFNESS = "one stiffness along the span, without coupling of bending and twist"
+_ONE_STIFFNESS = "one stiffness along the span, bending and twist not coupled"
 
 
 @dataclass(frozen=True)
@@ -87,8 +87,7 @@ _WITHOUT_SKIN = PublishedWing(
     source=Source(
         "published",
         "Riso and Cesnik, Large Deflection Working Group of AePW3 (UM-A2SRL/AePW3-LDWG): beam of "
-        "2022, without skin, about 44 % of the chord, and its frequencies of 2023; nodes as "
-        "AeroBeams.jl has them",
+        "2022, about 44 % of the chord, frequencies of 2023; nodes of AeroBeams.jl",
     ),
     length=0.552,
     chord=0.1,
@@ -111,10 +110,9 @@ PAZY_WITH_SKIN = PublishedWing(
     case="Pazy wing with skin, undeformed",
     source=Source(
         "published",
-        "Riso and Cesnik, Large Deflection Working Group of AePW3 (UM-A2SRL/AePW3-LDWG): beam of "
-        "2022, with skin, about 44 % of the chord, its frequencies and its flutter of 2023 with "
-        "loads of strips, without tip mass; chord 0.0989 m and density 1.225 kg/m3 of the built-up "
-        "model beside it",
+        "Riso and Cesnik (UM-A2SRL/AePW3-LDWG): beam of 2022, about 44 % of the chord, frequencies "
+        "and flutter of 2023 by strip loads, without tip mass; chord 0.0989 m and density 1.225 "
+        "kg/m3 of the built-up model beside it",
     ),
     length=0.549843728,
     chord=0.0989,

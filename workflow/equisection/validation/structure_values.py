@@ -14,7 +14,7 @@ from equisection.validation.known_values import DIGITS, KnownValue, Source
 
 _FV16 = Source(
     "published",
-    "NAFEMS R0015, test FV16, as Altair's verification manual OS-V 0430 prints it",
+    "NAFEMS R0015, test FV16, in Altair's verification manual OS-V 0430",
 )
 _LEISSA = Source("unconfirmed", "Leissa, Journal of Sound and Vibration 31, 1973, CFFF, a/b 2.5")
 
@@ -87,7 +87,7 @@ def structure_values() -> list[KnownValue]:
                 _FV16,
                 partial(_of, _square_plate, n),
                 0.01,
-                "the known values are a series of beam functions, off by up to 1 %",
+                "the known values, a series of beam functions, are off by up to 1 %",
             )
             for n, value in enumerate((0.421, 1.029, 2.582, 3.306, 3.753, 6.555))
         ),

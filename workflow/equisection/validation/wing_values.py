@@ -25,15 +25,15 @@ _LATTICE = Source(
 )
 _UNSTEADY_LATTICE = Source(
     "published",
-    "SHARPy's test of the wing (ImperialCollegeLondon/sharpy): linear vortex lattice of 16 by 32 "
+    "SHARPy's test (ImperialCollegeLondon/sharpy): linear vortex lattice of 16 by 32 "
     "panels, density 1.02 kg/m3, to 1 %",
 )
 _DOUBLETS = Source(
     "published",
-    "Riso and Cesnik, Large Deflection Working Group of AePW3 (UM-A2SRL/AePW3-LDWG), 2023: "
-    "built-up model with skin, without tip mass, doublet lattice of 36 by 18 panels (MSC Nastran)",
+    "Riso and Cesnik (UM-A2SRL/AePW3-LDWG), 2023: built-up model, without tip mass, doublet "
+    "lattice of 36 by 18 panels (MSC Nastran)",
 )
-_ONE_VORTEX = "one bound vortex along the chord in the place of a lattice of them"
+_ONE_VORTEX = "one bound vortex along the chord, not a lattice"
 
 
 def lift_slope(aspect_ratio: float) -> float:

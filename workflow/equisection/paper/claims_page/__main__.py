@@ -12,7 +12,8 @@ from __future__ import annotations
 import argparse
 import math
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
@@ -25,7 +26,7 @@ from equisection.paper.claims_page.findings import Finding
 from equisection.paper.claims_page.kept_runs import base_of, cost_ladder
 from equisection.paper.mesh_convergence.__main__ import TABLE
 from equisection.paper.mesh_convergence.convergence_page import CONVERGED
-from equisection.paper.printed_values import ABOUT, PUBLISHED
+from equisection.paper.printed_values import ABOUT
 from equisection.verdict.zigzag import LARGEST_ZIGZAG
 
 PAGE = Path("docs/side-by-side.md")
@@ -53,38 +54,48 @@ _HEAD = f"""# The paper, claim by claim
 make paper
 ```
 
-writes this page from the results kept in `results/reference/`, with no flow solver: do not edit
-it.
+writes this page from `results/reference/`, with no flow solver: do not edit it.
 
 | verdict | means |
 | --- | --- |
-| **agrees** | the value here is converged, and its interval meets the paper's |
-| **differs** | it is converged, and its interval does not meet the paper's |
+| **agrees** | the value here is converged, its interval meets the paper's |
+| **differs** | it is converged, its interval does not |
 | **not converged** | its interval is too wide for either, or not known |
 | **partly** | a part of the claim agrees |
 
-A value here is the limit over the meshes with its interval ([how](mesh-convergence.md)). It is
-converged where that interval is ± {100 * CONVERGED:g} % or less; against a bound, where all of it
-lies on one side. The paper's interval is that of its three meshes by the same rule (Table 1),
-± {100 * ABOUT:g} % of a value that it calls approximate, and half a digit of any other.
+A value here is the limit over the meshes with its interval ([how](mesh-convergence.md)),
+converged at ± {100 * CONVERGED:g} % or less; against a bound, where all of it lies on one side.
+The paper's interval is that of its three meshes by the same rule (Table 1), ± {100 * ABOUT:g} % of
+a value that it calls approximate, and half a digit of any other. ± {100 * ABOUT:g} % counts as
+fair agreement.
 """
 
 
 def page(evidence: Evidence) -> str:
     """Return the page."""
     findings = [(claim, claim.judge(evidence)) for claim in CLAIMS]
+    findings = list(_once(findings))
     parts = [_HEAD, _overview(findings)]
     parts += [_section(number, *pair) for number, pair in enumerate(findings, start=1)]
     parts += [_cost(evidence), _kept(evidence.kept), _missing(evidence.missing)]
     return "\n".join(parts)
 
 
+def _once(findings: Iterable[tuple[Claim, Finding]]) -> Iterator[tuple[Claim, Finding]]:
+    """Yield the findings; resolution and cost that an earlier one has too refer to that one."""
+    first: dict[str, int] = {}
+    for number, (claim, finding) in enumerate(findings, start=1):
+        before = first.setdefault(finding.how, number)
+        how = f"as in {before}" if finding.how and before < number else finding.how
+        yield claim, replace(finding, how=how)
+
+
 def _overview(findings: Iterable[tuple[Claim, Finding]]) -> str:
     rows = (
-        (str(number), f"[{claim.title}](#{_anchor(number, claim)})", f"**{finding.verdict}**")
+        (f"[{claim.title}](#{_anchor(number, claim)})", f"**{finding.verdict}**")
         for number, (claim, finding) in enumerate(findings, start=1)
     )
-    return _table(("", "claim", "here"), rows)
+    return _table(("claim", "here"), rows)
 
 
 def _anchor(number: int, claim: Claim) -> str:
@@ -100,7 +111,7 @@ def _section(number: int, claim: Claim, finding: Finding) -> str:
         f"**{str(finding.verdict).capitalize()}:** {_plain(finding.here)}.\n",
     ]
     if finding.how:
-        lines.append(f"*Made by:* {_plain(finding.how)}.\n")
+        lines.append(f"*By:* {_plain(finding.how)}.\n")
     if finding.why:
         lines.append(f"{_plain(finding.why)}.\n")
     return "\n".join(lines)
@@ -112,31 +123,19 @@ def _cost(evidence: Evidence) -> str:
     base = ladder.iloc[-1] if base is None else base
     rows = [
         (
-            row.what,
+            row.what.replace(" OpenFOAM, ", " ").replace(" outer correctors", ""),
             _number(row.cells, ".0f"),
             _number(row.time_step, "g"),
-            str(row.k_star),
             f"{row.seconds:.2g}",
             f"{row.seconds / base['seconds']:.2g}",
-            _number(row.cell_steps / base["cell_steps"], ".2g"),
         )
         for row in ladder.itertuples()
     ]
-    columns = (
-        "",
-        "cells",
-        "step, c/V",
-        "k\\*",
-        "processor s for each c/V",
-        "ratio",
-        "ratio of cells times steps",
-    )
-    paper = next(p.value for p in PUBLISHED if p.quantity.startswith("cost of 3D over 2D"))
+    columns = ("mesh, outer correctors", "cells", "step, c/V", "s for each c/V", "ratio")
     return (
         "## Cost ladder\n\n"
-        "Processor time for each convective time simulated, at the k\\* of the embedded solver's "
-        "runs (`make cost`). Ratios are to the section of the sweep; the paper's cells and time "
-        f"steps make the plate {paper:.0f} times the section.\n\n"
+        "Processor time (s) for each c/V simulated, by OpenFOAM or embedded, at the k\\* of "
+        "the embedded solver's runs (`make cost`). Ratio: to the section of the sweep.\n\n"
     ) + _table(columns, rows)
 
 
@@ -144,11 +143,9 @@ def _kept(kept: pd.DataFrame) -> str:
     zigzag = int((kept["loads_zigzag"] > LARGEST_ZIGZAG).sum())
     return (
         "## Runs that are kept\n\n"
-        f"[`{RUNS.name}`]({RUNS.name}) has the {len(kept)} releases of the paper's plate and its "
-        "sections in `results/reference/`, rates in V/c and times in c/V. Of "
-        f"{zigzag} the zigzag of the loads is above "
-        f"{LARGEST_ZIGZAG:g}: [not converged in their time "
-        "step](openfoam-sweep.md#loads-that-zigzag).\n"
+        f"[`{RUNS.name}`]({RUNS.name}) has the {len(kept)} releases of plate and sections (V/c, "
+        f"c/V). Of {zigzag} the zigzag of the loads is above {LARGEST_ZIGZAG:g}: [not converged in "
+        "their time step](openfoam-sweep.md#loads-that-zigzag).\n"
     )
 
 
@@ -166,7 +163,7 @@ def _missing(missing: pd.DataFrame) -> str:
         return "## What is missing\n\nNothing that `make paper` asks for.\n"
     rows = [(row.kind, row.model, row.case, _plain(row.reason)) for row in missing.itertuples()]
     return (
-        "## What is missing\n\nCases that `make paper` asks for and nothing kept answers; "
+        "## What is missing\n\nNothing kept answers these cases of `make paper`; "
         "`make paper FROM=scratch` computes them.\n\n"
     ) + _table(("kind", "model", "case", "reason"), rows)
 

@@ -129,7 +129,7 @@ def resolution_of(summary: pd.DataFrame, *models: str) -> str:
         return ""
     meshes = ", ".join(sorted(set(runs["resolution"])))
     solvers = ", ".join(sorted(set(runs["solver"])))
-    words = f"{solvers}, mesh {meshes}, {len(runs)} runs"
+    words = f"{solvers}, {meshes}, {len(runs)} runs"
     return words + _not_converged_in_time(runs)
 
 
@@ -140,5 +140,5 @@ def _not_converged_in_time(runs: pd.DataFrame) -> str:
     count = int((runs["loads_zigzag"] > LARGEST_ZIGZAG).sum())
     if not count:
         return ""
-    words = "not converged in their time step"
-    return f", {count} of them [{words}](openfoam-sweep.md#loads-that-zigzag)"
+    words = "not converged in time step"
+    return f", {count} [{words}](openfoam-sweep.md#loads-that-zigzag)"

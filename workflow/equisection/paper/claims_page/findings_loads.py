@@ -56,15 +56,15 @@ def natural_frequencies(evidence: Evidence) -> Finding:
         verdicts.append(together(of_mesh))
         agree = sum(one is ClaimVerdict.AGREES for one in of_mesh)
         parts.append(
-            f"{mesh}: {agree} of {len(of_mesh)} constants meet the limit here, which is "
+            f"{mesh}: {agree} of {len(of_mesh)} meet the limit here, "
             f"{percent(min(differences))} to {percent(max(differences))} from them"
         )
     return Finding(
         together(verdicts),
         "; ".join(parts),
         f"solid elements, limits over {known[0][0].meshes} meshes (`tables/table2.csv`)",
-        "The paper's finer mesh has lower frequencies than its coarser one by up to 2.6 %; "
-        "refinement here does not move them that way ([errata](errata.md)).",
+        "The paper's finer mesh has up to 2.6 % lower frequencies; refinement here does not move "
+        "them that way ([errata](errata.md)).",
     )
 
 
@@ -90,8 +90,8 @@ def property_ratios(evidence: Evidence) -> Finding:
         else ClaimVerdict.DIFFERS,
         here,
         "modes of the solid plate, reduction `paper`",
-        "They come out with A_theta,w under both bending terms, not with the A_theta that Eq. 17 "
-        "prints under m_2D ([errata](errata.md)).",
+        "With A_theta,w under both bending terms, not the A_theta that Eq. 17 prints under m_2D "
+        "([errata](errata.md)).",
     )
 
 
@@ -115,10 +115,13 @@ def rigid_plate(evidence: Evidence) -> Finding:
             f"{verdict}: " + ", ".join(f"{name} at {'/'.join(at)} deg" for name, at in of.items())
             for verdict, of in parts.items()
         ),
-        "; ".join(sorted(set(evidence.table_1["made_by"].dropna()))),
-        "Values and intervals, the paper's too: "
-        "[mesh-convergence.md](mesh-convergence.md#loads-of-the-rigid-plate-table-1). Three meshes "
-        "are kept at 2.5 deg alone, two at the others ([plate-polar.md](plate-polar.md)).",
+        _described(
+            part.rpartition(": ")[2]
+            for row in sorted(set(evidence.table_1["made_by"].dropna()))
+            for part in row.split("; ")
+        ),
+        "[Values and intervals](mesh-convergence.md#loads-of-the-rigid-plate-table-1), the paper's "
+        "too; three meshes at 2.5 deg alone, else two ([plate-polar.md](plate-polar.md)).",
     )
 
 
@@ -131,9 +134,12 @@ def independence_of_the_mesh(evidence: Evidence) -> Finding:
         return open_finding("the section's polar on three meshes")
     coarser = [name for name in ("coarse", "medium") if name in study]
     words = f"{' and '.join(coarser)} from fine: " + "; ".join(
-        f"{row['coefficient']} at {row['incidence_deg']:g} deg "
-        + ", ".join(percent(row[name] / row["fine"] - 1) for name in coarser)
-        for _, row in study.iterrows()
+        f"{coefficient} at {'/'.join(f'{angle:g}' for angle in rows['incidence_deg'])} deg "
+        + ", ".join(
+            " and ".join(percent(row[name] / row["fine"] - 1) for name in coarser)
+            for _, row in rows.iterrows()
+        )
+        for coefficient, rows in study.groupby("coefficient", sort=False)
     )
     near_stall = study["incidence_deg"].max() >= 5.0
     fair = [
@@ -145,9 +151,9 @@ def independence_of_the_mesh(evidence: Evidence) -> Finding:
     return Finding(
         together(fair) if near_stall else ClaimVerdict.PARTLY,
         words + ("" if near_stall else "; three meshes were not run at angles near to stall"),
-        f"cells {study['cells'].iloc[0]}; a fair agreement is taken to be 10 %",
-        "The paper's meshes have 3.5e4 and 5.1e4 cells, between medium and fine. From 5 deg on, "
-        "the steady solver finds no steady flow on the finer meshes "
+        f"cells {study['cells'].iloc[0]}",
+        "The paper's 3.5e4 and 5.1e4 cells are between medium and fine. From 5 deg on, the "
+        "steady solver finds no steady flow on the finer meshes "
         "([openfoam-polar.md](openfoam-polar.md)).",
     )
 
@@ -173,20 +179,21 @@ def wall_distance(evidence: Evidence) -> Finding:
     everywhere = rows["y_plus_largest"].max() < 1.0
     return Finding(
         ClaimVerdict.AGREES if everywhere else ClaimVerdict.PARTLY,
-        f"below 1 on this part of both sides: {'; '.join(parts)}",
+        f"part of both sides below 1: {'; '.join(parts)}",
         _described(rows["solver"]),
         ""
         if everywhere
-        else "It is above 1 at the sharp edges, and on the pressure side at "
-        "larger incidence; inside the viscous sublayer (below 5) it is everywhere.",
+        else "It is above 1 at the sharp edges, and on the pressure side at larger incidence; "
+        "below 5 (viscous sublayer) everywhere.",
     )
 
 
 def _described(solvers: Iterable[str]) -> str:
-    """Return descriptions of solvers, with what they begin with in common once."""
+    """Return descriptions of solvers, with what they have in common once."""
     first, *others = dict.fromkeys(solvers)
     begin = first.rpartition(", ")[0]
-    return ", ".join([first, *(other.removeprefix(f"{begin}, ") for other in others)])
+    further = (other.removeprefix(f"{begin}, ").replace(" cells ", " ") for other in others)
+    return ", ".join([first, *further])
 
 
 def bubble_of_the_section(evidence: Evidence) -> Finding:
@@ -209,8 +216,8 @@ def bubble_of_the_section(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         _described(used),
-        f"The paper's lengths are taken to be good to {_OF_CHORD:g} c. It contradicts itself "
-        "([errata](errata.md#2-what-is-misprinted)).",
+        f"The paper's lengths are taken to be good to {_OF_CHORD:g} c. It [contradicts "
+        "itself](errata.md#2-what-is-misprinted).",
     )
 
 
@@ -239,7 +246,7 @@ def bubble_of_the_plate(evidence: Evidence) -> Finding:
         here = _over_cells(at["root"], at["solver"], 3)
         verdicts.append(here.meets(Known(stated, stated - _OF_CHORD, stated + _OF_CHORD)))
         by_mesh = ", ".join(
-            f"{row.root:.2g} c at the root and {row.tip:.2g} c at the tip ({row.resolution})"
+            f"{row.root:.2g} c at the root, {row.tip:.2g} c at the tip ({row.resolution})"
             for row in at.itertuples()
         )
         parts.append(f"{angle:g} deg: {by_mesh}, paper {stated:g} c: {verdicts[-1]}")
@@ -268,7 +275,7 @@ def courant_number(evidence: Evidence) -> Finding:
         f"below 2 in {100 * cells_below_2:.0f} % of the cells, below 1.5 in "
         f"{100 * area_below:.1f} % of the area; largest {courant.max():.2g}",
         f"{mesh.attrs['solver_description']}, {float(mesh.attrs['time_step']):g} c/V a step",
-        "Which step the paper has is not clear ([errata](errata.md#2-what-is-misprinted)).",
+        "The paper's step [is not clear](errata.md#2-what-is-misprinted).",
     )
 
 
@@ -295,7 +302,7 @@ def section_against_plate(evidence: Evidence) -> Finding:
     return Finding(
         together(verdicts),
         "; ".join(parts),
-        "limits of this project's section and plate over their meshes",
+        "limits of section and plate over their meshes",
         f"With the paper's plate: {_by_table_1(evidence.correction)}.",
     )
 

@@ -89,7 +89,7 @@ def first_modes(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         resolution_of(evidence.summary, _BEAM),
-        "A load that is uniform along the span gives 70 (bending) and 26 (torsion).",
+        "A load uniform along the span gives 70 (bending) and 26 (torsion).",
     )
 
 
@@ -124,13 +124,14 @@ def _means(evidence: Evidence, model: str, columns: tuple[str, ...]) -> Finding:
         pairs = _pairs(evidence.reductions, name, column)
         if not pairs.empty:
             verdicts.append(_quotients(evidence, pairs, column).meets(_FAIR))
-            parts.append(f"{_deviations(pairs, column)}: {verdicts[-1]}")
+            named = f": {verdicts[-1]}" if len(columns) > 1 else ""
+            parts.append(f"{_deviations(pairs, column)}{named}")
     if not parts:
         return open_finding(_BOTH_REDUCTIONS)
     return Finding(
         together(verdicts),
         "; ".join(parts) + _of_the_mesh(evidence, columns),
-        resolution_of(evidence.reductions, name, _BEAM) + "; within 10 % counts as agreement",
+        resolution_of(evidence.reductions, name, _BEAM),
         _by_the_other_reduction(evidence, model, columns),
     )
 
@@ -164,7 +165,7 @@ def _of_the_mesh(evidence: Evidence, columns: tuple[str, ...]) -> str:
     parts = [_part_of_mesh(evidence, column) for column in columns]
     if all(map(math.isfinite, parts)):
         words = ", ".join(
-            f"{100 * part:.2g} % ({_name(column)})"
+            f"{100 * part:.2g} %" + f" ({_name(column)})" * (len(columns) > 1)
             for column, part in zip(columns, parts, strict=True)
         )
         return f". By mesh and iterations ± {words}"
@@ -246,29 +247,32 @@ def onset(evidence: Evidence) -> Finding:
         together(verdicts),
         f"{'; '.join(parts)}. Paper {paper.words()}",
         "the narrowest limit of each model over its meshes ([how](mesh-convergence.md))",
-        f"{_with_damping(evidence)} Brackets of the sweep on `coarse`, which is not converged: "
+        f"{_with_damping(evidence)} By the sweep on `coarse`, not converged: "
         f"{_brackets(evidence)}. The paper reads its onset off the slope of the means.",
     )
 
 
 def _with_damping(evidence: Evidence) -> str:
     """Say what structural damping, of which the paper says nothing, makes of the onset."""
-    parts = []
+    parts: dict[str, list[str]] = {}
     for model in (_CORRECTED, OWN_RATIOS, _BEAM):
-        found = []
+        found = {}
         for zeta in DAMPING:
             rows = evidence.over_meshes(ONSET, model, damped(zeta), BY_MODEL)
             rows = rows[rows["mesh"] != LIMIT]
             if len(rows):
-                found.append(f"{float(rows['value'].iloc[-1]):.2f} at {100 * zeta:g} %")
+                found[f"{100 * zeta:g}"] = f"{float(rows['value'].iloc[-1]):.2f}"
                 mesh = rows["mesh"].iloc[-1]
         if found:
-            parts.append(f"{_TITLES.get(model, model)} ({mesh}) {', '.join(found)}")
+            onsets, dampings = (", ".join(one) for one in (found.values(), found))
+            of_these = parts.setdefault(dampings, [])
+            of_these.append(f"{_TITLES.get(model, model)} ({mesh}) {onsets}")
     if not parts:
         return ""
+    words = (f"{'; '.join(models)} at {dampings} %" for dampings, models in parts.items())
     return (
-        "The paper gives no structural damping; with some, of critical in both motions, the onset "
-        f"by the learnt models on the finest mesh is at k* = {'; '.join(parts)}."
+        "With structural damping (of critical, both motions; the paper gives none) the learnt "
+        f"models on the finest mesh have k* = {'; '.join(words)}."
     )
 
 
@@ -277,7 +281,7 @@ def _brackets(evidence: Evidence) -> str:
     for model in (_CORRECTED, _BEAM, _SECTION):
         unstable, stable = evidence.bracket(model)
         if math.isfinite(unstable) and math.isfinite(stable):
-            parts.append(f"{model} unstable at {unstable:g}, stable at {stable:g}")
+            parts.append(f"{model} between {unstable:g} and {stable:g}")
     return "; ".join(parts) or "none"
 
 
@@ -309,8 +313,8 @@ def limit_cycle(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         resolution_of(evidence.summary, _CORRECTED),
-        "A motion whose growth is within a few 1e-4 V/c of zero keeps its amplitude over a run; "
-        "whether it is a cycle for good cannot be told from that.",
+        "A growth within a few 1e-4 V/c of zero keeps the amplitude over a run, which is no proof "
+        "of a cycle for good.",
     )
 
 
@@ -334,10 +338,10 @@ def growing_inside(evidence: Evidence) -> Finding:
     return Finding(
         together(verdicts),
         f"growth of section and plate (V/c, from 20 c/V after the release on): {'; '.join(parts)} "
-        f"(k*). The error of the mesh is {words}",
+        f"(k*). Error of the mesh: {words}",
         resolution_of(evidence.reductions, model, _BEAM),
-        "On [the same cells](reductions.md). Without the first 20 of 60 c/V, in which the release "
-        "shows, the plate's record is short for a growth rate.",
+        "On [the same cells](reductions.md). Without the first 20 of 60 c/V (the release shows) "
+        "the plate's record is short for a growth rate.",
     )
 
 
@@ -402,7 +406,7 @@ def decay_at_high_stiffness(evidence: Evidence) -> Finding:
         together(verdicts),
         "; ".join(parts),
         resolution_of(evidence.summary, _SECTION, _CORRECTED, _BEAM),
-        "The error of the mesh is that of the section at k* = 14, and of the plate at 6.44.",
+        "Errors of the mesh: section at k* = 14, plate at 6.44.",
     )
 
 
@@ -425,18 +429,16 @@ def not_classical_flutter(evidence: Evidence) -> Finding:
         float(row[name].iloc[0])
         for name in ("linear_flutter", "linear_divergence", "divergence_by_polar")
     )
-    own = (
-        f"Its own flutter is at k* = {flutter:.2f}, " if math.isfinite(flutter) else "It has none; "
-    )
+    own = f"Its flutter is at k* = {flutter:.2f}, " if math.isfinite(flutter) else "It has none; "
     return Finding(
         ClaimVerdict.AGREES if fastest["growth_rate"] < 0.0 else ClaimVerdict.DIFFERS,
-        f"at k* = {unstable:g}, where the uncorrected section is still unstable, the least damped "
+        f"at k* = {unstable:g}, with the uncorrected section still unstable, the least damped "
         f"motion of linear theory ({fastest['motion']}) decays by "
         f"{fastest['growth_rate']:+.4f} V/c. {own}divergence at {divergence:.2f} "
         f"({by_polar:.2f} with the slope of the section's own c_m)",
-        "Theodorsen's loads, k and p-k methods; fractions of a second",
-        "The instability is none of attached, linear flow. There is a linear flutter, next to "
-        "divergence and far below the k* at which the section stalls ([linear.md](linear.md)).",
+        "Theodorsen's loads, k and p-k methods",
+        "The instability is none of attached, linear flow. There is [a linear flutter](linear.md), "
+        "next to divergence and far below the k* at which the section stalls.",
     )
 
 
@@ -457,7 +459,7 @@ def cost(evidence: Evidence) -> Finding:
         if ratio >= 5
         else ClaimVerdict.DIFFERS,
         f"{ratio:.3g} times the processor time for the same time simulated, with {steps:.3g} times "
-        f"the cells and steps (in the paper {_PAPER_COST:.0f})",
-        f"{dearest['what']} over {section['what']}; the table below",
-        "The meshes here are nearer to each other in size than the paper's.",
+        f"the cells and steps (paper {_PAPER_COST:.0f})",
+        f"{dearest['what']} over {section['what']}",
+        "The meshes here are nearer in size than the paper's.",
     )

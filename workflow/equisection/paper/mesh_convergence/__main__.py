@@ -15,6 +15,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from equisection.clone import CLONE
 from equisection.errors import EquisectionError
 from equisection.figures.save import save_figure
 from equisection.figures.style import drawing_style
@@ -53,11 +54,10 @@ from equisection.paper.mesh_convergence.onset_targets import targets
 from equisection.paper.printed_values import PAPER_ONSET
 
 COMMAND = "python -m equisection.paper.mesh_convergence"
-ROOT = Path(__file__).parents[4]
 PAGE = Path("docs/mesh-convergence.md")
 FIGURE = Path("docs/onset-over-cell-size.png")
 TABLE = Path("results/paper-convergence/mesh_convergence.csv")
-STYLE = ROOT / "envs" / "equisection.mplstyle"
+STYLE = CLONE / "envs" / "equisection.mplstyle"
 
 
 def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
@@ -68,7 +68,7 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
     own, own_mesh = own_factors(section, plate)
     series = [
         *onsets_by_releases(releases),
-        *sections_by_model(releases, section, plate_of_table_1(ROOT), own),
+        *sections_by_model(releases, section, plate_of_table_1(CLONE), own),
         *plates_by_model(releases, plate),
         *onsets_from_equilibrium(from_equilibrium, releases),
         *learnt_from_equilibrium(from_equilibrium, plate),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import textwrap
 from collections.abc import Callable, Iterable, Sequence
 
 from equisection.analysis.grid_limit import FORMAL_ORDER
@@ -13,7 +14,6 @@ from equisection.paper.mesh_convergence.kept_releases import (
 )
 from equisection.paper.mesh_convergence.loads_by_mesh import (
     EQUAL_CELLS,
-    FIRST_MODE,
     MEANS,
     RIGID,
     TWO_OVER_FOUR,
@@ -25,6 +25,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     GROWTH,
     GROWTH_EARLY,
     ONSET,
+    WITHOUT_SECOND,
 )
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     BY_EQUILIBRIUM,
@@ -35,18 +36,18 @@ from equisection.paper.printed_values import COEFFICIENTS, PAPER_ONSET
 
 #: Twist (deg) that disturbs the equilibrium of a release.
 DISTURBANCE = FROM_EQUILIBRIUM["twist_deg"]
-#: Kinds of the beam's modes.
-KINDS = ("torsion", "bending")
+#: Bases of an onset that is predicted by a learnt model.
+_LEARNT = (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
 #: Half-width of an interval, as a part of the value, up to which a value counts as converged.
 CONVERGED = 0.1
 
 _PICTURE = (
-    "Left: k* of the onset over the cell size, of three models, with the limit of each and the "
-    "paper's 5.5. Right: over the structural damping"
+    "Left: k* of the onset over the cell size, with the limits and the paper's 5.5. Right: over "
+    "the structural damping"
 )
 _HEAD = f"""# The onset over the cell size
 
-Onset of the paper's plate and of its sections over the cell size, and how sure its limit is.
+Onset of the paper's plate and sections, and how sure its limit is.
 
 ![{_PICTURE}](onset-over-cell-size.png)
 
@@ -55,20 +56,20 @@ make paper                                          # or this step of it alone:
 python -m equisection.paper.mesh_convergence
 ```
 
-writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from the kept
-results, with no flow solver: do not edit it.
+writes this page (do not edit it), its figure and
+`results/paper-convergence/mesh_convergence.csv` from kept results, with no flow solver.
 
-A **limit** is the value at vanishing cell size. Its interval depends on the meshes:
+A **limit** is the value at vanishing cell size:
 
-| of | interval |
+| meshes | its interval |
 | --- | --- |
-| three meshes | grid convergence index, observed order up to 2, factor 1.25 (Celik et al. 2008) |
-| two meshes | the same with order 2 and factor 3 (Roache 1998) |
+| three | grid convergence index, observed order up to 2, factor 1.25 (Celik et al. 2008) |
+| two | the same with order 2 and factor 3 (Roache 1998) |
 | three, order not 0.5 to 4 or none | 3 times the largest difference (Eca and Hoekstra 2014) |
-| one mesh | not known |
+| one | not known |
 
-Intervals of growth rates and bands of learnt models are added as independent errors. *Converged*
-has an interval of ± {100 * CONVERGED:g} % or less.
+Intervals of growth rates and bands of learnt models are added as independent errors. *Converged*:
+± {100 * CONVERGED:g} % or less.
 """
 
 
@@ -99,21 +100,21 @@ def _onsets(series: Sequence[MeshSeries], own_mesh: str) -> str:
     stated = f"{PAPER_ONSET[0]:g}, here taken as {low:g} to {high:g}"
     text = f"""## Onset
 
-k\\* of the onset; above it a release decays. The paper has about {stated}.
+k\\* of the onset; above it a release decays. The paper: about {stated}.
 
 {_table(("model", "basis"), [(one.model, one.basis) for one in chosen], chosen)}
-- *releases*: growth rates of the runs, zero between two k\\*. A mesh with one release has the
-  growth curve of the next coarser mesh, shifted by the difference of both at that k\\*.
+- *releases*: zero of the runs' growth between two k\\*. From one release on a mesh: the next
+  coarser growth curve, shifted by the difference at that k\\*.
 - *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)); a polar of
   few angles is filled in the shape of the next coarser one.
 - *{BY_EQUILIBRIUM}*: the plate from static equilibrium with {DISTURBANCE:g} deg more
-  ([why](openfoam.md#starts)): growth of small motions from 10 c/V on. Another mesh, or more
-  iterations, shift the curve by the difference at one k\\*; its interval has what the section's own
+  ([why](openfoam.md#starts)), growth of small motions from 10 c/V on. Another mesh, or more
+  iterations, shift the curve by the difference at one k\\*; its interval has what the section's
   shift changes with k\\*.
 - *{LEARNT_FROM_EQUILIBRIUM}*: from such a release at k\\* 6.44, with the slope of the steady
   loads; onset of small motions by eigenvalues. Its band is the farthest miss at the other k\\*.
-- `2d-corrected` divides the section's loads by the plate's of the paper's Table 1: two programs'
-  errors, and a moment factor that grows with the mesh.
+- `2d-corrected` divides by the plate of the paper's Table 1: two programs' errors, and a moment
+  factor that grows with the mesh.
 - `{OWN_RATIOS}` divides by this project's plate, on equal cells in the plane
   {f"(mesh {own_mesh}; releases: coarse)" if own_mesh else "(not kept)"}.
 """
@@ -131,8 +132,8 @@ def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
     order = f", with the assumed order {FORMAL_ORDER:g}" if limit.meshes == 2 else ""
     first = f" ({_by_first_order(one):.1f} with the order 1)" if limit.meshes == 2 else ""
     return f"""
-**The plate's onset is {state}**: the best of its limits ({one.basis}) is {limit.value:.1f} with
-the interval {limit.low:.1f} to {limit.high:.1f}{order}{first}.
+**The plate's onset is {state}**: its best limit ({one.basis}) is {limit.value:.1f} with the
+interval {limit.low:.1f} to {limit.high:.1f}{order}{first}.
 From rest only the difference of `medium` from `coarse` over 30 c/V is known; the longer run
 is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
 {_contradictions([one for one in chosen if one.model == "3d"])}"""
@@ -140,19 +141,23 @@ is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
 
 def _contradictions(chosen: Sequence[MeshSeries]) -> str:
     """Return where a learnt model and the releases on one mesh exclude each other."""
-    lines = [
-        f"On `{here.mesh}` *{learnt.basis}* ({_of_mesh([here], here.mesh, '.2f')}) and "
-        f"*{runs.basis}* ({_of_mesh([there], there.mesh, '.2f')}) exclude each other. The runs "
-        "count: a model learnt there is not to be trusted away from the k\\* of its release.\n"
-        for learnt in chosen
-        if learnt.basis in (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
-        for runs in chosen
-        if runs.basis not in (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
-        for here in learnt.values
-        for there in runs.values
-        if here.mesh == there.mesh and (here.low > there.high or here.high < there.low)
-    ]
-    return "".join(lines)
+    lines, between = "", " and\n"
+    for learnt in chosen:
+        for here in learnt.values if learnt.basis in _LEARNT else ():
+            excluded = [
+                f"*{runs.basis}* ({_of_mesh([there], there.mesh, '.2f')})"
+                for runs in chosen
+                if runs.basis not in _LEARNT
+                for there in runs.values
+                if here.mesh == there.mesh and (here.low > there.high or here.high < there.low)
+            ]
+            if excluded:
+                lines += (
+                    f"On `{here.mesh}` *{learnt.basis}* ({_of_mesh([here], here.mesh, '.2f')}) "
+                    f"excludes {between.join(excluded)}.\nThe runs count: do not trust a model "
+                    "learnt there away from the k\\* of its release.\n"
+                )
+    return lines
 
 
 def _by_first_order(one: MeshSeries) -> float:
@@ -163,23 +168,14 @@ def _by_first_order(one: MeshSeries) -> float:
 
 def _targets(chosen: Sequence[MeshSeries]) -> str:
     """Return how sure the best limit of each model is, and how sure it is wanted."""
-    lines = [("model", "basis", "limit", "interval", "wanted", "reached"), ("---",) * 6]
+    lines = [("model", "basis", "interval", "wanted", "reached"), ("---",) * 5]
     for row in targets(as_table(chosen)).itertuples():
-        known = math.isfinite(row.interval)
-        lacking = f"no, by {row.lacking:.1f} %" if known else "no"
-        lines.append(
-            (
-                row.model,
-                row.basis,
-                f"{row.limit:.2f}" if known else "",
-                f"± {row.interval:.1f} %" if known else "none",
-                f"± {row.wanted:g} %",
-                "yes" if row.lacking == 0.0 else lacking,
-            )
-        )
+        interval = f"± {row.interval:.1f} %" if math.isfinite(row.interval) else "none"
+        reached = "yes" if row.lacking == 0.0 else "no"
+        lines.append((row.model, row.basis, interval, f"± {row.wanted:g} %", reached))
     table = "\n".join(f"| {' | '.join(line)} |" for line in lines)
     return f"""
-How sure the best limit of each model is, and how sure it has to be
+Best limit of each model: its interval, and the one wanted
 (`python -m equisection.paper.mesh_convergence --targets`):
 
 {table}
@@ -187,11 +183,13 @@ How sure the best limit of each model is, and how sure it has to be
 
 
 def _damping(series: Sequence[MeshSeries]) -> str:
-    chosen = [one for one in series if one.quantity == ONSET and one.basis == BY_MODEL]
+    learnt = [one for one in series if one.quantity == ONSET and one.basis == BY_MODEL]
+    known = {one.model for one in learnt if math.isfinite(one.limit.half_width)}
+    chosen = [one for one in learnt if one.model in known]
     return f"""## Structural damping
 
-The paper gives none. Limits of the onset by the learnt models with the same damping (of critical)
-in bending and torsion, with half of their intervals (none on one mesh):
+The paper gives none. Limits of the onset by the learnt models, with the same damping (of
+critical) in both motions, and half of their intervals (a model of one mesh has none):
 
 {_limits("damping", chosen, form=".2f", line=lambda one: one.model)}"""
 
@@ -200,21 +198,27 @@ def _growth(series: Sequence[MeshSeries]) -> str:
     chosen = [one for one in series if one.quantity == GROWTH and one.model == "2d"]
     plate = [one for one in series if one.quantity == GROWTH and one.model == "3d"]
     early = [one for one in series if one.quantity == GROWTH_EARLY and one.values]
-    rows = [(one.at.removeprefix("k* = "), one.basis.removeprefix("releases, ")) for one in chosen]
+    rows = [
+        (one.at.removeprefix("k* = "), one.basis.removeprefix("releases, ").removesuffix(" c/V"))
+        for one in chosen
+    ]
     text = f"""## Growth at one k\\*
 
-Growth of the section `2d` (V/c, with its interval of 95 %) over the same window on each mesh:
+Of the section `2d` (V/c, interval of 95 %), over one window on all meshes:
 
-{_table(("k*", "window"), rows, chosen, form="+.4f", judged=False)}
+{_table(("k*", "window, c/V"), rows, chosen, form="+.4f", judged=False)}
 """
     if early:
-        notes = "; ".join(f"{value.mesh} {value.note}" for value in early[0].values)
+        notes = ", ".join(
+            f"{value.mesh} {value.note.removesuffix(WITHOUT_SECOND).rstrip()}"
+            for value in early[0].values
+        )
         text += f"""
-The plate (`3d`) at {_plain(early[0].at)}, four iterations a step, 10 to 30 c/V. **Only the
+Of the plate at {_plain(early[0].at)}, four iterations a step, 10 to 30 c/V. **Only the
 difference of both meshes counts**: fits with and without the second bending mode differ by more
-than their errors ({notes}).
+than their errors (without it {notes}).
 
-{_table(("model",), [("3d",)], early, form="+.4f", judged=False)}
+{_table((), [()], early, form="+.4f", judged=False)}
 """
     if plate:
         rows = [
@@ -226,7 +230,7 @@ than their errors ({notes}).
         ]
         head = ("k*", "iterations a step")
         text += f"""
-From static equilibrium the growth of the plate is known from the same time, 10 to 30 c/V:
+Of the plate from static equilibrium, 10 to 30 c/V:
 
 {_table(head, rows, plate, form="+.4f", judged=False)}
 """
@@ -237,10 +241,10 @@ def _means(series: Sequence[MeshSeries]) -> str:
     chosen = [one for one in series if one.quantity in MEANS.values()]
     return f"""## Means and frequency
 
-Limits of the section `2d` with half of their intervals; in italics what is not converged:
+Limits of the section `2d` with half of their intervals; not converged in italics:
 
 {_limits("k*", chosen, form=".4g")}
-The values on each mesh are in `results/paper-convergence/mesh_convergence.csv`.
+On each mesh: `mesh_convergence.csv`.
 """
 
 
@@ -260,9 +264,10 @@ def _loads(series: Sequence[MeshSeries]) -> str:
         + f"""
 ## Loads of the rigid plate, Table 1
 
-The column *paper* is the limit of the paper's own three meshes by the same rule.
+*Paper* is the limit of its three meshes by the same rule (judged: [claim
+3](side-by-side.md#3-loads-of-the-rigid-plate)).
 
-{_table(("incidence", "coefficient", "paper"), of_plate, plate, form=".4f")}
+{_table(("incidence", "coefficient", "paper"), of_plate, plate, form=".4f", judged=False)}
 """
         + _notes(plate)
         + _of_one_plate(series)
@@ -270,12 +275,10 @@ The column *paper* is the limit of the paper's own three meshes by the same rule
 
 
 def _of_one_plate(series: Sequence[MeshSeries]) -> str:
-    """Return the quotients on equal cells, and those of the plate's modes."""
+    """Return the quotients on equal cells, and those of the plate's means by iterations."""
     ratios = [one for one in series if one.model == EQUAL_CELLS]
-    modes = [one for one in series if one.quantity in map(FIRST_MODE.format, KINDS)]
-    of_modes = [(one.quantity,) for one in modes]
-    at = _plain(modes[0].at) if modes else ""
     iterations = [one for one in series if one.model == TWO_OVER_FOUR]
+    at = _plain(iterations[0].at) if iterations else ""
     quotients = "; ".join(
         f"{one.quantity} {', '.join(f'{v.value:.3f} ({v.mesh})' for v in one.values)}"
         for one in iterations
@@ -283,19 +286,14 @@ def _of_one_plate(series: Sequence[MeshSeries]) -> str:
     return f"""
 ## Section over plate
 
-Loads of the rigid section over those of the rigid plate, on equal cells in the plane:
+Rigid loads, on equal cells in the plane:
 
 {_limits("incidence", ratios, form=".3f")}
-## Modes of the plate
-
-Mean of the first mode over that of the next, at {at}, four iterations a step, 10 to 30 c/V:
-
-{_table(("quantity",), of_modes, modes, form=".1f")}
-
 ## Iterations of a time step
 
-Means of the plate with two iterations over those with four, at {at}, 10 to 30 c/V: {quotients}. Two
-are enough for the means on `coarse`, and not on `medium`.
+Means of the plate with two over those with four, at {at}, 10 to 30 c/V:
+{quotients}.
+Two are enough on `coarse`, not on `medium`.
 """
 
 
@@ -388,15 +386,22 @@ def _of_mesh(values: Iterable[MeshValue], mesh: str, form: str) -> str:
 
 
 def _notes(series: Iterable[MeshSeries]) -> str:
-    found: dict[str, list[str]] = {}
+    """Return the notes of values, each once: for all models of a basis and all its meshes."""
+    found: dict[str, dict[tuple[str, str], dict[str, None]]] = {}
     for one in series:
         for value in one.values:
             if value.note:
-                found.setdefault(value.note, []).append(f"{one.model} ({one.basis}, {value.mesh})")
-    lines = (
-        f"- {', '.join(dict.fromkeys(names))}: {_plain(note)}.\n" for note, names in found.items()
-    )
-    return "".join(lines)
+                models = found.setdefault(value.note, {}).setdefault((one.basis, value.mesh), {})
+                models[one.model] = None
+    lines = ""
+    for note, places in found.items():
+        meshes: dict[tuple[str, str], list[str]] = {}
+        for (basis, mesh), models in places.items():
+            meshes.setdefault(("; ".join(models), basis), []).append(mesh)
+        names = (f"{m} ({basis}, {', '.join(on)})" for (m, basis), on in meshes.items())
+        line = f"- {', '.join(names)}: {_plain(note)}."
+        lines += textwrap.fill(line, 100, subsequent_indent="  ", break_on_hyphens=False) + "\n"
+    return lines
 
 
 def _plain(text: str) -> str:

@@ -55,6 +55,8 @@ ONSET, GROWTH, GROWTH_EARLY = (
 )
 #: Bases of an onset.
 BY_RELEASES, BY_MODEL = "releases", "learnt model"
+#: End of a note on the growth of the plate.
+WITHOUT_SECOND = "without the second bending mode"
 #: k* of the release that models are learnt from.
 LEARNT_AT = 6.44
 #: Structural damping (of critical) in both motions.
@@ -98,7 +100,7 @@ def early_growth_of_plate(releases: Sequence[MeshRelease]) -> MeshSeries:
                 growth.rate,
                 growth.rate - half,
                 growth.rate + half,
-                f"{without.rate:+.4f} without the second bending mode",
+                f"{without.rate:+.4f} {WITHOUT_SECOND}",
             )
         )
     at = f"k* = {LEARNT_AT:g}"
