@@ -125,6 +125,10 @@ pictures: $(ENV)/openfoam gallery # outlines need gmsh, also where their results
 	$(PICTURES) config/examples/plate_over_incidence.yaml -- results/plate-over-incidence/figures/modes-over-speed.png
 	$(PICTURES) config/examples/openfoam_deck.yaml --config compute=false \
 		-- results/openfoam-deck/figures/response.png results/openfoam-deck/figures/mesh-of-section.png
+	$(PICTURES) config/examples/openfoam_tracker.yaml --config compute=false \
+		-- results/openfoam-tracker/figures/response.png results/openfoam-tracker/figures/mesh-of-section.png
+	$(PICTURES) config/examples/openfoam_h_section.yaml --config compute=false \
+		-- results/openfoam-h-section/figures/response.png
 	$(PICTURES) config/examples/thin_plate_forced.yaml -- results/thin-plate-forced/figures/flutter-derivatives.png
 	$(BIN)/python docs/examples/other_program.py data/other-program
 	$(PICTURES) docs/examples/other_program.yaml -- results/other-program/figures/growth-rate.png
@@ -134,6 +138,9 @@ pictures: $(ENV)/openfoam gallery # outlines need gmsh, also where their results
 	cp results/plate-over-incidence/figures/modes-over-speed.png docs/
 	cp results/openfoam-deck/figures/response.png docs/deck-response.png
 	cp results/openfoam-deck/figures/mesh-of-section.png docs/deck-mesh.png
+	cp results/openfoam-tracker/figures/response.png docs/tracker-response.png
+	cp results/openfoam-tracker/figures/mesh-of-section.png docs/tracker-mesh.png
+	cp results/openfoam-h-section/figures/response.png docs/h-section-response.png
 	cp results/thin-plate-forced/figures/flutter-derivatives.png docs/thin-plate-derivatives.png
 	cp results/other-program/figures/growth-rate.png docs/given-growth-rate.png
 	cp results/forced-modes/figures/flutter-derivatives.png results/forced-modes/figures/forces-on-modes.png docs/
