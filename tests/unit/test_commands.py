@@ -183,6 +183,15 @@ class TestOnset:
         assert main(["onset", str(run)]) == 1
         assert "critical_speed.csv: " in capsys.readouterr().err
 
+    def test_a_sweep_without_a_result_is_told_with_where_to_look(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ) -> None:
+        run = run_with(tmp_path / "run")
+        (run / "comparison" / "critical_speed.csv").write_text(HEADER)
+        assert main(["onset", str(run)]) == 1
+        said = capsys.readouterr().err
+        assert f"no run of the sweep has a result; 'equisection status {run}' says why" in said
+
     def test_a_table_that_was_edited_is_no_answer(
         self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
     ) -> None:

@@ -218,9 +218,13 @@ def _rows(path: Path) -> Iterator[Mapping[str, Any]]:
     """Yield the lines of the table: text, and numbers or None."""
     names, *lines = _cells(path) or [[]]
     missing = [name for name in _NEEDED if name not in names]
-    if missing or not lines:
-        what = f"has no column {missing[0]!r}" if missing else "has no line"
-        raise AnswerError(f"{path}: {what}; delete it and run again")
+    if missing:
+        raise AnswerError(f"{path}: has no column {missing[0]!r}; delete it and run again")
+    if not lines:
+        raise AnswerError(
+            f"{path}: no run of the sweep has a result; 'equisection status {path.parents[1]}' says "
+            "why"
+        )
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise AnswerError(f"{path}: has column {shown(twice)} twice; delete it and run again")
