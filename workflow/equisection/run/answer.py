@@ -221,10 +221,8 @@ def _rows(path: Path) -> Iterator[Mapping[str, Any]]:
     if missing:
         raise AnswerError(f"{path}: has no column {missing[0]!r}; delete it and run again")
     if not lines:
-        raise AnswerError(
-            f"{path}: no run of the sweep has a result; 'equisection status {path.parents[1]}' says "
-            "why"
-        )
+        why = f"'equisection status {path.parents[1]}' says why"
+        raise AnswerError(f"{path}: no run of the sweep has a result; {why}")
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise AnswerError(f"{path}: has column {shown(twice)} twice; delete it and run again")
