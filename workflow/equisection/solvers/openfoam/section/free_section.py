@@ -222,14 +222,15 @@ class SectionRun(FreeRun[SectionCells]):
 
         def decided(time: float) -> bool:
             tell(time, case.duration)
-            if not due.is_due(time):
+            done = time - case.time_step  # the step of this time has begun, no more
+            if not due.is_due(done):
                 return False
             loads = read_loads(self.folder)
             require_reasonable(loads, self.folder)
             so_far = self.history(loads)
             self.require_room(so_far)
             iterations.look(so_far.time, so_far.lift, so_far.moment)
-            history = _from_release(self.folder, so_far, case, last_look(time))
+            history = _from_release(self.folder, so_far, case, last_look(done))
             return is_decided(case, _tip(case.section, history))
 
         return decided
