@@ -24,17 +24,13 @@ _TABLE = re.compile(r"(?<=<!-- table -->\n\n).*?(?=\n\n)", re.S)
 def table(outcomes: Iterable[Outcome]) -> str:
     """Return the table of changes."""
     rows = [
-        "| change | files | names (edited, or new: **bold**) | written by a command | works |",
+        "| change | edited | new | written by a command | works |",
         "|---|---|---|---|---|",
     ]
     for outcome in outcomes:
         change = outcome.change
-        files = [
-            *(f"`{name}`" for name in change.edited),
-            *(f"**`{name}`**" for name in change.new),
-        ]
         rows.append(
-            f"| {change.title} | {len(files)} | {', '.join(files)} "
+            f"| {change.title} | {len(change.edited)} | {len(change.new)} "
             f"| {', '.join(f'`{name}`' for name in outcome.generated) or 'none'} "
             f"| {'no' if outcome.failure else 'yes'} |"
         )
