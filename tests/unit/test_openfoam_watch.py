@@ -42,10 +42,11 @@ def test_run_ends_at_the_look_that_its_result_ends_at(tmp_path: Path) -> None:
         history=lambda loads=None: after,
         require_room=lambda so_far: None,
     )
-    decided = SectionRun._watch(cast(SectionRun, run), 0.0, lambda *now: None)
-    assert not decided(15.1)
-    assert not decided(30.0), "this step has begun, and its loads are not written"
-    assert decided(30.2)
+    watch = SectionRun._watch(cast(SectionRun, run), 0.0, lambda *now: None)
+    assert not watch(24.9)
+    assert not watch(30.0), "this step has begun, and its loads are not written"
+    assert watch(30.04)
+    assert SectionRun._watch(cast(SectionRun, run), 0.0, lambda *now: None)(36.0)
     alone = TipMotion(after.time, after.twist, after.deflection)
     assert not is_decided(case, alone), "the release no longer matters: take another history"
     assert math.isclose(kept.attrs["end_time"], 30.0)

@@ -49,7 +49,6 @@ from equisection.solvers.verdicts import (
     TipMotion,
     decided_at,
     first_modes,
-    is_decided,
     judge,
     last_look,
     refused,
@@ -304,4 +303,4 @@ class _Exchange:
         so_far = self._run.history()
         self._iterations.look(so_far.time, so_far.lift, so_far.moment)
         history = so_far.sampled(case.time_step, case.output_interval, last_look(time))
-        return is_decided(case, self._run.tip_motion(history))
+        return math.isfinite(decided_at(case, self._run.tip_motion(history)))

@@ -32,7 +32,7 @@ from equisection.solvers.openfoam.case_folder import (
 from equisection.solvers.openfoam.dictionaries import control, write_system
 from equisection.solvers.openfoam.free_run import STATE_INTERVAL, FreeRun, IterationsCheck
 from equisection.solvers.openfoam.mesh.mesh_quality import MorphingMesh
-from equisection.solvers.openfoam.process import BlowUpError, Every, Watch, run_program
+from equisection.solvers.openfoam.process import BlowUpError, Watch, run_program
 from equisection.solvers.openfoam.reading.loads import (
     Loads,
     has_loads,
@@ -46,9 +46,7 @@ from equisection.solvers.openfoam.section.section_history import SectionHistory,
 from equisection.solvers.openfoam.section.section_motion import motion_output, write_motion
 from equisection.solvers.openfoam.time_spent import spent
 from equisection.solvers.verdicts import (
-    LOOKS_EVERY,
     decided_at,
-    is_decided,
     judge,
     last_look,
     refused,
@@ -218,20 +216,22 @@ class SectionRun(FreeRun[SectionCells]):
             raise BlowUpError(f"at {so_far.time[followed]:g} c/V {fault}")
 
     def _watch(self, start: float, tell: Tell) -> Watch:
-        case, due, iterations = self.case, Every(LOOKS_EVERY, last_look(start)), IterationsCheck()
+        case, looked, iterations = self.case, last_look(start), IterationsCheck()
 
         def decided(time: float) -> bool:
+            nonlocal looked
             tell(time, case.duration)
-            done = time - case.time_step  # the step of this time has begun, no more
-            if not due.is_due(done):
+            look = last_look(time - case.time_step)  # the step of this time has only begun
+            if look <= looked:
                 return False
+            looked = look
             loads = read_loads(self.folder)
             require_reasonable(loads, self.folder)
             so_far = self.history(loads)
             self.require_room(so_far)
             iterations.look(so_far.time, so_far.lift, so_far.moment)
-            history = _from_release(self.folder, so_far, case, last_look(done))
-            return is_decided(case, _tip(case.section, history))
+            history = _from_release(self.folder, so_far, case, look)
+            return math.isfinite(decided_at(case, _tip(case.section, history)))
 
         return decided
 
