@@ -295,8 +295,6 @@ def _add_answers(commands: Any) -> None:
 
 
 def _init(options: argparse.Namespace) -> None:
-    # Imported here, so that --help and --version come at once.
-
     values: dict[str, float] = {}
     for _, key, _, _ in QUESTIONS:
         given = getattr(options, key)

@@ -334,14 +334,16 @@ def last_look(time: float) -> float:
     return LOOKS_EVERY * math.floor(time / LOOKS_EVERY * (1 + 1e-9))
 
 
-def decided_at(case: UnsteadyCase, tip: TipMotion) -> float:
+def decided_at(case: UnsteadyCase, tip: TipMotion, after: float = 0.0) -> float:
     """Return the first look (c/V) that finds a verdict on a history; infinite if none does.
+
+    Looks up to ``after`` (c/V), itself a look, are known to have found none.
 
     A run ends a little later, since its solver is followed from outside. Its result ends here, so
     that it does not depend on the time at which the end was noticed.
     """
     last = float(tip.time[-1]) if tip.time.size else 0.0
-    for look in np.arange(LOOKS_EVERY, min(last * (1 + 1e-9), case.duration), LOOKS_EVERY):
+    for look in np.arange(after + LOOKS_EVERY, min(last * (1 + 1e-9), case.duration), LOOKS_EVERY):
         if is_decided(case, tip.until(float(look))):
             return float(look)
     return math.inf

@@ -37,7 +37,7 @@ from equisection.solvers.openfoam.beam.pipes import Alive, Pipes
 from equisection.solvers.openfoam.beam.rigid_beam import BeamCells
 from equisection.solvers.openfoam.case_folder import is_ready, states
 from equisection.solvers.openfoam.free_run import FreeRun, IterationsCheck
-from equisection.solvers.openfoam.process import BlowUpError, Every, run_program
+from equisection.solvers.openfoam.process import BlowUpError, run_program
 from equisection.solvers.openfoam.ranks import parts
 from equisection.solvers.openfoam.reading.loads import BEYOND_REASON
 from equisection.solvers.openfoam.reading.sampled_tip_flow import Pose, sample_tip_flow
@@ -45,7 +45,6 @@ from equisection.solvers.openfoam.rigid_flow import Tell
 from equisection.solvers.openfoam.section.rigid_section import require_sound_mesh
 from equisection.solvers.openfoam.time_spent import spent
 from equisection.solvers.verdicts import (
-    LOOKS_EVERY,
     TipMotion,
     decided_at,
     first_modes,
@@ -231,7 +230,7 @@ class _Exchange:
         self, run: PlateRun, structure: Staggered, pipes: Pipes, start: float, tell: Tell
     ) -> None:
         self._run, self._structure, self._pipes, self._tell = run, structure, pipes, tell
-        self._due = Every(LOOKS_EVERY, last_look(start))
+        self._looked = last_look(start)
         self._resumed = structure.proposed_position
         self._iterations = IterationsCheck()
         self._last: Handed | None = None
@@ -297,10 +296,12 @@ class _Exchange:
 
     def _is_over(self, time: float) -> bool:
         self._tell(time, self._run.case.duration)
-        if not self._due.is_due(time):
+        look = last_look(time)
+        if look <= self._looked:
             return False
+        before, self._looked = self._looked, look
         case = self._run.case
         so_far = self._run.history()
         self._iterations.look(so_far.time, so_far.lift, so_far.moment)
-        history = so_far.sampled(case.time_step, case.output_interval, last_look(time))
-        return math.isfinite(decided_at(case, self._run.tip_motion(history)))
+        history = so_far.sampled(case.time_step, case.output_interval, look)
+        return math.isfinite(decided_at(case, self._run.tip_motion(history), before))

@@ -224,14 +224,14 @@ class SectionRun(FreeRun[SectionCells]):
             look = last_look(time - case.time_step)  # the step of this time has only begun
             if look <= looked:
                 return False
-            looked = look
+            before, looked = looked, look
             loads = read_loads(self.folder)
             require_reasonable(loads, self.folder)
             so_far = self.history(loads)
             self.require_room(so_far)
             iterations.look(so_far.time, so_far.lift, so_far.moment)
             history = _from_release(self.folder, so_far, case, look)
-            return math.isfinite(decided_at(case, _tip(case.section, history)))
+            return math.isfinite(decided_at(case, _tip(case.section, history), before))
 
         return decided
 
