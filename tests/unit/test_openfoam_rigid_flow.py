@@ -19,6 +19,7 @@ from equisection.solvers.openfoam.rigid_flow import (
     RigidFlowRecord,
     follow_iterations,
     follow_unsteady,
+    follow_until_even,
     has_converged,
     method_of_mean,
     of_outline,
@@ -114,6 +115,54 @@ def test_vortices_that_build_up_do_not_count_as_known(
     record = follow_unsteady(tmp_path, even, nothing, polled(monkeypatch, steady, 3.3))
     assert record.time[-1] == pytest.approx(50.0)
     assert "fluctuation" not in method_of_mean(record, even)
+
+
+@pytest.mark.parametrize(
+    ("setting_in", "said"),
+    [(80.0, "over 40 c/V behind 110 c/V, 6 periods"), (-50.0, "over 40 c/V, 6 periods")],
+)
+def test_flow_whose_vortices_set_in_late_goes_on_until_they_are_even(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, setting_in: float, said: str
+) -> None:
+    """An H section sheds from 60 c/V on; the mean over both flows is of neither."""
+    wanted, ran, shares = of_outline(RECORD), [], []
+    step = 0.02 * np.arange(1.0, 5501)
+
+    def run(source: Path, folder: Path, watch: Watch) -> None:
+        time = step + wanted.end * len(ran)
+        size = 1.0 / (1.0 + np.exp(-0.2 * (time - setting_in)))
+        lift = 0.2 * size * np.sin(2 * np.pi * 0.15 * time)
+        ran.append((source.name, folder.name))
+        polled(monkeypatch, Loads(step, 1.0 + 0.5 * size, lift, 0.1 * lift), 3.3)(watch)
+
+    def tell(done: float, total: float) -> None:
+        shares.append(done / total)
+
+    folder, record, method = follow_until_even(tmp_path / "steady", tmp_path, wanted, tell, run)
+    assert wanted.is_even(record)
+    assert said in method
+    assert record.means()[0] == pytest.approx(1.5, abs=0.01)
+    late = setting_in > 70.0
+    assert ran == [("steady", "unsteady"), ("unsteady", "unsteady2")][: 2 if late else 1]
+    assert folder.name == ("unsteady2" if late else "unsteady")
+    assert np.all(np.diff(shares) > 0)
+
+
+def test_flow_that_never_is_even_ends_after_its_turns_and_says_so(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    wanted, ran = of_outline(RECORD), []
+    step = 0.02 * np.arange(1.0, 5501)
+
+    def run(source: Path, folder: Path, watch: Watch) -> None:
+        time = step + wanted.end * len(ran)
+        lift = 0.01 * np.exp(0.02 * time) * np.sin(2 * np.pi * 0.15 * time)
+        ran.append(folder.name)
+        polled(monkeypatch, Loads(step, 1.0 + 0.0 * time, lift, lift), 3.3)(watch)
+
+    _, _, method = follow_until_even(tmp_path / "steady", tmp_path, wanted, nothing, run)
+    assert ran == ["unsteady", "unsteady2"]
+    assert "times as large in the second" in method
 
 
 @pytest.mark.parametrize("strouhal", [0.11, 0.131, 0.146, 0.24])

@@ -9,6 +9,9 @@ halves and means are of whole periods.
 A solver is followed from outside, by its log, and ends a little after it was told to. The loads
 that are used end at a look, at a given number of iterations or a given time, so that a result does
 not depend on the time at which the end was noticed.
+
+Where vortices set in so late that they still build up at the end of the longest record, a further
+run goes on from there, with a record and means of its own (:func:`follow_until_even`).
 """
 
 from __future__ import annotations
@@ -20,6 +23,7 @@ from pathlib import Path
 
 from equisection.files import write_text
 from equisection.results.fluctuation import Fluctuation
+from equisection.solvers.openfoam.case_folder import emptied
 from equisection.solvers.openfoam.dictionaries import dictionary
 from equisection.solvers.openfoam.process import Every, Watch
 from equisection.solvers.openfoam.reading.loads import (
@@ -45,6 +49,8 @@ STEP, KNOWN = 0.02, 0.01
 #: Growth of the fluctuation from one half of the record to the other, on the mesh of an outline,
 #: from which on vortices still build up: bluff bodies shed them, and their loads follow late.
 EVEN = 0.1
+#: Runs one behind the other, at most, of a flow whose vortices still build up.
+TURNS = 2
 
 #: Called with what is done and what there is to do at most.
 Tell = Callable[[float, float], None]
@@ -83,6 +89,10 @@ class RigidFlowRecord:
         """Tell whether the means of loads, without the time left out, are known."""
         halves = loads.halves(self.period(loads))
         return halves.drift(self.floor) <= KNOWN and halves.growth(self.floor) <= self.evenness
+
+    def is_even(self, loads: Loads) -> bool:
+        """Tell whether the fluctuation of averaged loads has stopped growing."""
+        return loads.halves(self.period(loads)).growth(self.floor) <= self.evenness
 
     def averaged(self, loads: Loads) -> Loads:
         """Return the part of loads, without the time left out, that their means are of."""
@@ -193,10 +203,68 @@ def follow_unsteady(
     return record.averaged((loads if part is None else part).since(record.discarded))
 
 
-def method_of_mean(record: Loads, wanted: RigidFlowRecord) -> str:
-    """Return the origin of a record's means in words, and whether its fluctuation still grows."""
+def follow_until_even(
+    source: Path,
+    work: Path,
+    wanted: RigidFlowRecord,
+    tell: Tell,
+    run: Callable[[Path, Path, Watch], None],
+) -> tuple[Path, Loads, str]:
+    """Follow the flow that goes on unsteadily from a steady run until its loads are even.
+
+    A run whose fluctuation still grows at the end of its longest record is followed by another,
+    which goes on from its last state: its means would be of a flow before and with vortices.
+
+    Parameters
+    ----------
+    source
+        Folder of the steady run.
+    work
+        Folder in which it is done.
+    wanted
+        The record of each run.
+    tell
+        Called with the progress.
+    run
+        Runs the solver in the second folder, from the last state of the first, with a function
+        that tells it when to end.
+
+    Returns
+    -------
+    tuple
+        The folder of the last run, its loads to be averaged, and their origin in words.
+
+    Raises
+    ------
+    BlowUpError
+        The loads are beyond reason.
+    """
+    turns = TURNS if math.isfinite(wanted.evenness) else 1
+    for turn in range(turns):
+        folder = emptied(work / f"unsteady{turn + 1 if turn else ''}")
+
+        def told(done: float, total: float, turn: int = turn) -> None:
+            share = 2.0 * done / total - 1.0  # of this run: the steady one is the first half
+            tell(MOST * (1.0 + (turn + share) / turns), 2 * MOST)
+
+        def watched(watch: Watch, source: Path = source, folder: Path = folder) -> None:
+            run(source, folder, watch)
+
+        record = follow_unsteady(folder, wanted, told, watched)
+        if wanted.is_even(record):
+            break
+        source = folder
+    return folder, record, method_of_mean(record, wanted, turn * wanted.end)
+
+
+def method_of_mean(record: Loads, wanted: RigidFlowRecord, before: float = 0.0) -> str:
+    """Return the origin of a record's means in words, and whether its fluctuation still grows.
+
+    ``before`` is the time (c/V) of runs before that of the record.
+    """
     length = record.time[-1] - record.time[0]
-    said = f"mean of unsteady over {length:.0f} c/V, "
+    behind = f" behind {before:.0f} c/V" if before else ""
+    said = f"mean of unsteady over {length:.0f} c/V{behind}, "
     period = wanted.period(record)
     if period is not None:
         said += f"{round(length / period)} periods, "

@@ -30,7 +30,7 @@ from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.beam_mesh import SIDE_WALLS, PlateMesh
 from equisection.solvers.openfoam.mesh.block_mesh import OF_PLATE, Spacing
 from equisection.solvers.openfoam.mesh.outline_beam_mesh import OF_BEAM, OutlineBeamMesh
-from equisection.solvers.openfoam.process import run_program
+from equisection.solvers.openfoam.process import Watch, run_program
 from equisection.solvers.openfoam.ranks import copy_flow_of_all, divide, parts
 from equisection.solvers.openfoam.reading.beam_surface import plate_surface
 from equisection.solvers.openfoam.reading.loads import Loads
@@ -46,9 +46,8 @@ from equisection.solvers.openfoam.rigid_flow import (
     RigidFlowRecord,
     Tell,
     follow_iterations,
-    follow_unsteady,
+    follow_until_even,
     has_converged_around_outline,
-    method_of_mean,
     of_outline,
     write_at_rest,
 )
@@ -226,9 +225,8 @@ class PlateFlow:
             method = f"steady, {steady.time.size} iterations"
         else:
             logger.info("%g deg: the steady solver does not converge", self.case.incidence_deg)
-            folder, record = self._unsteady(folder, tell)
+            folder, record, method = self._unsteady(folder, tell)
             mean = True
-            method = method_of_mean(record, self._record)
         drag, lift, moment = record.means()
         last = states(parts(folder)[0])[-1].name
         span = read_span_loads(folder, last, self.mesh.edges(), mean=mean)
@@ -247,31 +245,25 @@ class PlateFlow:
             spent=spent(self.work),
         )
 
-    def _unsteady(self, source: Path, tell: Tell) -> tuple[Path, Loads]:
-        """Go on unsteadily from a steady run; return folder and record to be averaged."""
-        folder = emptied(self.work / "unsteady")
-        copy_flow_of_all(source, folder)
-        write_at_rest(folder)
+    def _unsteady(self, source: Path, tell: Tell) -> tuple[Path, Loads, str]:
+        """Go on unsteadily from a steady run; return folder, record to be averaged, its origin."""
         wanted = self._record
         end = wanted.end
-        entries = plate_control("pimpleFoam", end, STEP, end, self.mesh.span)
-        entries["functions"] |= surface_output(
-            {"executeControl": "timeStep", "writeControl": "onEnd"}
-        )
-        entries["functions"]["force_means"] = _force_means()
-        entries["functions"] |= averaging(wanted.discarded, SAMPLED, ("p", *SAMPLED_FIELDS))
-        write_system(
-            folder, entries, flow.schemes(steady=False), flow.unsteady_solution(self.coupling)
-        )
-        record = follow_unsteady(
-            folder,
-            wanted,
-            tell,
-            lambda watch: run_program(
-                self.installation, "pimpleFoam", folder, watch, ranks=self.ranks
-            ),
-        )
-        return folder, record
+
+        def run(before: Path, folder: Path, watch: Watch) -> None:
+            copy_flow_of_all(before, folder)
+            write_at_rest(folder)
+            entries = plate_control("pimpleFoam", end, STEP, end, self.mesh.span)
+            entries["functions"] |= surface_output(
+                {"executeControl": "timeStep", "writeControl": "onEnd"}
+            )
+            entries["functions"]["force_means"] = _force_means()
+            entries["functions"] |= averaging(wanted.discarded, SAMPLED, ("p", *SAMPLED_FIELDS))
+            solution = flow.unsteady_solution(self.coupling)
+            write_system(folder, entries, flow.schemes(steady=False), solution)
+            run_program(self.installation, "pimpleFoam", folder, watch, ranks=self.ranks)
+
+        return follow_until_even(source, self.work, wanted, tell, run)
 
 
 def _has_converged(loads: Loads) -> bool:

@@ -27,7 +27,7 @@ from equisection.solvers.openfoam.installation import Installation
 from equisection.solvers.openfoam.mesh.block_mesh import SIMILAR, ChannelBox, Mesh, Spacing
 from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
-from equisection.solvers.openfoam.process import BlowUpError, run_program
+from equisection.solvers.openfoam.process import BlowUpError, Watch, run_program
 from equisection.solvers.openfoam.reading.loads import Loads
 from equisection.solvers.openfoam.reading.section_surface import (
     averaging,
@@ -41,10 +41,9 @@ from equisection.solvers.openfoam.rigid_flow import (
     RigidFlowRecord,
     Tell,
     follow_iterations,
-    follow_unsteady,
+    follow_until_even,
     has_converged,
     has_converged_around_outline,
-    method_of_mean,
     of_outline,
     write_at_rest,
 )
@@ -336,18 +335,18 @@ def unsteady_mean(
     SolverError
         A program failed.
     """
-    folder = emptied(work / "unsteady")
-    copy_flow(source, folder)
-    write_at_rest(folder)
     wanted = of_outline(RECORD) if isinstance(mesh, OutlineMesh) else RECORD
-    entries = control("pimpleFoam", wanted.end, STEP, wanted.end)
-    entries["functions"] |= averaging(wanted.discarded, SAMPLED)
-    write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution(coupling))
-    record = follow_unsteady(
-        folder, wanted, tell, lambda watch: run_program(installation, "pimpleFoam", folder, watch)
-    )
+
+    def run(before: Path, folder: Path, watch: Watch) -> None:
+        copy_flow(before, folder)
+        write_at_rest(folder)
+        entries = control("pimpleFoam", wanted.end, STEP, wanted.end)
+        entries["functions"] |= averaging(wanted.discarded, SAMPLED)
+        write_system(folder, entries, flow.schemes(steady=False), flow.unsteady_solution(coupling))
+        run_program(installation, "pimpleFoam", folder, watch)
+
+    folder, record, method = follow_until_even(source, work, wanted, tell, run)
     drag, lift, moment = record.means()
     surface = surface_of_mean(folder, mesh)
-    method = method_of_mean(record, wanted)
     found = Fluctuation.of(record.time, record.drag, record.lift, record.moment)
     return RigidLoads(drag, lift, moment, method, surface, found)
