@@ -78,6 +78,7 @@ def deform_mesh(
     entries["libs"] = ['"liblumpedPointMotion.so"']
     solution = flow.unsteady_solution()
     solution["solvers"] |= motion_solvers(of_outline=of_outline)
+    solution["PIMPLE"]["nOuterCorrectors"] = 1  # no flow to agree with
     schemes = flow.schemes(steady=False)
     schemes["laplacianSchemes"] |= motion_schemes()
     write_system(place, entries, schemes, solution)
