@@ -177,8 +177,16 @@ class Judge:
         }
 
     def is_decided(self, tip: TipMotion) -> bool:
-        """Tell whether there is a verdict on a run so far."""
-        return assess(tip.time, tip.twist, tip.deflection, self.criteria).decided
+        """Tell whether there is a verdict on a run so far.
+
+        A fall may be half a beat, which only the fit of its growth tells.
+        """
+        motion = (tip.time, tip.twist, tip.deflection, self.criteria)
+        found = assess(*motion)
+        if found.regime not in {"settled", "decaying"}:
+            return found.decided
+        (growth,) = growths_of_tips([self], [tip])
+        return not growth.beats or assess(*motion, growth=growth).decided
 
     @property
     def earliest(self) -> float:
