@@ -186,7 +186,7 @@ class Judge:
         if found.regime not in {"settled", "decaying"}:
             return found.decided
         (growth,) = growths_of_tips([self], [tip])
-        return not growth.beats or assess(*motion, growth=growth).decided
+        return growth.stays or assess(*motion, growth=growth).decided
 
     @property
     def earliest(self) -> float:

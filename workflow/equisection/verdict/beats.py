@@ -7,14 +7,14 @@ complex amplitude z(s) = 1 + r exp(iφ), φ = Δω s, and of the rate
 
 So the falling half of a beat, however well it passes for a decay, has a rate that drifts: over a
 window T by D = |λ'| T ≥ |Re λ| Δω T/(1 + r), in frequency where it falls the fastest. The rate of a
-decay stays. The twist obeys I (λ' + λ² + ω_0²) z = R z with the load R on the twist over the twist,
+decay stays. A run is not ended by a fall whose rate drifts by more than 0.6 of itself, which is a
+tenth of a beat in the window, or two tenths of one with vortices as strong as the motion. At its
+end more is asked, since the ringing of the release drifts, too. The twist obeys I (λ' + λ² + ω_0²) z = R z with the load R on the twist over the twist,
 and so R/(2 i ω_0 I) = λ - i ω_0 nearly: the rate differs from that of the body in vacuum by what
 the loads make. Loads that follow the motion keep R; vortices turn against it and change R. A drift
-is a beat if it is
-
-- a third of the rate or more: the rate may have another sign within a beat;
-- a third of λ - i ω_0 or more: the loads on the twist are not those of its motion alone. Less is
-  the ringing of the release, or an amplitude that shifts the frequency.
+is a beat if it is a third of the rate or more, which may then have another sign in the beat, and a
+quarter of λ - i ω_0 or more: the loads on the twist are not those of its motion alone. A frequency
+that goes with the amplitude drifts by less.
 """
 
 from __future__ import annotations
@@ -23,7 +23,9 @@ import math
 from dataclasses import dataclass
 
 # Parts of the rate and of what the loads make of it, from which on a drift is a beat.
-_OF_RATE, _OF_LOADS = 1.0 / 3.0, 1.0 / 3.0
+_OF_RATE, _OF_LOADS = 1.0 / 3.0, 0.25
+# Part of the rate from which on a drift lets no run end.
+_TOO_MUCH = 0.6
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,10 @@ class Drift:
     change: float = math.nan
     error: float = math.nan
     by_loads: float = math.nan
+
+    def is_fast(self, rate: float) -> bool:
+        """Tell whether a growth (V/c) drifts too fast to end a run by it."""
+        return self.change > self.error and self.change >= _TOO_MUCH * abs(rate)
 
     def beats(self, rate: float) -> bool:
         """Tell whether a growth (V/c) may be no more than a part of a beat."""

@@ -111,6 +111,11 @@ class Growth:
         return self.drift.beats(self.rate)
 
     @property
+    def stays(self) -> bool:
+        """Tell whether the rate stays what it is, as far as is known, so that a run may end."""
+        return not (self.beats or self.drift.is_fast(self.rate))
+
+    @property
     def decides(self) -> bool:
         """Tell whether the waves are the motion, over periods enough to judge its sign by."""
         return self.residue <= LARGEST_RESIDUE and self.periods >= DECISIVE_PERIODS

@@ -210,7 +210,7 @@ def _while_running(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     )
     for regime, test in tests:
         reason = test(seen)
-        if reason and growth.beats and test in _FALLS:
+        if reason and not growth.stays and test in _FALLS:
             return "undecided", f"looks decaying ({reason}), but {growth.drift.words}"
         if reason:
             return ("settled" if regime == "decaying" and seen.little_is_left else regime), reason
