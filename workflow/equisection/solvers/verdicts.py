@@ -19,7 +19,7 @@ from equisection.cases import Case, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady_result import Regime, UnsteadyResult
 from equisection.verdict import Criteria, Verdict, assess, heave_grows, swings_grow
-from equisection.verdict.growth import NO_GROWTH, Growth, growth_window, growths_of
+from equisection.verdict.growth import NO_GROWTH, Growth, growth_window, with_drifts
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -244,7 +244,7 @@ def growths_of_tips(judges: Sequence[Judge], tips: Sequence[TipMotion]) -> list[
             growth_window(float(tip.time[-1]) if tip.time.size else 0.0, judges[lane].waves[0])
             for lane, tip in zip(lanes, chosen, strict=True)
         ]
-        fits = growths_of(time, records, [judges[lane].waves for lane in lanes], windows)
+        fits = with_drifts(time, records, [judges[lane].waves for lane in lanes], windows)
         for lane, growth in zip(lanes, fits, strict=True):
             found[lane] = growth
     return found

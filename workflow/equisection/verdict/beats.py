@@ -5,16 +5,18 @@ complex amplitude z(s) = 1 + r exp(iφ), φ = Δω s, and of the rate
 
     λ = z'/z,    λ' = i Δω λ/z,    |λ'| ≥ Δω |λ|/(1 + r).
 
-So the falling half of a beat, however well it passes for a decay, has a rate that drifts: over a
-window T by D = |λ'| T ≥ |Re λ| Δω T/(1 + r), in frequency where it falls the fastest. The rate of a
-decay stays. A run is not ended by a fall whose rate drifts by more than 0.6 of itself, which is a
-tenth of a beat in the window, or two tenths of one with vortices as strong as the motion. At its
-end more is asked, since the ringing of the release drifts, too. The twist obeys I (λ' + λ² + ω_0²) z = R z with the load R on the twist over the twist,
-and so R/(2 i ω_0 I) = λ - i ω_0 nearly: the rate differs from that of the body in vacuum by what
-the loads make. Loads that follow the motion keep R; vortices turn against it and change R. A drift
-is a beat if it is a third of the rate or more, which may then have another sign in the beat, and a
-quarter of λ - i ω_0 or more: the loads on the twist are not those of its motion alone. A frequency
-that goes with the amplitude drifts by less.
+The falling half of a beat may pass for a decay, but its rate drifts, in frequency where it falls
+the fastest: over a time T by D = |λ'| T ≥ |Re λ| Δω T/(1 + r). The rate of a decay stays. A D of 0.6
+is a tenth of a beat, or two tenths of one with vortices as strong as the motion.
+
+The ringing of a release drifts, too, and a frequency that goes with the amplitude. The twist obeys
+I (λ' + λ² + ω_0²) z = R z with the load R z on the twist, so that R/(2 i ω_0 I) = λ - i ω_0 nearly:
+the rate differs from that of the body in vacuum by what the loads make. Loads that follow the
+motion keep R, vortices turn against it and change R. So a drift is a beat
+
+- over the last periods, where it is a quarter of λ - i ω_0 or more, and the rate may have another
+  sign within three times as long;
+- over the whole record, where it is 0.6 of the rate and surely not none.
 """
 
 from __future__ import annotations
@@ -22,54 +24,59 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-# Parts of the rate and of what the loads make of it, from which on a drift is a beat.
-_OF_RATE, _OF_LOADS = 1.0 / 3.0, 0.25
-# Part of the rate from which on a drift lets no run end.
-_TOO_MUCH = 0.6
+# Parts of what the loads make of a rate, and of the rate, from which on a drift is a beat.
+_OF_LOADS, _OF_RATE = 0.25, 1.0 / 3.0
+# Part of the rate from which on a drift says that a fall does not go on.
+_FAST = 0.6
+# Standard errors of a drift that is surely none of chance.
+_SURELY = 2.5
 
 
 @dataclass(frozen=True)
 class Drift:
-    """Drift of the complex rate sigma + i omega of a motion over its window.
+    """Drift of the complex rate sigma + i omega of a motion over a window.
 
     Attributes
     ----------
+    rate
+        sigma (V/c).
     change
-        Change D of the rate from the start of the window to its end, its modulus (V/c).
+        Change D of the complex rate from the start of the window to its end, its modulus (V/c).
     error
         Its standard error (V/c).
     by_loads
-        Distance of the rate to that of the body in vacuum, its modulus (V/c).
+        Distance of the complex rate to that of the body in vacuum, its modulus (V/c).
     """
 
+    rate: float = math.nan
     change: float = math.nan
     error: float = math.nan
     by_loads: float = math.nan
 
-    def is_fast(self, rate: float) -> bool:
-        """Tell whether a growth (V/c) drifts too fast to end a run by it."""
-        return self.change > self.error and self.change >= _TOO_MUCH * abs(rate)
+    @property
+    def is_fast(self) -> bool:
+        """Tell whether the rate drifts too fast to be one that stays."""
+        return self.change > self.error and self.change >= _FAST * abs(self.rate)
 
-    def beats(self, rate: float) -> bool:
-        """Tell whether a growth (V/c) may be no more than a part of a beat."""
+    @property
+    def is_surely_fast(self) -> bool:
+        """Tell whether that is not by chance."""
+        return self.is_fast and self.change > _SURELY * self.error
+
+    @property
+    def is_of_loads(self) -> bool:
+        """Tell whether the loads are not those of the motion alone."""
         return (
             self.change > self.error
-            and self.change >= _OF_RATE * abs(rate)
+            and self.change >= _OF_RATE * abs(self.rate)
             and self.change >= _OF_LOADS * self.by_loads
         )
-
-    def unknown(self, rate: float) -> float:
-        """Half-width of what a beat leaves unknown of a decay (V/c), at least all of it.
-
-        0 of a growth: it changes with its amplitude, too, and calls no speed stable.
-        """
-        return max(0.5 * self.change, abs(rate)) if rate < 0.0 and self.beats(rate) else 0.0
 
     @property
     def words(self) -> str:
         """Drift in words."""
         part = 100.0 * self.change / self.by_loads
         return (
-            f"the complex rate drifts by {self.change:.2g} V/c in its window, {part:.0f} % of what "
-            "the loads make of it, as where vortices beat with the motion"
+            f"its complex rate drifts by {self.change:.2g} V/c, {part:.0f} % of what the loads make "
+            "of it, as where vortices beat with the motion"
         )

@@ -110,7 +110,7 @@ def _in_a_beat(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     """
     amplitude = seen.since_transient
     between = f"{degrees(float(amplitude.min()))} to {degrees(float(amplitude.max()))}"
-    words = f"the twist's amplitude of {between} beats ({growth.drift.words})"
+    words = f"the twist's amplitude of {between} beats ({growth.drift_in_words})"
     turns = find_cycles(seen.time_since_transient, amplitude).value
     if turns.size >= _WHOLE_BEAT and turns[-1] <= GROWN * turns[-3]:
         return "limit-cycle", f"{_AT_THE_END}{words}, and comes back after a whole beat"

@@ -23,7 +23,7 @@ A rate that drifts within the window may be that of a beat with a motion which t
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -48,6 +48,8 @@ _SAMPLES_A_PERIOD = 12
 LARGEST_RESIDUE = 0.2
 _FEWEST_SAMPLES = 40
 _STEPS = 60
+# Difference of the frequencies, of one, below which two windows show the same motion.
+_SAME_MOTION = 0.2
 _SMALL_STEP = 1e-6
 # Bounds of the search: growth rates (V/c), frequencies as parts of the natural ones.
 _GROWTH_RANGE = (-0.3, 0.25)
@@ -76,8 +78,8 @@ class Growth:
         Periods that the standard error rests on.
     by_amplitude
         True of a rate that was read off the twist's amplitude alone.
-    drift
-        Drift of the rate over the window.
+    drift, drift_of_all
+        Drift of the rate over the window, and over the whole record where that is longer.
     """
 
     rate: float = math.nan
@@ -90,6 +92,7 @@ class Growth:
     periods: int = 0
     by_amplitude: bool = False
     drift: Drift = Drift()
+    drift_of_all: Drift = Drift()
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -108,12 +111,22 @@ class Growth:
     @property
     def beats(self) -> bool:
         """Tell whether the motion beats with one that the fit does not have."""
-        return self.drift.beats(self.rate)
+        return self.drift.is_of_loads or self.drift_of_all.is_surely_fast
 
     @property
     def stays(self) -> bool:
         """Tell whether the rate stays what it is, as far as is known, so that a run may end."""
-        return not (self.beats or self.drift.is_fast(self.rate))
+        return not (self.beats or self.drift.is_fast)
+
+    @property
+    def drift_in_words(self) -> str:
+        """Drift of a motion that beats, in words."""
+        is_short = self.drift.is_of_loads or not self.drift_of_all.is_surely_fast
+        return (self.drift if is_short else self.drift_of_all).words
+
+    def with_drift_of_all(self, drift: Drift) -> Growth:
+        """Return the growth with its drift over the whole record."""
+        return self if self.beats else _without_sign(replace(self, drift_of_all=drift))
 
     @property
     def decides(self) -> bool:
@@ -137,7 +150,7 @@ class Growth:
                 "twist's variation"
             )
         if self.beats and self.rate < 0.0:
-            return f"no sign by a beat: {self.drift.words}"
+            return f"no sign by a beat: {self.drift_in_words}"
         if self.nearest * (self.end - self.start) < 1.0:
             return "the window is shorter than a beat with the nearest other motion"
         return ""
@@ -146,6 +159,17 @@ class Growth:
 def _errors(periods: int) -> float:
     """Return the half-width of the interval in standard errors that rest on so many periods."""
     return float(scipy.special.stdtrit(periods - 1, 0.5 + 0.5 * CONFIDENCE))
+
+
+def _without_sign(growth: Growth) -> Growth:
+    """Return a growth whose interval has all of a decay in it that may be a part of a beat.
+
+    A growth stays as it is: it changes with its amplitude, too, and calls no speed stable.
+    """
+    if not (growth.beats and growth.rate < 0.0):
+        return growth
+    more = abs(growth.rate) / _errors(growth.periods)
+    return replace(growth, standard_error=growth.standard_error + more)
 
 
 #: Growth of a record that does not tell it.
@@ -219,6 +243,28 @@ def growths_of(
         fit = _Fit.of(time, records[:, lanes], spans[lanes], natural[lanes])
         for lane, growth in zip(lanes.tolist(), fit.searched(), strict=True):
             found[lane] = growth
+    return found
+
+
+def with_drifts(
+    time: Array, records: Array, frequencies: ArrayLike, windows: ArrayLike
+) -> list[Growth]:
+    """Growth of N motions as by :func:`growths_of`, of decays with drift over the whole record."""
+    natural, spans = np.asarray(frequencies, dtype=float), np.asarray(windows, dtype=float)
+    found = growths_of(time, records, natural, spans)
+    longer = [
+        lane
+        for lane, one in enumerate(found)
+        if one.rate < 0.0 and not one.beats and one.start > AFTER_RELEASE
+    ]
+    if not longer:
+        return found
+    spans = np.column_stack((np.full(len(longer), AFTER_RELEASE), spans[longer, 1]))
+    for lane, whole in zip(
+        longer, growths_of(time, records[:, longer], natural[longer], spans), strict=True
+    ):
+        if abs(whole.frequency - found[lane].frequency) < _SAME_MOTION * whole.frequency:
+            found[lane] = found[lane].with_drift_of_all(whole.drift)
     return found
 
 
@@ -366,20 +412,19 @@ class _Fit:
             rate, in_vacuum = float(rates[lane, 2 * wave]), float(self.natural[lane, wave])
             change, error = _drift(residual[lane], both[lane], wave, periods)
             by_loads = math.hypot(rate, rates[lane, 2 * wave + 1] - in_vacuum)
-            drift = Drift(change * length[lane], error * length[lane], by_loads)
-            found.append(
-                Growth(
-                    rate=rate,
-                    standard_error=errors[2 * wave] + drift.unknown(rate) / _errors(periods),
-                    frequency=float(omega[lane, wave]),
-                    start=float(self.spans[lane, 0]),
-                    end=float(self.spans[lane, 1]),
-                    residue=float(residual[lane, :, 0].std()),
-                    nearest=float(others.min(initial=np.inf)),
-                    periods=periods,
-                    drift=drift,
-                )
+            drift = Drift(rate, change * length[lane], error * length[lane], by_loads)
+            growth = Growth(
+                rate=rate,
+                standard_error=errors[2 * wave],
+                frequency=float(omega[lane, wave]),
+                start=float(self.spans[lane, 0]),
+                end=float(self.spans[lane, 1]),
+                residue=float(residual[lane, :, 0].std()),
+                nearest=float(others.min(initial=np.inf)),
+                periods=periods,
+                drift=drift,
             )
+            found.append(_without_sign(growth))
         return found
 
 

@@ -211,7 +211,7 @@ def _while_running(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     for regime, test in tests:
         reason = test(seen)
         if reason and not growth.stays and test in _FALLS:
-            return "undecided", f"looks decaying ({reason}), but {growth.drift.words}"
+            return "undecided", f"looks decaying ({reason}), but {growth.drift_in_words}"
         if reason:
             return ("settled" if regime == "decaying" and seen.little_is_left else regime), reason
     return "undecided", f"twist amplitude {degrees(_last(seen.amplitude))}, {change(seen)}"
