@@ -255,7 +255,7 @@ def _attributes_of(growth: Growth) -> dict[str, Any]:
     is_known = math.isfinite(growth.rate)
     return {
         "growth_rate": growth.rate,
-        "growth_standard_error": growth.standard_error,
+        "growth_standard_error": growth.error,
         "growth_low": low,
         "growth_high": high,
         "growth_start": growth.start,

@@ -32,8 +32,8 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
 
     A growth whose interval has one sign makes the run growing or decaying, and a decaying one that
     has fallen far enough settled. Without one it is a limit cycle if its amplitude is steady, or
-    has come back to what it was for twice as long as it is judged, or after a whole beat, or stalls.
-    What is none of these is undecided.
+    has come back to what it was for twice as long as it is judged or after a whole beat, or
+    stalls. What is none of these is undecided.
 
     Parameters
     ----------
@@ -54,6 +54,8 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
             f"too short to be judged: {seen.used / 2:g} of the {DECISIVE_PERIODS} periods needed "
             f"after the first {seen.criteria.discard_time:g} c/V; raise the duration"
         )
+    if growth.beats and not _has_outgrown(seen, growth):
+        return _in_a_beat(seen, growth)
     return _by_growth(seen, growth)
 
 
@@ -71,8 +73,6 @@ def _too_short(seen: Observation, elapsed: float) -> tuple[Regime, str]:
 
 def _by_growth(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     """Decide by the sign of a growth, or by an amplitude that has none."""
-    if growth.beats and not _has_outgrown(seen, growth):
-        return _in_a_beat(seen, growth)
     last = float(seen.amplitude[-1])
     amplitude = f"twist amplitude {degrees(last)}"
     by = f"{growth.words}, {change(seen)}" if growth.decides else change(seen)

@@ -29,7 +29,7 @@ import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
-from equisection.verdict.beats import Drift
+from equisection.verdict.beats import UNKNOWN_DRIFT, Drift
 from equisection.verdict.cycles import Array
 
 #: Time (c/V) after the release that is left out: the flow around the body has to form first.
@@ -65,7 +65,7 @@ class Growth:
     rate
         sigma (V/c); NaN where the record is too short to tell.
     standard_error
-        Its standard error (V/c), with that of a beat.
+        Its standard error (V/c), without that of a beat.
     frequency
         f c/V of that motion.
     start, end
@@ -91,16 +91,26 @@ class Growth:
     nearest: float = math.nan
     periods: int = 0
     by_amplitude: bool = False
-    drift: Drift = Drift()
-    drift_of_all: Drift = Drift()
+    drift: Drift = UNKNOWN_DRIFT
+    drift_of_all: Drift = UNKNOWN_DRIFT
 
     @property
     def interval(self) -> tuple[float, float]:
         """Lower and upper end of the rate (V/c) with a confidence of :data:`CONFIDENCE`."""
         if self.periods < 2:
             return math.nan, math.nan
-        errors = _errors(self.periods)
-        return self.rate - errors * self.standard_error, self.rate + errors * self.standard_error
+        half = _errors(self.periods) * self.error
+        return self.rate - half, self.rate + half
+
+    @property
+    def error(self) -> float:
+        """Standard error (V/c) with all of a decay that may be a part of a beat.
+
+        A growth changes with its amplitude, too, and calls no speed stable: it has no more.
+        """
+        if not (self.beats and self.rate < 0.0):
+            return self.standard_error
+        return self.standard_error + abs(self.rate) / _errors(self.periods)
 
     @property
     def sign(self) -> int:
@@ -111,22 +121,20 @@ class Growth:
     @property
     def beats(self) -> bool:
         """Tell whether the motion beats with one that the fit does not have."""
-        return self.drift.is_of_loads or self.drift_of_all.is_surely_fast
+        by_chance = self.drift_of_all.is_surely_slow
+        return (self.drift.is_of_loads and not by_chance) or self.drift_of_all.is_surely_fast
 
     @property
     def stays(self) -> bool:
         """Tell whether the rate stays what it is, as far as is known, so that a run may end."""
-        return not (self.beats or self.drift.is_fast)
+        by_chance = self.drift_of_all.is_surely_slow
+        return not self.beats and (by_chance or not self.drift.is_fast)
 
     @property
     def drift_in_words(self) -> str:
-        """Drift of a motion that beats, in words."""
+        """Drift that keeps the rate from staying, in words."""
         is_short = self.drift.is_of_loads or not self.drift_of_all.is_surely_fast
         return (self.drift if is_short else self.drift_of_all).words
-
-    def with_drift_of_all(self, drift: Drift) -> Growth:
-        """Return the growth with its drift over the whole record."""
-        return self if self.beats else _without_sign(replace(self, drift_of_all=drift))
 
     @property
     def decides(self) -> bool:
@@ -159,17 +167,6 @@ class Growth:
 def _errors(periods: int) -> float:
     """Return the half-width of the interval in standard errors that rest on so many periods."""
     return float(scipy.special.stdtrit(periods - 1, 0.5 + 0.5 * CONFIDENCE))
-
-
-def _without_sign(growth: Growth) -> Growth:
-    """Return a growth whose interval has all of a decay in it that may be a part of a beat.
-
-    A growth stays as it is: it changes with its amplitude, too, and calls no speed stable.
-    """
-    if not (growth.beats and growth.rate < 0.0):
-        return growth
-    more = abs(growth.rate) / _errors(growth.periods)
-    return replace(growth, standard_error=growth.standard_error + more)
 
 
 #: Growth of a record that does not tell it.
@@ -253,9 +250,7 @@ def with_drifts(
     natural, spans = np.asarray(frequencies, dtype=float), np.asarray(windows, dtype=float)
     found = growths_of(time, records, natural, spans)
     longer = [
-        lane
-        for lane, one in enumerate(found)
-        if one.rate < 0.0 and not one.beats and one.start > AFTER_RELEASE
+        lane for lane, one in enumerate(found) if one.rate < 0.0 and one.start > AFTER_RELEASE
     ]
     if not longer:
         return found
@@ -264,7 +259,7 @@ def with_drifts(
         longer, growths_of(time, records[:, longer], natural[longer], spans), strict=True
     ):
         if abs(whole.frequency - found[lane].frequency) < _SAME_MOTION * whole.frequency:
-            found[lane] = found[lane].with_drift_of_all(whole.drift)
+            found[lane] = replace(found[lane], drift_of_all=whole.drift)
     return found
 
 
@@ -424,7 +419,7 @@ class _Fit:
                 periods=periods,
                 drift=drift,
             )
-            found.append(_without_sign(growth))
+            found.append(growth)
         return found
 
 

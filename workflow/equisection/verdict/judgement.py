@@ -202,6 +202,11 @@ def _while_running(seen: Observation, growth: Growth) -> tuple[Regime, str]:
             f"{seen.used / 2:g} of the {criteria.periods} periods needed so far, after the "
             f"first {criteria.discard_time:g} c/V"
         )
+    return _by_amplitude(seen, growth)
+
+
+def _by_amplitude(seen: Observation, growth: Growth) -> tuple[Regime, str]:
+    """Judge what the amplitude of the last periods tells; a fall in a beat tells nothing."""
     tests: tuple[tuple[Regime, Callable[[Observation], str]], ...] = (
         ("settled", _at_rest),
         ("settled", _decaying),
@@ -210,7 +215,7 @@ def _while_running(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     )
     for regime, test in tests:
         reason = test(seen)
-        if reason and not growth.stays and test in _FALLS:
+        if reason and test in _FALLS and not growth.stays:
             return "undecided", f"looks decaying ({reason}), but {growth.drift_in_words}"
         if reason:
             return ("settled" if regime == "decaying" and seen.little_is_left else regime), reason
