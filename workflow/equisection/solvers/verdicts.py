@@ -19,7 +19,7 @@ from equisection.cases import Case, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady_result import Regime, UnsteadyResult
 from equisection.verdict import Criteria, Verdict, assess, heave_grows, swings_grow
-from equisection.verdict.growth import NO_GROWTH, Growth, growth_window, growths_of
+from equisection.verdict.growth import NO_GROWTH, Growth, growth_window, with_drifts
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -177,8 +177,16 @@ class Judge:
         }
 
     def is_decided(self, tip: TipMotion) -> bool:
-        """Tell whether there is a verdict on a run so far."""
-        return assess(tip.time, tip.twist, tip.deflection, self.criteria).decided
+        """Tell whether there is a verdict on a run so far.
+
+        A fall may be half a beat, which only the fit of its growth tells.
+        """
+        motion = (tip.time, tip.twist, tip.deflection, self.criteria)
+        found = assess(*motion)
+        if found.regime not in {"settled", "decaying"}:
+            return found.decided
+        (growth,) = growths_of_tips([self], [tip])
+        return growth.stays or assess(*motion, growth=growth).decided
 
     @property
     def earliest(self) -> float:
@@ -236,7 +244,7 @@ def growths_of_tips(judges: Sequence[Judge], tips: Sequence[TipMotion]) -> list[
             growth_window(float(tip.time[-1]) if tip.time.size else 0.0, judges[lane].waves[0])
             for lane, tip in zip(lanes, chosen, strict=True)
         ]
-        fits = growths_of(time, records, [judges[lane].waves for lane in lanes], windows)
+        fits = with_drifts(time, records, [judges[lane].waves for lane in lanes], windows)
         for lane, growth in zip(lanes, fits, strict=True):
             found[lane] = growth
     return found
@@ -247,7 +255,7 @@ def _attributes_of(growth: Growth) -> dict[str, Any]:
     is_known = math.isfinite(growth.rate)
     return {
         "growth_rate": growth.rate,
-        "growth_standard_error": growth.standard_error,
+        "growth_standard_error": growth.error,
         "growth_low": low,
         "growth_high": high,
         "growth_start": growth.start,

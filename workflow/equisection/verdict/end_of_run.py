@@ -12,6 +12,7 @@ import math
 
 import numpy as np
 
+from equisection.verdict.cycles import find_cycles
 from equisection.verdict.growth import DECISIVE_PERIODS, Growth
 from equisection.verdict.observation import DEPARTS, GROWN, RUNS_AWAY, UNDIMINISHED, Observation
 from equisection.verdict.verdict import Regime
@@ -20,6 +21,8 @@ from equisection.verdict.wording import change, degrees
 _AT_THE_END = "decided by the trend at the end of the run: "
 # A trend has stalled when the last half of the window keeps less than this part of its rate.
 _STALLED = 0.3
+# Turns of an amplitude that has been through a whole beat.
+_WHOLE_BEAT = 3
 # With fewer extrema the swing from the release to the first is needed to compare with.
 _FEWEST_EXTREMA = 3
 
@@ -29,15 +32,16 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
 
     A growth whose interval has one sign makes the run growing or decaying, and a decaying one that
     has fallen far enough settled. Without one it is a limit cycle if its amplitude is steady, or
-    has come back to what it was for twice as long as it is judged, or stalls. What is none of
-    these is undecided.
+    has come back to what it was for twice as long as it is judged or after a whole beat, or
+    stalls. What is none of these is undecided.
 
     Parameters
     ----------
     seen
         The history.
     growth
-        Growth of twist and deflection together.
+        Growth of twist and deflection together. One that beats decides nothing but that the motion
+        has outgrown its beats.
     """
     samples = seen.time.size  # the first may be a sample after the release
     elapsed = float(seen.time[-1] - seen.time[0]) * samples / (samples - 1)
@@ -50,6 +54,8 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
             f"too short to be judged: {seen.used / 2:g} of the {DECISIVE_PERIODS} periods needed "
             f"after the first {seen.criteria.discard_time:g} c/V; raise the duration"
         )
+    if growth.beats and not _has_outgrown(seen, growth):
+        return _in_a_beat(seen, growth)
     return _by_growth(seen, growth)
 
 
@@ -86,6 +92,29 @@ def _by_growth(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     if seen.spread <= seen.criteria.steadiness or stalls or _comes_back(seen, growth):
         return "limit-cycle", f"{_AT_THE_END}{words}"
     return "undecided", f"{words}: a longer run would tell"
+
+
+def _has_outgrown(seen: Observation, growth: Growth) -> bool:
+    """Tell whether a motion that grows has become larger than in any beat before."""
+    before = seen.since_transient[: -seen.amplitude.size // 2]
+    return growth.rate > 0.0 and bool(
+        seen.amplitude[-1] > GROWN * before.max(initial=seen.amplitude[0])
+    )
+
+
+def _in_a_beat(seen: Observation, growth: Growth) -> tuple[Regime, str]:
+    """Decide from a record in which the motion beats: by whole beats, or not at all.
+
+    A beat has been whole when the amplitude has turned three times, at a top, a bottom and a top
+    or the other way round.
+    """
+    amplitude = seen.since_transient
+    between = f"{degrees(float(amplitude.min()))} to {degrees(float(amplitude.max()))}"
+    words = f"the twist's amplitude of {between} beats ({growth.drift_in_words})"
+    turns = find_cycles(seen.time_since_transient, amplitude).value
+    if turns.size >= _WHOLE_BEAT and turns[-1] <= GROWN * turns[-3]:
+        return "limit-cycle", f"{_AT_THE_END}{words}, and comes back after a whole beat"
+    return "undecided", f"{words}: whole beats would tell what lasts of it; raise the duration"
 
 
 def _comes_back(seen: Observation, growth: Growth) -> bool:

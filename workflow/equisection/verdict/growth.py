@@ -15,17 +15,21 @@ What the waves leave is no white noise but bends, harmonics and further modes, w
 about a period. So the standard error is that of a jackknife which leaves out a period at a time
 (Kuensch, Ann. Statist. 17, 1989), each to first order. It rests on few periods, so the interval is
 that of Student's distribution with as many degrees of freedom as there are periods, less one.
+
+A rate that drifts within the window may be that of a beat with a motion which the fit does not have
+(:mod:`equisection.verdict.beats`). Its standard error is then so large that its sign is not known.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
 from numpy.typing import ArrayLike, NDArray
 
+from equisection.verdict.beats import UNKNOWN_DRIFT, Drift
 from equisection.verdict.cycles import Array
 
 #: Time (c/V) after the release that is left out: the flow around the body has to form first.
@@ -44,6 +48,8 @@ _SAMPLES_A_PERIOD = 12
 LARGEST_RESIDUE = 0.2
 _FEWEST_SAMPLES = 40
 _STEPS = 60
+# Difference of the frequencies, of one, below which two windows show the same motion.
+_SAME_MOTION = 0.2
 _SMALL_STEP = 1e-6
 # Bounds of the search: growth rates (V/c), frequencies as parts of the natural ones.
 _GROWTH_RANGE = (-0.3, 0.25)
@@ -59,7 +65,7 @@ class Growth:
     rate
         sigma (V/c); NaN where the record is too short to tell.
     standard_error
-        Its standard error (V/c).
+        Its standard error (V/c), without that of a beat.
     frequency
         f c/V of that motion.
     start, end
@@ -72,6 +78,8 @@ class Growth:
         Periods that the standard error rests on.
     by_amplitude
         True of a rate that was read off the twist's amplitude alone.
+    drift, drift_of_all
+        Drift of the rate over the window, and over the whole record where that is longer.
     """
 
     rate: float = math.nan
@@ -83,20 +91,50 @@ class Growth:
     nearest: float = math.nan
     periods: int = 0
     by_amplitude: bool = False
+    drift: Drift = UNKNOWN_DRIFT
+    drift_of_all: Drift = UNKNOWN_DRIFT
 
     @property
     def interval(self) -> tuple[float, float]:
         """Lower and upper end of the rate (V/c) with a confidence of :data:`CONFIDENCE`."""
         if self.periods < 2:
             return math.nan, math.nan
-        errors = float(scipy.special.stdtrit(self.periods - 1, 0.5 + 0.5 * CONFIDENCE))
-        return self.rate - errors * self.standard_error, self.rate + errors * self.standard_error
+        half = _errors(self.periods) * self.error
+        return self.rate - half, self.rate + half
+
+    @property
+    def error(self) -> float:
+        """Standard error (V/c) with all of a decay that may be a part of a beat.
+
+        A growth changes with its amplitude, too, and calls no speed stable: it has no more.
+        """
+        if not (self.beats and self.rate < 0.0):
+            return self.standard_error
+        return self.standard_error + abs(self.rate) / _errors(self.periods)
 
     @property
     def sign(self) -> int:
         """Sign of the rate, 0 if its interval holds both."""
         low, high = self.interval
         return int(low > 0.0) - int(high < 0.0)
+
+    @property
+    def beats(self) -> bool:
+        """Tell whether the motion beats with one that the fit does not have."""
+        by_chance = self.drift_of_all.is_surely_slow
+        return (self.drift.is_of_loads and not by_chance) or self.drift_of_all.is_surely_fast
+
+    @property
+    def stays(self) -> bool:
+        """Tell whether the rate stays what it is, as far as is known, so that a run may end."""
+        by_chance = self.drift_of_all.is_surely_slow
+        return not self.beats and (by_chance or not self.drift.is_fast)
+
+    @property
+    def drift_in_words(self) -> str:
+        """Drift that keeps the rate from staying, in words."""
+        is_short = self.drift.is_of_loads or not self.drift_of_all.is_surely_fast
+        return (self.drift if is_short else self.drift_of_all).words
 
     @property
     def decides(self) -> bool:
@@ -119,9 +157,16 @@ class Growth:
                 f"beats in the window: the fitted waves leave {100 * self.residue:.0f} % of the "
                 "twist's variation"
             )
+        if self.beats and self.rate < 0.0:
+            return f"no sign by a beat: {self.drift_in_words}"
         if self.nearest * (self.end - self.start) < 1.0:
             return "the window is shorter than a beat with the nearest other motion"
         return ""
+
+
+def _errors(periods: int) -> float:
+    """Return the half-width of the interval in standard errors that rest on so many periods."""
+    return float(scipy.special.stdtrit(periods - 1, 0.5 + 0.5 * CONFIDENCE))
 
 
 #: Growth of a record that does not tell it.
@@ -195,6 +240,26 @@ def growths_of(
         fit = _Fit.of(time, records[:, lanes], spans[lanes], natural[lanes])
         for lane, growth in zip(lanes.tolist(), fit.searched(), strict=True):
             found[lane] = growth
+    return found
+
+
+def with_drifts(
+    time: Array, records: Array, frequencies: ArrayLike, windows: ArrayLike
+) -> list[Growth]:
+    """Growth of N motions as by :func:`growths_of`, of decays with drift over the whole record."""
+    natural, spans = np.asarray(frequencies, dtype=float), np.asarray(windows, dtype=float)
+    found = growths_of(time, records, natural, spans)
+    longer = [
+        lane for lane, one in enumerate(found) if one.rate < 0.0 and one.start > AFTER_RELEASE
+    ]
+    if not longer:
+        return found
+    spans = np.column_stack((np.full(len(longer), AFTER_RELEASE), spans[longer, 1]))
+    for lane, whole in zip(
+        longer, growths_of(time, records[:, longer], natural[longer], spans), strict=True
+    ):
+        if abs(whole.frequency - found[lane].frequency) < _SAME_MOTION * whole.frequency:
+            found[lane] = replace(found[lane], drift_of_all=whole.drift)
     return found
 
 
@@ -307,8 +372,11 @@ class _Fit:
         ]
         return np.asarray(np.argmax(sizes, axis=0), dtype=np.intp)
 
-    def _projected(self, rates: Array) -> tuple[Array, Array]:
-        """Return residual (N, n, C) and Jacobian (N, n, C, 2 W), linear coefficients eliminated."""
+    def _projected(self, rates: Array, *, drifts: bool = False) -> tuple[Array, Array]:
+        """Return residual (N, n, C) and Jacobian (N, n, C, 2 W), linear coefficients eliminated.
+
+        With ``drifts`` the Jacobian is that of the rates and then of their drifts (N, n, C, 4 W).
+        """
         basis = self._basis(rates)
         transposed = np.swapaxes(basis, 1, 2)
         gram = transposed @ basis
@@ -320,12 +388,15 @@ class _Fit:
             a, b = weights[:, None, first], weights[:, None, first + 1]
             columns += [cos * a + sin * b, cos * b - sin * a]
         raw = self.at[..., None, None] * np.stack(columns, axis=3)
+        if drifts:  # exp(lambda s + mu s^2/2)
+            raw = np.concatenate((raw, 0.5 * self.at[..., None, None] * raw), axis=3)
         flat = raw.reshape(*raw.shape[:2], -1)
         left = flat - basis @ np.linalg.solve(gram, transposed @ flat)
         return self.values - basis @ weights, -left.reshape(raw.shape)
 
     def _described(self, rates: Array) -> list[Growth]:
-        residual, jacobian = self._projected(rates)
+        residual, both = self._projected(rates, drifts=True)
+        jacobian = both[..., : rates.shape[1]]
         omega, chosen = rates[:, 1::2] / (2.0 * math.pi), self._of_most_twist(rates)
         length = self.at[:, -1] - self.at[:, 0]
         found = []
@@ -333,19 +404,40 @@ class _Fit:
             others = np.abs(np.delete(omega[lane], wave) - omega[lane, wave])
             periods = max(round(float(length[lane] * omega[lane, wave])), 2)
             errors = _jackknife(residual[lane], jacobian[lane], periods)
-            found.append(
-                Growth(
-                    rate=float(rates[lane, 2 * wave]),
-                    standard_error=errors[2 * wave],
-                    frequency=float(omega[lane, wave]),
-                    start=float(self.spans[lane, 0]),
-                    end=float(self.spans[lane, 1]),
-                    residue=float(residual[lane, :, 0].std()),
-                    nearest=float(others.min(initial=np.inf)),
-                    periods=periods,
-                )
+            rate, in_vacuum = float(rates[lane, 2 * wave]), float(self.natural[lane, wave])
+            change, error = _drift(residual[lane], both[lane], wave, periods)
+            by_loads = math.hypot(rate, rates[lane, 2 * wave + 1] - in_vacuum)
+            drift = Drift(rate, change * length[lane], error * length[lane], by_loads)
+            growth = Growth(
+                rate=rate,
+                standard_error=errors[2 * wave],
+                frequency=float(omega[lane, wave]),
+                start=float(self.spans[lane, 0]),
+                end=float(self.spans[lane, 1]),
+                residue=float(residual[lane, :, 0].std()),
+                nearest=float(others.min(initial=np.inf)),
+                periods=periods,
+                drift=drift,
             )
+            found.append(growth)
         return found
+
+
+def _drift(residual: Array, jacobian: Array, wave: int, periods: int) -> tuple[float, float]:
+    """Return drift of the rate of a wave with standard error ((V/c)^2), to first order.
+
+    Parameters
+    ----------
+    residual, jacobian
+        Of one lane, shape (n, C) and (n, C, 4 W), of the rates and of their drifts.
+    """
+    waves = jacobian.shape[2] // 2
+    first = waves + 2 * wave
+    chosen = np.concatenate((jacobian[..., :waves], jacobian[..., first : first + 2]), axis=2)
+    rows = chosen.reshape(-1, waves + 2)
+    step = np.linalg.lstsq(rows, -residual.ravel(), rcond=None)[0]
+    errors = _jackknife(residual + chosen @ step, chosen, periods)
+    return math.hypot(*step[-2:]), math.hypot(*errors[-2:])
 
 
 def _jackknife(residual: Array, jacobian: Array, periods: int) -> list[float]:

@@ -22,6 +22,9 @@ at the end of the run
     (equisection.verdict.end_of_run). A run that is too short, or whose growth has no sign within
     its error, is undecided.
 
+No run is settled or decaying by a fall whose rate drifts as that of a beat
+(equisection.verdict.beats): it goes on, and at its end whole beats decide or nothing.
+
 No run is settled, decaying or in a limit cycle before its slow heave has been seen to decay
 (equisection.verdict.heave). It also goes on until the means are known: the heave of a released
 section is 3 to 8 times slower than its pitch, and its last swings lie beneath the twist's.
@@ -101,7 +104,8 @@ def assess(
         f c/V of the pitch, for a twist that does not oscillate.
     growth : Growth
         Growth of twist and deflection together (:func:`equisection.verdict.growth.growth_of`),
-        for the end of a run; without it the trend of the twist's amplitude decides.
+        for the end of a run; without it the trend of the twist's amplitude decides. One that beats
+        lets no amplitude pass for a decay.
 
     Raises
     ------
@@ -121,7 +125,7 @@ def assess(
     seen = observe(s, theta, w, criteria, natural_frequency)
     if not seen.has_moved:
         return _verdict(seen, "undecided", _UNMOVED, growth)
-    regime, reason = _while_running(seen)
+    regime, reason = _while_running(seen, growth)
     if regime == "undecided" and final:
         regime, reason = decide_at_end(seen, growth)
     by_heave = False
@@ -182,7 +186,7 @@ def _last(time: Array) -> float:
     return float(time[-1]) if time.size else math.nan
 
 
-def _while_running(seen: Observation) -> tuple[Regime, str]:
+def _while_running(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     """Judge what is beyond doubt already."""
     criteria = seen.criteria
     reason = _beyond_bound(seen)
@@ -198,6 +202,11 @@ def _while_running(seen: Observation) -> tuple[Regime, str]:
             f"{seen.used / 2:g} of the {criteria.periods} periods needed so far, after the "
             f"first {criteria.discard_time:g} c/V"
         )
+    return _by_amplitude(seen, growth)
+
+
+def _by_amplitude(seen: Observation, growth: Growth) -> tuple[Regime, str]:
+    """Judge what the amplitude of the last periods tells; a fall in a beat tells nothing."""
     tests: tuple[tuple[Regime, Callable[[Observation], str]], ...] = (
         ("settled", _at_rest),
         ("settled", _decaying),
@@ -206,6 +215,8 @@ def _while_running(seen: Observation) -> tuple[Regime, str]:
     )
     for regime, test in tests:
         reason = test(seen)
+        if reason and test in _FALLS and not growth.stays:
+            return "undecided", f"looks decaying ({reason}), but {growth.drift_in_words}"
         if reason:
             return ("settled" if regime == "decaying" and seen.little_is_left else regime), reason
     return "undecided", f"twist amplitude {degrees(_last(seen.amplitude))}, {change(seen)}"
@@ -311,6 +322,10 @@ def _steady(seen: Observation) -> str:
         f"twist amplitude {degrees(float(seen.amplitude.mean()))} steady to "
         f"{100.0 * seen.spread:.2g} % over the last {criteria.periods} periods"
     )
+
+
+# Tests by which a run ends while its twist still swings, which a beat passes in its falling half.
+_FALLS = (_decaying, _dying_out)
 
 
 def _verdict(seen: Observation, regime: Regime, reason: str, growth: Growth) -> Verdict:

@@ -184,16 +184,26 @@ class Observation:
         middle = self.amplitude.size // 2
         return self._trend(0, middle + 1), self._trend(middle, self.amplitude.size)
 
+    @property
+    def since_transient(self) -> Array:
+        """All judged amplitudes (rad)."""
+        return self.cycles.amplitude[self.first_judged :]
+
+    @property
+    def time_since_transient(self) -> Array:
+        """Times (c/V) of these amplitudes."""
+        return self.cycles.amplitude_time[self.first_judged :]
+
     @cached_property
     def before(self) -> Array:
         """Amplitudes (rad) of the window before this one, or as much as there is of it."""
-        judged = self.cycles.amplitude[self.first_judged :]
+        judged = self.since_transient
         return judged[max(judged.size - 2 * self.amplitude.size, 0) : -self.amplitude.size]
 
     @property
     def long_before(self) -> Array:
         """Amplitudes (rad) of the two windows before this one, or as much as there is."""
-        judged = self.cycles.amplitude[self.first_judged :]
+        judged = self.since_transient
         return judged[max(judged.size - 3 * self.amplitude.size, 0) : -self.amplitude.size]
 
     @cached_property
