@@ -137,6 +137,21 @@ class TestOnset:
         assert "between 29 m/s (stable) and 31 m/s (unstable)" in lines[0]
         assert "3d unknown: no run has a verdict (time)" in lines[4]
 
+    @pytest.mark.parametrize(
+        ("low", "high", "words"),
+        [
+            ("160.6", "161.45", "between 160.6 m/s (stable) and 161.4 m/s (unstable)"),
+            ("1010", "1180", "between 1010 m/s (stable) and 1180 m/s (unstable)"),
+        ],
+    )
+    def test_both_sides_of_an_onset_are_told_apart_without_powers_of_ten(
+        self, tmp_path: Path, low: str, high: str, words: str
+    ) -> None:
+        run = run_with(tmp_path / "run", f"3d,1,{low},{low},{high},flutter,1430,1,,time,,,")
+        first, mechanism, *_ = answer_of(run).lines()
+        assert words in first
+        assert mechanism.endswith("flutter at 1430 Hz")
+
     def test_an_onset_without_an_upper_end_is_no_stable_speed(self, tmp_path: Path) -> None:
         run = run_with(tmp_path / "run", "3d,0,32,19,inf,flutter,2,1,,model,,,")
         answer = answer_of(run)

@@ -82,6 +82,12 @@ def test_figure_has_a_line_for_each_section_and_its_root_mean_square() -> None:
     assert len(figure.legends[0].get_texts()) == 2
 
 
+def test_deviation_beyond_a_hundred_per_cent_is_no_power_of_ten() -> None:
+    summary = pd.concat([runs("2d", mean_twist_deg=[1.704, 0.852]), runs("3d")])
+    figure = section_and_beam.draw(deviations(summary), summary)
+    assert [text.get_text() for text in figure.axes[0].texts] == ["110 %"]
+
+
 def test_figure_without_a_common_k_star_says_so() -> None:
     summary = pd.concat([runs("2d"), runs("3d", k_star=[4.0, 21.0])])
     figure = section_and_beam.draw(deviations(summary), summary)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, say, without_data
 from equisection.figures.style import COLOURS, DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.keys.shown import rounded
 from equisection.results.netcdf import read_dataset
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
@@ -127,7 +128,7 @@ def draw(modes: xr.Dataset, run: xr.Dataset) -> Figure:
 def _dominance(parts: ModalParts) -> str:
     if len(parts.ratios) < 2:
         return "one mode alone"
-    return f"mode 1 is {parts.ratios[1:].min():.3g} times the next"
+    return f"mode 1 is {rounded(parts.ratios[1:].min(), 3)} times the next"
 
 
 def _along_span(axes: Axes, parts: ModalParts, label: str, unit: float) -> None:

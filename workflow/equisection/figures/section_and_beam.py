@@ -15,6 +15,7 @@ from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.style import GREY, PAGE_WIDTH
+from equisection.keys.shown import rounded
 from equisection.study.axes import Axis, onset_axis_among
 
 #: Titles and axes of the panels, with the factor to what the axis shows.
@@ -83,7 +84,7 @@ def _over_study(axes: Axes, table: pd.DataFrame, name: str, factor: float, along
 
 def _root_mean_squares(axes: Axes, values: pd.Series, unit: str) -> None:
     """Write the root mean squares on the right of the panel's title, in the models' colours."""
-    words = [(str(model), f"{value:.2g}{unit}") for model, value in values.dropna().items()]
+    words = [(str(model), f"{rounded(value, 2)}{unit}") for model, value in values.dropna().items()]
     place = 1.0
     for model, word in reversed(words):
         axes.annotate(

@@ -17,6 +17,7 @@ from plotly import graph_objects
 
 from equisection.figures.map_shown import MARKERS_OF_MECHANISMS, models_of
 from equisection.figures.style import BLACK, BLUE, GREY, LIGHT_GREY, VERMILLION
+from equisection.keys.shown import rounded
 
 Floats = NDArray[np.float64]
 
@@ -76,7 +77,7 @@ def _figure(one: xr.Dataset, stability: pd.DataFrame, design_speed: float | None
             marker={"symbol": "line-ew-open", "size": 14, "color": GREY},
             line={"color": GREY, "dash": "dash", "width": 1.5},
             name="design speed",
-            hovertemplate=f"design speed {design_speed:.4g} m/s<extra></extra>",
+            hovertemplate=f"design speed {rounded(design_speed, 4)} m/s<extra></extra>",
         )
     return figure
 
@@ -154,13 +155,16 @@ def _words_of_points(one: xr.Dataset) -> list[list[str]]:
 
 def _words_of_point(here: xr.Dataset) -> str:
     growth, mechanism = float(here["growth_rate"]), str(here["mechanism"].values)
-    where = f"<b>{float(here['speed']):.4g} m/s at {float(here['incidence_deg']):g} deg</b><br>"
+    where = (
+        f"<b>{rounded(float(here['speed']), 4)} m/s at {float(here['incidence_deg']):g} deg</b><br>"
+    )
     if not np.isfinite(growth):
         name = "" if mechanism in ("none", "unknown") else f": {html.escape(mechanism)}"
         return f"{where}no static equilibrium from rest{name}"
     kind = "stable" if growth <= 0.0 else html.escape(mechanism)
+    frequency = rounded(float(here["frequency"]), 3)
     return (
-        f"{where}{kind}<br>growth {growth:.3g} 1/s at {float(here['frequency']):.3g} Hz<br>"
+        f"{where}{kind}<br>growth {rounded(growth, 3)} 1/s at {frequency} Hz<br>"
         f"static twist of the tip {np.degrees(float(here['equilibrium_twist'])):.3g} deg"
     )
 
@@ -230,14 +234,14 @@ def _bars(length: Floats) -> list[float]:
 def _words_of_speed(here: xr.Dataset, row: pd.Series) -> str:
     """Return what is said of a critical speed."""
     speed, angle = float(here["critical_speed"]), float(here["incidence_deg"])
-    lines = [f"<b>{speed:.4g} m/s at {angle:g} deg</b>"]
+    lines = [f"<b>{rounded(speed, 4)} m/s at {angle:g} deg</b>"]
     frequency = float(here["critical_frequency"])
-    at = f" at {frequency:.3g} Hz" if np.isfinite(frequency) and frequency > 0.0 else ""
+    at = f" at {rounded(frequency, 3)} Hz" if np.isfinite(frequency) and frequency > 0.0 else ""
     lines.append(f"{html.escape(str(here['critical_mechanism'].values))}{at}")
     low, high = row["speed_from"], row["speed_to"]
     if np.isfinite(low):
-        end = f"to {high:.4g} m/s" if np.isfinite(high) else "open above"
-        lines.append(f"interval from {low:.4g} {end}")
+        end = f"to {rounded(high, 4)} m/s" if np.isfinite(high) else "open above"
+        lines.append(f"interval from {rounded(low, 4)} {end}")
     if np.isfinite(row.get("margin", np.nan)):
-        lines.append(f"{row['margin']:.3g} times the design speed")
+        lines.append(f"{rounded(row['margin'], 3)} times the design speed")
     return "<br>".join(lines)

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from equisection.errors import EquisectionError, ResultFileError
-from equisection.keys.shown import shown
+from equisection.keys.shown import rounded, shown
 from equisection.keys.written_number import LARGEST, is_plain_number, number_in
 
 #: The table with the answer, as seen from the folder of a run.
@@ -139,7 +139,7 @@ class Answer:
         margin = self.chosen.get("margin")
         if margin is not None:
             side = "" if margin >= 1.0 else ": NOT REACHED by the stable speeds"
-            return f"{margin:.3g} times the design speed{side}"
+            return f"{rounded(margin, 3)} times the design speed{side}"
         if self.chosen["speed_low"] is None:
             return "unknown: no speed is known to be stable"
         return "not asked for: flow.design_speed (m/s) is not given"
@@ -351,18 +351,20 @@ def _speed(row: Mapping[str, Any]) -> str:
     low, high, speed = row["speed_low"], row["speed_high"], row["speed"]
     if low is not None and high is not None:
         if high - low < 0.005 * high:
-            return f"{_or(speed, low):.4g} m/s"
-        return f"between {low:.3g} m/s (stable) and {high:.3g} m/s (unstable)"
+            return f"{rounded(_or(speed, low), 4)} m/s"
+        digits = 3 if rounded(low, 3) != rounded(high, 3) else 4
+        stable, unstable = rounded(low, digits), rounded(high, digits)
+        return f"between {stable} m/s (stable) and {unstable} m/s (unstable)"
     if speed is not None:
         ends = (("from", low), ("up to", high))
-        known = [f"{word} {end:.3g} m/s" for word, end in ends if end is not None]
-        return f"{speed:.4g} m/s, " + (
+        known = [f"{word} {rounded(end, 3)} m/s" for word, end in ends if end is not None]
+        return f"{rounded(speed, 4)} m/s, " + (
             f"{known[0]}, open beyond" if known else "without an interval"
         )
     if low is not None:
-        return f"above {low:.3g} m/s, up to which it is stable"
+        return f"above {rounded(low, 3)} m/s, up to which it is stable"
     if high is not None:
-        return f"below {high:.3g} m/s, where it is unstable already"
+        return f"below {rounded(high, 3)} m/s, where it is unstable already"
     return "unknown: no run has a verdict"
 
 
@@ -370,7 +372,7 @@ def _mechanism(row: Mapping[str, Any]) -> str:
     words = {"none": "none found", "unknown": f"unknown: {_why_unknown(row)}"}
     name = words.get(row["mechanism"], row["mechanism"])
     frequency = row.get("frequency_hz")
-    return f"{name} at {frequency:.3g} Hz" if frequency else str(name)
+    return f"{name} at {rounded(frequency, 3)} Hz" if frequency else str(name)
 
 
 def _why_unknown(row: Mapping[str, Any]) -> str:
