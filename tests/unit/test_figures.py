@@ -725,6 +725,15 @@ def test_modal_contributions_are_shown_in_degrees_and_chords():
         assert whole.get_ydata()[-1] == pytest.approx(unit * at_tip)
 
 
+def test_beam_without_a_mean_deformation_has_no_modes_that_add_to_it():
+    found = run(dimension="3d")
+    for kind in ("bending", "torsion"):
+        found[f"{kind}_amplitude"] *= 1e-3
+    figure = modal_contributions.draw(modes(), found)
+    assert "no mean deformation" in words(figure)
+    lay_out(figure)
+
+
 @pytest.mark.parametrize("name", sorted(SWEEPS))
 def test_hysteresis_draws(name, tmp_path):
     loops = hysteresis.read_loops(*sweep(tmp_path, SWEEPS[name]), 6.7)
