@@ -923,6 +923,29 @@ def test_what_is_below_the_design_speed_ends_with_the_interval():
     assert "interval below the design speed" in words(figure)
 
 
+def test_speed_up_to_which_a_model_is_stable_is_marked_and_nothing_else_is():
+    angles = {"incidence_deg": [2.0, 5.0]}
+    over = ("model", "incidence_deg")
+    data = xr.Dataset(
+        {
+            "critical_speed": (over, [[np.nan, 40.0]]),
+            "speed_low": (over, [[60.0, 40.0]]),
+            "critical_mechanism": (over, [["none", "flutter"]]),
+        },
+        {"model": ["3d"], **angles},
+        {"basis": "eigenvalue", "polar": "plate"},
+    )
+    ends = {"speed": [np.nan, 40.0], "speed_low": [60.0, 40.0], "speed_from": np.nan}
+    figure = critical_speed.draw(
+        data, pd.DataFrame({"model": "3d", **angles, **ends, "speed_to": np.nan}), None
+    )
+    axes = figure.axes[0]
+    (bar,) = (line for line in axes.get_lines() if line.get_marker() == 2 and line.get_xdata().size)
+    assert (bar.get_xdata().tolist(), bar.get_ydata().tolist()) == ([2.0], [60.0])
+    assert "stable up to here" in words(figure)
+    assert axes.get_xlim()[0] > 1.0
+
+
 def test_limit_cycles_of_a_learnt_model_have_a_panel_and_words():
     values = {
         name: ("k_star", np.array([1.0, 1.0]))

@@ -306,6 +306,25 @@ def test_wide_window_shows_answer_map_and_figures(
     assert chromium.requests() == [page.resolve().as_uri()]
 
 
+def test_buttons_of_the_map_hide_nothing_of_it(wide: Chromium) -> None:
+    """Neither the map nor the scale of its colours, whatever the legend has."""
+    hidden = """(() => {
+        const box = part => document.querySelector(`#map ${part}`).getBoundingClientRect();
+        const buttons = box(".modebar");
+        return [".heatmaplayer image", ".colorbar .cbfills", ".legend .bg"].filter(part => {
+            const one = box(part);
+            return one.left < buttons.right && buttons.left < one.right
+                && one.top < buttons.bottom && buttons.top < one.bottom;
+        });
+    })()"""
+    wide.value("""(() => {
+        const choice = document.getElementById("map-model");
+        choice.value = 0;
+        choice.dispatchEvent(new Event("change"));
+    })()""")
+    assert wide.value(hidden) == []
+
+
 def test_page_is_for_readers_aloud_and_keyboards(wide: Chromium) -> None:
     chromium = wide
     levels = chromium.value(

@@ -99,8 +99,8 @@ def draw(modes: xr.Dataset, run: xr.Dataset) -> Figure:
     parts_of = {kind: modal_parts(modes, run, kind) for kind in ("bending", "torsion")}
     if _is_nil(parts_of):
         return without_data(
-            f"The beam at k* = {run.attrs['k_star']:g} has no mean deformation: it is symmetric, at "
-            "no incidence."
+            f"The beam at k* = {run.attrs['k_star']:g} has no mean deformation: it is symmetric, "
+            "at no incidence."
         )
     figure = Figure(figsize=(PAGE_WIDTH, 4.6))
     panels = figure.subplots(2, 2, height_ratios=(1.0, 0.8))

@@ -25,6 +25,8 @@ Floats = NDArray[np.float64]
 _STRONG = 90.0
 #: Height of the map (CSS pixels).
 _HEIGHT = 520
+#: Room above the map (CSS pixels), for the legend and for the buttons.
+_ABOVE = 40
 _SYMBOLS = {"D": "diamond", "o": "circle", "s": "square", "^": "triangle-up", "x": "x"}
 
 
@@ -87,7 +89,8 @@ def _layout() -> dict[str, Any]:
     return {
         "template": "none",
         "height": _HEIGHT,
-        "margin": {"l": 60, "r": 10, "t": 10, "b": 60},
+        "margin": {"l": 60, "r": 10, "t": _ABOVE, "b": 60},
+        "showlegend": True,
         "xaxis": {**axis, "title": {"text": "incidence (deg)"}},
         "yaxis": {**axis, "title": {"text": "speed (m/s)"}},
         "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0},
