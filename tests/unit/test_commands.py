@@ -152,6 +152,14 @@ class TestOnset:
         assert words in first
         assert mechanism.endswith("flutter at 1430 Hz")
 
+    def test_derivatives_without_an_onset_are_no_runs_without_a_verdict(
+        self, tmp_path: Path
+    ) -> None:
+        run = run_with(tmp_path / "run", "2d,0,,,,unknown,,,,derivatives,,,")
+        lines = list(answer_of(run).lines())
+        assert "unknown: no onset by flutter derivatives, at 0 deg" in lines[0]
+        assert "run" not in "".join(lines[:2])
+
     def test_an_onset_without_an_upper_end_is_no_stable_speed(self, tmp_path: Path) -> None:
         run = run_with(tmp_path / "run", "3d,0,32,19,inf,flutter,2,1,,model,,,")
         answer = answer_of(run)

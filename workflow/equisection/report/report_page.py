@@ -118,8 +118,10 @@ def write_report(
     parts, model = _answer(run)
     script = _SCRIPT.read_text(encoding="utf-8")
     scripts = [] if drawn is None else [_one_line_ends(_plotly()), _one_line_ends(script)]
-    first = [one for name in _FIRST for one in figures if one.name == name]
-    further = [one for one in sorted(figures, key=_place) if one not in first]
+    pictures = [(one, picture(one.path)) for one in sorted(figures, key=_place)]
+    drawn_ones = [(one, image) for one, image in pictures if not image.empty]
+    first = [pair for name in _FIRST for pair in drawn_ones if pair[0].name == name]
+    further = [pair for pair in drawn_ones if pair not in first]
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
@@ -133,8 +135,9 @@ def write_report(
         map=Markup(_as_script(drawn)) if drawn else None,  # noqa: S704, without < and &
         learnt=drawn is not None and drawn["is_learnt"],
         lacks=lacks,
-        first=[(one, picture(one.path)) for one in first],
-        figures=[(one, picture(one.path)) for one in further],
+        first=first,
+        figures=further,
+        empty=[(one, image.empty) for one, image in pictures if image.empty],
         tables=[
             (one, table_shown(one.path), one.name in _OPEN) for one in sorted(tables, key=_place)
         ],

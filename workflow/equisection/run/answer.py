@@ -47,6 +47,8 @@ _BASES = {
     "eigenvalue": "eigenvalues of small motions",
     "derivatives": "flutter derivatives",
 }
+#: What speeds rest on that is no run with a verdict.
+_WITHOUT_RUNS = ("model", "eigenvalue", "derivatives")
 _MECHANISMS = (*("none", "divergence", "flutter", "stall-flutter", "galloping", "unknown"),)
 _SIDES = {
     "unsafe": ", so that the speed is too high",
@@ -365,7 +367,7 @@ def _speed(row: Mapping[str, Any]) -> str:
         return f"above {rounded(low, 3)} m/s, up to which it is stable"
     if high is not None:
         return f"below {rounded(high, 3)} m/s, where it is unstable already"
-    return "unknown: no run has a verdict"
+    return f"unknown: {_why_nothing(row)}"
 
 
 def _mechanism(row: Mapping[str, Any]) -> str:
@@ -380,6 +382,12 @@ def _why_unknown(row: Mapping[str, Any]) -> str:
         return "what is unstable does not say by what"
     if row["speed_low"] is not None:
         return "what is beyond the stable speeds failed or is undecided"
+    return _why_nothing(row)
+
+
+def _why_nothing(row: Mapping[str, Any]) -> str:
+    if row["basis"] in _WITHOUT_RUNS:
+        return f"no onset by {_BASES[row['basis']]}"
     return "no run has a verdict"
 
 
