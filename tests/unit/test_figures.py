@@ -725,6 +725,13 @@ def test_modal_contributions_are_shown_in_degrees_and_chords():
         assert whole.get_ydata()[-1] == pytest.approx(unit * at_tip)
 
 
+def test_rounding_of_a_correction_of_one_is_not_enlarged():
+    data = SteadyData(polar_data(), beam_polar(), correction(1.0 - 3e-9), "coarse")
+    low, high = lift_correction.draw(data).axes[1].get_ylim()
+    assert low < 0.99
+    assert high > 1.01
+
+
 def test_beam_without_a_mean_deformation_has_no_modes_that_add_to_it():
     found = run(dimension="3d")
     for kind in ("bending", "torsion"):

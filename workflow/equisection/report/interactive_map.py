@@ -76,8 +76,8 @@ def _figure(one: xr.Dataset, stability: pd.DataFrame, design_speed: float | None
             x=ends,
             y=[design_speed] * 2,
             mode="lines+markers",  # of one incidence alone a line has no length
-            marker={"symbol": "line-ew-open", "size": 14, "color": GREY},
-            line={"color": GREY, "dash": "dash", "width": 1.5},
+            marker={"symbol": "line-ew-open", "size": 14, "color": BLACK},
+            line={"color": BLACK, "dash": "dash", "width": 2},  # seen on any colour of the map
             name="design speed",
             hovertemplate=f"design speed {rounded(design_speed, 4)} m/s<extra></extra>",
         )
