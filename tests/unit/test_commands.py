@@ -160,6 +160,17 @@ class TestOnset:
         assert "unknown: no onset by flutter derivatives, at 0 deg" in lines[0]
         assert "run" not in "".join(lines[:2])
 
+    def test_of_equal_brackets_that_with_the_lowest_eigenvalue_answers(
+        self, tmp_path: Path
+    ) -> None:
+        run = run_with(
+            tmp_path / "run",
+            *(f"3d,{at},22,10,35,flutter,2,1,,time,,," for at in (3, 6)),
+            "3d,3,29.5,29.5,29.5,flutter,2,1,,eigenvalue,,,",
+            "3d,6,22.2,22.2,22.2,flutter,2,1,,eigenvalue,,,",
+        )
+        assert ", at 6 deg, the lowest of 2 incidences" in next(answer_of(run).lines())
+
     def test_an_onset_without_an_upper_end_is_no_stable_speed(self, tmp_path: Path) -> None:
         run = run_with(tmp_path / "run", "3d,0,32,19,inf,flutter,2,1,,model,,,")
         answer = answer_of(run)

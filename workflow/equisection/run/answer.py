@@ -49,6 +49,7 @@ _BASES = {
 }
 #: What speeds rest on that is no run with a verdict.
 _WITHOUT_RUNS = ("model", "eigenvalue", "derivatives")
+_PLACE = ("model", "incidence_deg")
 _MECHANISMS = (*("none", "divergence", "flutter", "stall-flutter", "galloping", "unknown"),)
 _SIDES = {
     "unsafe": ", so that the speed is too high",
@@ -293,8 +294,14 @@ def _chosen(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
     for model in models:
         known = [row for row in _answers(rows, model) if _is_known(row)]
         if known:
-            return min(known, key=lambda row: _or(_lowest(row), 0.0))
+            return min(known, key=lambda row: (_or(_lowest(row), 0.0), _least_speed(rows, row)))
     return _answers(rows, models[0])[0]
+
+
+def _least_speed(rows: Sequence[Mapping[str, Any]], row: Mapping[str, Any]) -> float:
+    """Return the lowest onset by any basis at the model and incidence of a line: brackets tie."""
+    alike = [one for one in rows if all(one[name] == row[name] for name in _PLACE)]
+    return min((one["speed"] for one in alike if one["speed"] is not None), default=math.inf)
 
 
 def _distance_from_beam(name: str) -> tuple[bool, bool]:
