@@ -299,8 +299,9 @@ def _chosen(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
 
 
 def _least_speed(rows: Sequence[Mapping[str, Any]], row: Mapping[str, Any]) -> float:
-    """Return the lowest onset by any basis at the model and incidence of a line: brackets tie."""
-    alike = [one for one in rows if all(one[name] == row[name] for name in _PLACE)]
+    """Return the lowest onset by other bases at the model and incidence of a line."""
+    others = [one for one in rows if one is not row]
+    alike = [one for one in others if all(one[name] == row[name] for name in _PLACE)]
     return min((one["speed"] for one in alike if one["speed"] is not None), default=math.inf)
 
 
