@@ -137,6 +137,40 @@ class TestOnset:
         assert "between 29 m/s (stable) and 31 m/s (unstable)" in lines[0]
         assert "3d unknown: no run has a verdict (time)" in lines[4]
 
+    @pytest.mark.parametrize(
+        ("low", "high", "words"),
+        [
+            ("160.6", "161.45", "between 160.6 m/s (stable) and 161.4 m/s (unstable)"),
+            ("1010", "1180", "between 1010 m/s (stable) and 1180 m/s (unstable)"),
+        ],
+    )
+    def test_both_sides_of_an_onset_are_told_apart_without_powers_of_ten(
+        self, tmp_path: Path, low: str, high: str, words: str
+    ) -> None:
+        run = run_with(tmp_path / "run", f"3d,1,{low},{low},{high},flutter,1430,1,,time,,,")
+        first, mechanism, *_ = answer_of(run).lines()
+        assert words in first
+        assert mechanism.endswith("flutter at 1430 Hz")
+
+    def test_derivatives_without_an_onset_are_no_runs_without_a_verdict(
+        self, tmp_path: Path
+    ) -> None:
+        run = run_with(tmp_path / "run", "2d,0,,,,unknown,,,,derivatives,,,")
+        lines = list(answer_of(run).lines())
+        assert "unknown: no onset by flutter derivatives, at 0 deg" in lines[0]
+        assert "run" not in "".join(lines[:2])
+
+    def test_of_equal_brackets_that_with_the_lowest_eigenvalue_answers(
+        self, tmp_path: Path
+    ) -> None:
+        run = run_with(
+            tmp_path / "run",
+            *(f"3d,{at},22,10,35,flutter,2,1,,time,,," for at in (3, 6)),
+            "3d,3,29.5,29.5,29.5,flutter,2,1,,eigenvalue,,,",
+            "3d,6,22.2,22.2,22.2,flutter,2,1,,eigenvalue,,,",
+        )
+        assert ", at 6 deg, the lowest of 2 incidences" in next(answer_of(run).lines())
+
     def test_an_onset_without_an_upper_end_is_no_stable_speed(self, tmp_path: Path) -> None:
         run = run_with(tmp_path / "run", "3d,0,32,19,inf,flutter,2,1,,model,,,")
         answer = answer_of(run)

@@ -725,6 +725,22 @@ def test_modal_contributions_are_shown_in_degrees_and_chords():
         assert whole.get_ydata()[-1] == pytest.approx(unit * at_tip)
 
 
+def test_rounding_of_a_correction_of_one_is_not_enlarged():
+    data = SteadyData(polar_data(), beam_polar(), correction(1.0 - 3e-9), "coarse")
+    low, high = lift_correction.draw(data).axes[1].get_ylim()
+    assert low < 0.99
+    assert high > 1.01
+
+
+def test_beam_without_a_mean_deformation_has_no_modes_that_add_to_it():
+    found = run(dimension="3d")
+    for kind in ("bending", "torsion"):
+        found[f"{kind}_amplitude"] *= 1e-3
+    figure = modal_contributions.draw(modes(), found)
+    assert "no mean deformation" in words(figure)
+    lay_out(figure)
+
+
 @pytest.mark.parametrize("name", sorted(SWEEPS))
 def test_hysteresis_draws(name, tmp_path):
     loops = hysteresis.read_loops(*sweep(tmp_path, SWEEPS[name]), 6.7)
@@ -912,6 +928,29 @@ def test_what_is_below_the_design_speed_ends_with_the_interval():
     tops = [float(segment[:, 1].max()) for segment in marked.get_segments()]
     assert tops == [10.0, 5.0]
     assert "interval below the design speed" in words(figure)
+
+
+def test_speed_up_to_which_a_model_is_stable_is_marked_and_nothing_else_is():
+    angles = {"incidence_deg": [2.0, 5.0]}
+    over = ("model", "incidence_deg")
+    data = xr.Dataset(
+        {
+            "critical_speed": (over, [[np.nan, 40.0]]),
+            "speed_low": (over, [[60.0, 40.0]]),
+            "critical_mechanism": (over, [["none", "flutter"]]),
+        },
+        {"model": ["3d"], **angles},
+        {"basis": "eigenvalue", "polar": "plate"},
+    )
+    ends = {"speed": [np.nan, 40.0], "speed_low": [60.0, 40.0], "speed_from": np.nan}
+    figure = critical_speed.draw(
+        data, pd.DataFrame({"model": "3d", **angles, **ends, "speed_to": np.nan}), None
+    )
+    axes = figure.axes[0]
+    (bar,) = (line for line in axes.get_lines() if line.get_marker() == 2 and line.get_xdata().size)
+    assert (bar.get_xdata().tolist(), bar.get_ydata().tolist()) == ([2.0], [60.0])
+    assert "stable up to here" in words(figure)
+    assert axes.get_xlim()[0] > 1.0
 
 
 def test_limit_cycles_of_a_learnt_model_have_a_panel_and_words():

@@ -36,6 +36,8 @@ def test_figure_has_a_caption_without_a_number(entry: Entry) -> None:
     caption = (REPORT / "figures" / f"{entry.name}.rst").read_text()
     assert "Fig." not in caption
     assert "paper" not in caption
+    assert "Eq." not in caption
+    assert "three-dimensional plate" not in caption
 
 
 @each

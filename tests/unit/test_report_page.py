@@ -20,6 +20,8 @@ from tests.run_by_hand import Run
 from tests.unit.test_commands import HEADER
 
 import equisection as eq
+from equisection.figures.panels import without_data
+from equisection.figures.save import save_figure
 from equisection.report.captions import CaptionError, caption_html
 from equisection.report.csv_tables import table_shown
 from equisection.report.embedded_files import EmbeddingError
@@ -304,6 +306,53 @@ def test_wide_window_shows_answer_map_and_figures(
     assert "3D" in chromium.value("document.getElementById('map').getAttribute('aria-label')")
     assert chromium.complaints() == []
     assert chromium.requests() == [page.resolve().as_uri()]
+
+
+def test_figure_that_shows_nothing_is_left_out_with_its_reason(tmp_path: Path) -> None:
+    run = Run(tmp_path, NAME)
+    run.finished(6.0, "growing")
+    empty, full = tmp_path / "response.png", without_data("It has data.")
+    save_figure(without_data("The mesh is <not> kept."), [empty])
+    full.axes[0].set_label("")
+    save_figure(full, [tmp_path / "growth-rate.png"])
+    page = run.folder / "report.html"
+    figures = [shown(empty), shown(tmp_path / "growth-rate.png")]
+    write_report(page, run.folder, figures=figures, tables=[], map_files=None, config_text="")
+    text = page.read_text(encoding="utf-8")
+    assert text.count("<figure") == text.count("<img") == 1
+    assert '<figure id="figure-growth-rate">' in text
+    assert '<li id="figure-response">Response. The mesh is &lt;not&gt; kept.</li>' in text
+
+
+def test_cases_that_tell_nothing_for_one_reason_come_together(tmp_path: Path) -> None:
+    run = Run(tmp_path, NAME)
+    for k_star in (6.0, 7.0, 8.0):
+        run.finished(k_star, "failed", "too unlike" if k_star < 8.0 else "diverges")
+    page = run.folder / "report.html"
+    write_report(page, run.folder, figures=[], tables=[], map_files=None, config_text="")
+    text = page.read_text(encoding="utf-8")
+    assert "3 of 3 cases failed" in text
+    assert text.count("too unlike") == text.count("diverges") == 1
+    assert '<th scope="row">2d k6, k7</th>' in text
+
+
+def test_buttons_of_the_map_hide_nothing_of_it(wide: Chromium) -> None:
+    """Neither the map nor the scale of its colours, whatever the legend has."""
+    hidden = """(() => {
+        const box = part => document.querySelector(`#map ${part}`).getBoundingClientRect();
+        const buttons = box(".modebar");
+        return [".heatmaplayer image", ".colorbar .cbfills", ".legend .bg"].filter(part => {
+            const one = box(part);
+            return one.left < buttons.right && buttons.left < one.right
+                && one.top < buttons.bottom && buttons.top < one.bottom;
+        });
+    })()"""
+    wide.value("""(() => {
+        const choice = document.getElementById("map-model");
+        choice.value = 0;
+        choice.dispatchEvent(new Event("change"));
+    })()""")
+    assert wide.value(hidden) == []
 
 
 def test_page_is_for_readers_aloud_and_keyboards(wide: Chromium) -> None:

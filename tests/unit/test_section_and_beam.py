@@ -70,6 +70,29 @@ def test_section_without_a_number_at_any_k_star_takes_it_from_no_other() -> None
     assert over_all["2d"] == pytest.approx(np.hypot(1.0, 1.0 / 3.0) / np.sqrt(2))
 
 
+def test_means_that_are_nil_by_symmetry_have_no_ratio() -> None:
+    """What is left of an oscillation about zero says nothing of a mean."""
+    left = {"mean_twist_deg": [2e-4, -3e-4], "mean_deflection_chords": [1e-6, 8e-5]}
+    growing = runs("2d", regime=["growing", "settled"], mean_twist_deg=[-0.9, 1e-4])
+    summary = pd.concat([growing, runs("3d", **left)])
+    table = deviations(summary)
+    assert table[["twist", "deflection"]].isna().all(axis=None)
+    assert np.all(table[["frequency", "growth"]] == 0.0)
+    figure = section_and_beam.draw(table, summary)
+    assert [axes.texts[0].get_text()[:9] for axes in figure.axes[:2]] == ["Means are"] * 2
+    assert len(figure.legends[0].get_texts()) == 1
+    inclined = pd.concat([runs("2d"), runs("3d")]).assign(incidence_deg=2.0)
+    both = pd.concat([summary.assign(incidence_deg=0.0), inclined])
+    table = deviations(both).set_index("incidence_deg")
+    assert table.loc[0.0, "twist"].isna().all()
+    assert np.all(table.loc[2.0, "twist"] == 0.0)
+
+
+def test_beam_that_is_moved_a_little_has_its_means_compared() -> None:
+    summary = pd.concat([runs("2d"), runs("3d", mean_twist_deg=[0.001, 0.006])])
+    assert deviations(summary)["twist"].notna().all()
+
+
 def test_figure_has_a_line_for_each_section_and_its_root_mean_square() -> None:
     summary = pd.concat([runs("2d", mean_twist_deg=[0.88, 0.44]), runs("2d-corrected"), runs("3d")])
     figure = section_and_beam.draw(deviations(summary), summary)
@@ -80,6 +103,12 @@ def test_figure_has_a_line_for_each_section_and_its_root_mean_square() -> None:
     ]
     assert [text.get_text() for text in twist.texts] == ["0 %", "10 %"]
     assert len(figure.legends[0].get_texts()) == 2
+
+
+def test_deviation_beyond_a_hundred_per_cent_is_no_power_of_ten() -> None:
+    summary = pd.concat([runs("2d", mean_twist_deg=[1.704, 0.852]), runs("3d")])
+    figure = section_and_beam.draw(deviations(summary), summary)
+    assert [text.get_text() for text in figure.axes[0].texts] == ["110 %"]
 
 
 def test_figure_without_a_common_k_star_says_so() -> None:

@@ -9,8 +9,8 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from equisection.results.unsteady_result import UNKNOWN
-from equisection.study.axes import AXES, axes_among
+from equisection.results.unsteady_result import BOUNDED, UNKNOWN
+from equisection.study.axes import AXES, INCIDENCE, axes_among
 
 #: Quantities of ``comparison/summary.csv`` whose ratio to the beam's tells how close a section is.
 _RATIOS = {
@@ -23,6 +23,9 @@ _RATIOS = {
 QUANTITIES = (*_RATIOS, "growth")
 #: The model that the others are compared with.
 BEAM = "3d"
+#: Means up to which one is nil, that of a symmetric beam at no incidence: twist (deg), deflection
+#: (chords). What a finite record has in their place is what is left of its oscillation.
+NIL = {"mean_twist_deg": 0.005, "mean_deflection_chords": 0.001}
 
 
 def deviations(summary: pd.DataFrame) -> pd.DataFrame:
@@ -38,15 +41,17 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
     -------
     pd.DataFrame
         ``twist``, ``deflection`` and ``frequency``: section over beam, less one (-); ``growth``:
-        section less beam (V/c). NaN where section or beam has no such number. Means that are not
-        settled (``mean_known``) are compared as they are, over the last periods of both. Last comes
-        the speed of a study over k*, or the k* of one over speed, where the summary has it.
+        section less beam (V/c). NaN where section or beam has no such number, and of means that
+        are nil (:func:`means_are_nil`). Means that are not settled (``mean_known``) are compared as
+        they are, over the last periods of both. Last comes the speed of a study over k*, or the k*
+        of one over speed, where the summary has it.
     """
     axes = [axis.name for axis in axes_among(summary.columns)]
     also = [axis.name for axis in AXES if axis.name in summary and axis.name not in axes]
     run = summary[~summary["regime"].isin(UNKNOWN)]
     beam = run[run["model"] == BEAM].drop(columns="model")
     both = run[run["model"] != BEAM].merge(beam, on=axes, suffixes=("", "_beam"))
+    both.loc[_are_nil(both, summary), list(NIL)] = np.nan
     return pd.DataFrame(
         {
             "model": both["model"],
@@ -60,6 +65,22 @@ def deviations(summary: pd.DataFrame) -> pd.DataFrame:
         },
         columns=["model", *axes, *QUANTITIES, *also],
     )
+
+
+def means_are_nil(summary: pd.DataFrame) -> bool:
+    """Tell whether both means of the beam are nil (:data:`NIL`) wherever its motion is bounded."""
+    bounded = summary[(summary["model"] == BEAM) & summary["regime"].isin(BOUNDED)]
+    means = bounded[list(NIL)].dropna()
+    return not means.empty and bool((means.abs() < pd.Series(NIL)).all(axis=None))
+
+
+def _are_nil(both: pd.DataFrame, summary: pd.DataFrame) -> pd.Series:
+    """Tell of each line whether the means at its incidence are nil."""
+    angle = INCIDENCE.name
+    if angle not in both:
+        return pd.Series(means_are_nil(summary), index=both.index)
+    nil = {one: means_are_nil(runs) for one, runs in summary.groupby(angle)}
+    return both[angle].map(nil).astype(bool)
 
 
 def root_mean_square(table: pd.DataFrame) -> pd.DataFrame:

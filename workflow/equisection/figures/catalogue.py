@@ -384,7 +384,7 @@ CATALOGUE = (
     ),
     Entry(
         "damping-below-design",
-        "damping up to 1.2 of the design speed",
+        "least damping over speed",
         _MAP,
         _DESIGN,
         exists=plan.has_stability_map,

@@ -17,6 +17,7 @@ from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import legend_above, letter, without_data
 from equisection.figures.references import read_references
 from equisection.figures.style import BLUE, COLOURS, DASHES, GREY, PAGE_WIDTH
+from equisection.keys.shown import rounded
 from equisection.results.netcdf import read_dataset
 from equisection.results.section_mesh import share_below
 
@@ -95,7 +96,7 @@ def _distribution(axes: Axes, courant: Floats, area: Floats, limit: float) -> No
             100 * np.cumsum(weight[order]) / weight.sum(),
             color=COLOURS[number],
             linestyle=DASHES[number],
-            label=f"{name}, mean {mean:.2g}",
+            label=f"{name}, mean {rounded(mean, 2)}",
         )
     below = 100 * share_below(limit, courant, area)
     axes.axvline(
@@ -107,7 +108,7 @@ def _distribution(axes: Axes, courant: Floats, area: Floats, limit: float) -> No
     )
     axes.axvline(courant.max(), color=GREY, linewidth=0.7, linestyle=":")
     axes.annotate(
-        f"largest {courant.max():.2g}",
+        f"largest {rounded(courant.max(), 2)}",
         (courant.max(), 50.0),
         xytext=(-3, 0),
         textcoords="offset points",

@@ -10,6 +10,7 @@ import xarray as xr
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.markers import TICKUP
 from matplotlib.patches import Patch
 from numpy.typing import NDArray
 
@@ -33,6 +34,8 @@ _ROOM = 1.12
 _INTERVAL, _BELOW_DESIGN = "interval", "interval below the design speed"
 _STABLE = "stable up to here"
 _OPEN = "open above"
+#: Marker of a speed up to which a model is stable.
+_UPWARDS = TICKUP
 
 
 def from_files(stability_map: Path, stability: Path, design_speed: float | None) -> Figure:
@@ -146,7 +149,9 @@ def _speeds(axes: Axes, one: xr.Dataset, look: Look, *, joined: bool) -> set[str
         seen |= {mechanism} if here.any() else set()
         axes.plot(angle[here], speed[here], marker, color=look.colour)
     none = np.isnan(speed) & np.isfinite(one["speed_low"].values)
-    axes.plot(angle[none], one["speed_low"].values[none], 2, color=look.colour, markersize=9)
+    if none.any():
+        bars = {"linestyle": "", "marker": _UPWARDS, "markersize": 9}
+        axes.plot(angle[none], one["speed_low"].values[none], color=look.colour, **bars)
     return seen | ({_STABLE} if none.any() else set())
 
 
@@ -160,7 +165,7 @@ def _legend(figure: Figure, seen: set[str], design_speed: float | None, *, joine
         marker = MARKERS_OF_MECHANISMS[mechanism]
         handles += axes.plot([], [], marker, color=GREY, label=mechanism)
     if _STABLE in seen:
-        handles += axes.plot([], [], linestyle="", marker=2, color=BLACK, label=_STABLE)
+        handles += axes.plot([], [], linestyle="", marker=_UPWARDS, color=BLACK, label=_STABLE)
     patches = []
     if _INTERVAL in seen:
         patches.append(Patch(facecolor=LIGHT_GREY, alpha=0.6, label=_INTERVAL))

@@ -105,7 +105,7 @@ def draw(loops: Loops) -> Figure:
 
 def _why_nothing(case: ShownCase | None) -> str:
     if case is None:
-        return "the sweep has no 2D model"
+        return "no run of a 2D model has a result"
     return "it diverged" if case.exists else case.regime
 
 

@@ -17,6 +17,10 @@ from equisection.figures.style import BLACK, BLUE, GREY, PAGE_WIDTH, PURPLE, VER
 from equisection.results.netcdf import read_dataset
 from equisection.results.polar_dataset import at_resolution
 
+#: Least distance of the factor 1 from both ends of its axis: a beam from wall to wall has 1 to
+#: rounding, which is not to be enlarged.
+_LEAST_MARGIN = 0.02
+
 
 @dataclass(frozen=True)
 class Coefficient:
@@ -107,6 +111,6 @@ def _factor(axes: Axes, correction: xr.Dataset, coefficient: Coefficient) -> Non
     axes.axhline(1.0, color=GREY, linewidth=1.0, linestyle=":")
     axes.plot(factor["incidence_deg"], factor, color=BLACK, marker="o")
     low, high = axes.get_ylim()
-    margin = 0.05 * (high - low)
+    margin = max(0.05 * (high - low), _LEAST_MARGIN)
     axes.set_ylim(min(low, 1.0 - margin), max(high, 1.0 + margin))
     axes.set(xlabel=r"$\theta$ (deg)", ylabel=f"${coefficient.section}/{coefficient.beam}$")

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,9 +14,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from numpy.typing import NDArray
 
+from equisection.analysis.deviations import NIL
 from equisection.figures.origin import add_provenance, solver_of
 from equisection.figures.panels import letter, say, without_data
 from equisection.figures.style import COLOURS, DASHES, GREY, LIGHT_GREY, PAGE_WIDTH
+from equisection.keys.shown import rounded
 from equisection.results.netcdf import read_dataset
 from equisection.store.index import read_index, result_file
 from equisection.study import plan
@@ -93,15 +96,20 @@ def draw(modes: xr.Dataset, run: xr.Dataset) -> Figure:
     run
         Result of the beam at one k*.
     """
+    parts_of = {kind: modal_parts(modes, run, kind) for kind in ("bending", "torsion")}
+    if _is_nil(parts_of):
+        return without_data(
+            f"The beam at k* = {run.attrs['k_star']:g} has no mean deformation: it is symmetric, "
+            "at no incidence."
+        )
     figure = Figure(figsize=(PAGE_WIDTH, 4.6))
     panels = figure.subplots(2, 2, height_ratios=(1.0, 0.8))
     titles = {"bending": "bending", "torsion": "torsion"}
     labels = {"bending": r"$\overline{\Delta w}/c$", "torsion": r"$\overline{\Delta\theta}$ (deg)"}
     symbols = {"bending": "W", "torsion": r"\Theta"}
-    for column, kind in enumerate(("bending", "torsion")):
+    for column, (kind, parts) in enumerate(parts_of.items()):
         along, sizes = panels[0, column], panels[1, column]
         letter(along, "ab"[column], f"{titles[kind]}, mean deformation")
-        parts = modal_parts(modes, run, kind)
         if parts is None:
             reason = f"No history at k* = {run.attrs['k_star']:g}: {run.attrs['reason']}."
             say(along, reason)
@@ -124,10 +132,23 @@ def draw(modes: xr.Dataset, run: xr.Dataset) -> Figure:
     return figure
 
 
+def _is_nil(parts_of: Mapping[str, ModalParts | None]) -> bool:
+    """Tell whether there is no mean deformation but what is left of an oscillation."""
+    largest = {
+        "bending": NIL["mean_deflection_chords"],
+        "torsion": math.radians(NIL["mean_twist_deg"]),
+    }
+    known = {kind: parts for kind, parts in parts_of.items() if parts is not None}
+    return bool(known) and all(
+        np.abs(parts.parts.sum(axis=0)).max(initial=0.0) < largest[kind]
+        for kind, parts in known.items()
+    )
+
+
 def _dominance(parts: ModalParts) -> str:
     if len(parts.ratios) < 2:
         return "one mode alone"
-    return f"mode 1 is {parts.ratios[1:].min():.3g} times the next"
+    return f"mode 1 is {rounded(parts.ratios[1:].min(), 3)} times the next"
 
 
 def _along_span(axes: Axes, parts: ModalParts, label: str, unit: float) -> None:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from equisection.figures.map_shown import models_of, nearest_incidence, say_origin
 from equisection.figures.panels import letter, say
 from equisection.figures.style import PAGE_WIDTH
+from equisection.keys.shown import rounded
 from equisection.results.netcdf import read_dataset
 
 
@@ -59,7 +60,7 @@ def draw(stability_map: xr.Dataset, incidence_deg: float) -> Figure:
             color=look.colour,
             linestyle=look.line,
             label=f"{look.label}: {one['critical_mechanism'].values!s}, "
-            f"{float(one['critical_frequency']):.3g} Hz",
+            f"{rounded(float(one['critical_frequency']), 3)} Hz",
         )
     if not drawn:
         say(left, "No onset in the range.")

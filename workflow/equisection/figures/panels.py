@@ -15,8 +15,21 @@ def letter(axes: Axes, name: str, title: str = "") -> None:
     axes.set_title(f"({name})  {title}".rstrip(), loc="left", pad=5.0)
 
 
+#: Label of a panel that shows nothing; of an axes, no legend has it.
+_EMPTY = "empty: "
+
+
+def nothing_drawn(figure: Figure) -> str:
+    """Return why no panel of a figure shows anything, in sentences; empty where one does."""
+    panels = [str(axes.get_label()) for axes in figure.axes if axes.get_visible()]
+    if not all(label.startswith(_EMPTY) for label in panels):
+        return ""
+    return " ".join(dict.fromkeys(label.removeprefix(_EMPTY) for label in panels))
+
+
 def say(axes: Axes, sentence: str, width: int = 38) -> None:
     """Leave the panel empty, with a plain sentence that gives the reason."""
+    axes.set_label(f"{_EMPTY}{sentence}")
     axes.text(
         0.5,
         0.5,

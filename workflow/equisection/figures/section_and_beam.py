@@ -9,12 +9,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from equisection.analysis.deviations import root_mean_square
+from equisection.analysis.deviations import means_are_nil, root_mean_square
 from equisection.figures.models import LOOKS
 from equisection.figures.origin import add_provenance, solvers_of
 from equisection.figures.other_axis import add_other_axis, as_given
 from equisection.figures.panels import legend_above, letter, say
 from equisection.figures.style import GREY, PAGE_WIDTH
+from equisection.keys.shown import rounded
 from equisection.study.axes import Axis, onset_axis_among
 
 #: Titles and axes of the panels, with the factor to what the axis shows.
@@ -24,6 +25,7 @@ _QUANTITIES = {
     "frequency": ("frequency", "section over beam $- 1$ (%)", 100.0),
     "growth": ("growth rate", "section $-$ beam ($10^{-3}$ V/c)", 1000.0),
 }
+_MEANS = ("twist", "deflection")
 #: Height (pt) of the words beside the title above a panel, with an axis at the top and without.
 _ABOVE_AXIS, _ABOVE = 24.0, 3.0
 #: Units of the root mean squares beside the panels' titles.
@@ -53,11 +55,16 @@ def draw(table: pd.DataFrame, summary: pd.DataFrame) -> Figure:
         letter(axes, place, title)
         along = onset_axis_among(table.columns)
         axes.set(xlabel=along.label, ylabel=label)
-        _over_study(axes, table, name, factor, along)
-        if place in "ab" and axes.has_data():  # those below have the same axis
+        if name in _MEANS and means_are_nil(summary):
+            say(axes, "Means are nil: symmetric, at no incidence.")
+        else:
+            _over_study(axes, table, name, factor, along)
+        if place in "ab" and axes.lines:  # those below have the same axis
             add_other_axis(axes, along, as_given(table))
         _root_mean_squares(axes, over_all[name] * factor, _UNITS[name])
-    legend_above(figure, panels.flat[0], columns=2)
+    drawn = [axes for axes in panels.flat if axes.lines]
+    if drawn:
+        legend_above(figure, drawn[0], columns=2)
     sources = summary[["solver", "resolution"]].drop_duplicates().values
     add_provenance(figure, *solvers_of((f"solver '{one}'", str(mesh)) for one, mesh in sources))
     return figure
@@ -83,7 +90,7 @@ def _over_study(axes: Axes, table: pd.DataFrame, name: str, factor: float, along
 
 def _root_mean_squares(axes: Axes, values: pd.Series, unit: str) -> None:
     """Write the root mean squares on the right of the panel's title, in the models' colours."""
-    words = [(str(model), f"{value:.2g}{unit}") for model, value in values.dropna().items()]
+    words = [(str(model), f"{rounded(value, 2)}{unit}") for model, value in values.dropna().items()]
     place = 1.0
     for model, word in reversed(words):
         axes.annotate(

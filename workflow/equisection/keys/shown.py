@@ -9,6 +9,14 @@ from typing import Any
 
 _LONGEST = 60
 _MOST_BITS = 10_000
+#: From here on a number is shorter with its exponent.
+_LONG_NUMBER = 1e6
+
+
+def rounded(number: float, digits: int) -> str:
+    """Return a number of some digits for a sentence: 110 for 113 of two digits, not 1.1e+02."""
+    text = f"{number:.{digits}g}"
+    return f"{float(text):.0f}" if "e+" in text and abs(number) < _LONG_NUMBER else text
 
 
 class _Shown(reprlib.Repr):

@@ -8,6 +8,7 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from equisection.keys.shown import rounded
 from equisection.report.embedded_files import EmbeddingError, data_address
 
 #: Lines of a table that are shown at most.
@@ -71,4 +72,4 @@ def _cell(text: str) -> str:
         return text
     if not math.isfinite(number) or len(text) <= _DIGITS + 1:
         return text
-    return f"{number:.{_DIGITS}g}"
+    return rounded(number, _DIGITS)

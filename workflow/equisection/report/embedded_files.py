@@ -19,11 +19,22 @@ class EmbeddingError(EquisectionError):
 
 @dataclass(frozen=True)
 class Picture:
-    """A picture as a page has it: its address, and its width and height in pixels."""
+    """A picture as a page has it.
+
+    Attributes
+    ----------
+    address
+        Its address.
+    width, height
+        In pixels.
+    empty
+        Why nothing is drawn in it; empty where something is.
+    """
 
     address: str
     width: int
     height: int
+    empty: str = ""
 
 
 def data_address(content: bytes, media_type: str) -> str:
@@ -46,4 +57,18 @@ def picture(path: Path) -> Picture:
     if not content.startswith(_PNG) or len(content) < 24:
         raise EmbeddingError(f"{path}: is no PNG picture; delete it and run again")
     width, height = struct.unpack(">II", content[16:24])
-    return Picture(data_address(content, "image/png"), width, height)
+    return Picture(data_address(content, "image/png"), width, height, _warning(content))
+
+
+def _warning(content: bytes) -> str:
+    """Return the text of a PNG of the keyword ``Warning``, before its pixels; empty for none."""
+    place = len(_PNG)
+    while place + 12 <= len(content):
+        length, kind = struct.unpack(">I4s", content[place : place + 8])
+        keyword, _, text = content[place + 8 : place + 8 + length].partition(b"\0")
+        if kind == b"IDAT":
+            break
+        if kind == b"tEXt" and keyword == b"Warning":
+            return text.decode("latin-1")
+        place += length + 12
+    return ""

@@ -17,6 +17,7 @@ from plotly import graph_objects
 
 from equisection.figures.map_shown import MARKERS_OF_MECHANISMS, models_of
 from equisection.figures.style import BLACK, BLUE, GREY, LIGHT_GREY, VERMILLION
+from equisection.keys.shown import rounded
 
 Floats = NDArray[np.float64]
 
@@ -24,6 +25,8 @@ Floats = NDArray[np.float64]
 _STRONG = 90.0
 #: Height of the map (CSS pixels).
 _HEIGHT = 520
+#: Room above the map (CSS pixels), for the legend and for the buttons.
+_ABOVE = 40
 _SYMBOLS = {"D": "diamond", "o": "circle", "s": "square", "^": "triangle-up", "x": "x"}
 
 
@@ -73,10 +76,10 @@ def _figure(one: xr.Dataset, stability: pd.DataFrame, design_speed: float | None
             x=ends,
             y=[design_speed] * 2,
             mode="lines+markers",  # of one incidence alone a line has no length
-            marker={"symbol": "line-ew-open", "size": 14, "color": GREY},
-            line={"color": GREY, "dash": "dash", "width": 1.5},
+            marker={"symbol": "line-ew-open", "size": 14, "color": BLACK},
+            line={"color": BLACK, "dash": "dash", "width": 2},  # seen on any colour of the map
             name="design speed",
-            hovertemplate=f"design speed {design_speed:.4g} m/s<extra></extra>",
+            hovertemplate=f"design speed {rounded(design_speed, 4)} m/s<extra></extra>",
         )
     return figure
 
@@ -86,7 +89,8 @@ def _layout() -> dict[str, Any]:
     return {
         "template": "none",
         "height": _HEIGHT,
-        "margin": {"l": 60, "r": 10, "t": 10, "b": 60},
+        "margin": {"l": 60, "r": 10, "t": _ABOVE, "b": 60},
+        "showlegend": True,
         "xaxis": {**axis, "title": {"text": "incidence (deg)"}},
         "yaxis": {**axis, "title": {"text": "speed (m/s)"}},
         "legend": {"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 0},
@@ -154,13 +158,16 @@ def _words_of_points(one: xr.Dataset) -> list[list[str]]:
 
 def _words_of_point(here: xr.Dataset) -> str:
     growth, mechanism = float(here["growth_rate"]), str(here["mechanism"].values)
-    where = f"<b>{float(here['speed']):.4g} m/s at {float(here['incidence_deg']):g} deg</b><br>"
+    where = (
+        f"<b>{rounded(float(here['speed']), 4)} m/s at {float(here['incidence_deg']):g} deg</b><br>"
+    )
     if not np.isfinite(growth):
         name = "" if mechanism in ("none", "unknown") else f": {html.escape(mechanism)}"
         return f"{where}no static equilibrium from rest{name}"
     kind = "stable" if growth <= 0.0 else html.escape(mechanism)
+    frequency = rounded(float(here["frequency"]), 3)
     return (
-        f"{where}{kind}<br>growth {growth:.3g} 1/s at {float(here['frequency']):.3g} Hz<br>"
+        f"{where}{kind}<br>growth {rounded(growth, 3)} 1/s at {frequency} Hz<br>"
         f"static twist of the tip {np.degrees(float(here['equilibrium_twist'])):.3g} deg"
     )
 
@@ -230,14 +237,14 @@ def _bars(length: Floats) -> list[float]:
 def _words_of_speed(here: xr.Dataset, row: pd.Series) -> str:
     """Return what is said of a critical speed."""
     speed, angle = float(here["critical_speed"]), float(here["incidence_deg"])
-    lines = [f"<b>{speed:.4g} m/s at {angle:g} deg</b>"]
+    lines = [f"<b>{rounded(speed, 4)} m/s at {angle:g} deg</b>"]
     frequency = float(here["critical_frequency"])
-    at = f" at {frequency:.3g} Hz" if np.isfinite(frequency) and frequency > 0.0 else ""
+    at = f" at {rounded(frequency, 3)} Hz" if np.isfinite(frequency) and frequency > 0.0 else ""
     lines.append(f"{html.escape(str(here['critical_mechanism'].values))}{at}")
     low, high = row["speed_from"], row["speed_to"]
     if np.isfinite(low):
-        end = f"to {high:.4g} m/s" if np.isfinite(high) else "open above"
-        lines.append(f"interval from {low:.4g} {end}")
+        end = f"to {rounded(high, 4)} m/s" if np.isfinite(high) else "open above"
+        lines.append(f"interval from {rounded(low, 4)} {end}")
     if np.isfinite(row.get("margin", np.nan)):
-        lines.append(f"{row['margin']:.3g} times the design speed")
+        lines.append(f"{rounded(row['margin'], 3)} times the design speed")
     return "<br>".join(lines)

@@ -114,11 +114,14 @@ def write_report(
     """
     drawn, lacks = (None, []) if map_files is None else _map(map_files)
     status = run_status(run)
+    untold = _untold(status)
     parts, model = _answer(run)
     script = _SCRIPT.read_text(encoding="utf-8")
     scripts = [] if drawn is None else [_one_line_ends(_plotly()), _one_line_ends(script)]
-    first = [one for name in _FIRST for one in figures if one.name == name]
-    further = [one for one in sorted(figures, key=_place) if one not in first]
+    pictures = [(one, picture(one.path)) for one in sorted(figures, key=_place)]
+    drawn_ones = [(one, image) for one, image in pictures if not image.empty]
+    first = [pair for name in _FIRST for pair in drawn_ones if pair[0].name == name]
+    further = [pair for pair in drawn_ones if pair not in first]
     environment = Environment(
         autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
@@ -127,12 +130,14 @@ def write_report(
         parts=parts,
         model=model,
         cases=len(status.entries),
-        untold=_untold(status),
+        untold=untold,
+        untold_cases=sum(len(names) for _, names, _, _ in untold),
         map=Markup(_as_script(drawn)) if drawn else None,  # noqa: S704, without < and &
         learnt=drawn is not None and drawn["is_learnt"],
         lacks=lacks,
-        first=[(one, picture(one.path)) for one in first],
-        figures=[(one, picture(one.path)) for one in further],
+        first=first,
+        figures=further,
+        empty=[(one, image.empty) for one, image in pictures if image.empty],
         tables=[
             (one, table_shown(one.path), one.name in _OPEN) for one in sorted(tables, key=_place)
         ],
@@ -162,13 +167,16 @@ def _answer(run: Path) -> tuple[list[tuple[str, str]], str]:
     return [speed, ("model", f"{model}{label}"), *others], model
 
 
-def _untold(status: RunStatus) -> list[tuple[str, str, str]]:
-    """Return case, state and reason of each case that failed, is undecided, or has no result."""
-    return [
-        (f"{one.model} {one.case}", state_of(one), one.text)
-        for one in status.entries
-        if one.state != State.DONE or one.regime in _UNTOLD
-    ]
+def _untold(status: RunStatus) -> list[tuple[str, list[str], str, str]]:
+    """Return model, cases, state and reason of cases that failed, are undecided or have no result.
+
+    Cases of a model that have one state for one reason come together.
+    """
+    alike: dict[tuple[str, str, str], list[str]] = {}
+    for one in status.entries:
+        if one.state != State.DONE or one.regime in _UNTOLD:
+            alike.setdefault((one.model, state_of(one), one.text), []).append(one.case)
+    return [(model, cases, state, reason) for (model, state, reason), cases in alike.items()]
 
 
 def _place(one: Shown) -> tuple[int, int]:

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from equisection.errors import EquisectionError, ResultFileError
-from equisection.keys.shown import shown
+from equisection.keys.shown import rounded, shown
 from equisection.keys.written_number import LARGEST, is_plain_number, number_in
 
 #: The table with the answer, as seen from the folder of a run.
@@ -47,6 +47,9 @@ _BASES = {
     "eigenvalue": "eigenvalues of small motions",
     "derivatives": "flutter derivatives",
 }
+#: What speeds rest on that is no run with a verdict.
+_WITHOUT_RUNS = ("model", "eigenvalue", "derivatives")
+_PLACE = ("model", "incidence_deg")
 _MECHANISMS = (*("none", "divergence", "flutter", "stall-flutter", "galloping", "unknown"),)
 _SIDES = {
     "unsafe": ", so that the speed is too high",
@@ -139,7 +142,7 @@ class Answer:
         margin = self.chosen.get("margin")
         if margin is not None:
             side = "" if margin >= 1.0 else ": NOT REACHED by the stable speeds"
-            return f"{margin:.3g} times the design speed{side}"
+            return f"{rounded(margin, 3)} times the design speed{side}"
         if self.chosen["speed_low"] is None:
             return "unknown: no speed is known to be stable"
         return "not asked for: flow.design_speed (m/s) is not given"
@@ -291,8 +294,15 @@ def _chosen(rows: Sequence[Mapping[str, Any]]) -> Mapping[str, Any]:
     for model in models:
         known = [row for row in _answers(rows, model) if _is_known(row)]
         if known:
-            return min(known, key=lambda row: _or(_lowest(row), 0.0))
+            return min(known, key=lambda row: (_or(_lowest(row), 0.0), _least_speed(rows, row)))
     return _answers(rows, models[0])[0]
+
+
+def _least_speed(rows: Sequence[Mapping[str, Any]], row: Mapping[str, Any]) -> float:
+    """Return the lowest onset by other bases at the model and incidence of a line."""
+    others = [one for one in rows if one is not row]
+    alike = [one for one in others if all(one[name] == row[name] for name in _PLACE)]
+    return min((one["speed"] for one in alike if one["speed"] is not None), default=math.inf)
 
 
 def _distance_from_beam(name: str) -> tuple[bool, bool]:
@@ -351,26 +361,28 @@ def _speed(row: Mapping[str, Any]) -> str:
     low, high, speed = row["speed_low"], row["speed_high"], row["speed"]
     if low is not None and high is not None:
         if high - low < 0.005 * high:
-            return f"{_or(speed, low):.4g} m/s"
-        return f"between {low:.3g} m/s (stable) and {high:.3g} m/s (unstable)"
+            return f"{rounded(_or(speed, low), 4)} m/s"
+        digits = 3 if rounded(low, 3) != rounded(high, 3) else 4
+        stable, unstable = rounded(low, digits), rounded(high, digits)
+        return f"between {stable} m/s (stable) and {unstable} m/s (unstable)"
     if speed is not None:
         ends = (("from", low), ("up to", high))
-        known = [f"{word} {end:.3g} m/s" for word, end in ends if end is not None]
-        return f"{speed:.4g} m/s, " + (
+        known = [f"{word} {rounded(end, 3)} m/s" for word, end in ends if end is not None]
+        return f"{rounded(speed, 4)} m/s, " + (
             f"{known[0]}, open beyond" if known else "without an interval"
         )
     if low is not None:
-        return f"above {low:.3g} m/s, up to which it is stable"
+        return f"above {rounded(low, 3)} m/s, up to which it is stable"
     if high is not None:
-        return f"below {high:.3g} m/s, where it is unstable already"
-    return "unknown: no run has a verdict"
+        return f"below {rounded(high, 3)} m/s, where it is unstable already"
+    return f"unknown: {_why_nothing(row)}"
 
 
 def _mechanism(row: Mapping[str, Any]) -> str:
     words = {"none": "none found", "unknown": f"unknown: {_why_unknown(row)}"}
     name = words.get(row["mechanism"], row["mechanism"])
     frequency = row.get("frequency_hz")
-    return f"{name} at {frequency:.3g} Hz" if frequency else str(name)
+    return f"{name} at {rounded(frequency, 3)} Hz" if frequency else str(name)
 
 
 def _why_unknown(row: Mapping[str, Any]) -> str:
@@ -378,6 +390,12 @@ def _why_unknown(row: Mapping[str, Any]) -> str:
         return "what is unstable does not say by what"
     if row["speed_low"] is not None:
         return "what is beyond the stable speeds failed or is undecided"
+    return _why_nothing(row)
+
+
+def _why_nothing(row: Mapping[str, Any]) -> str:
+    if row["basis"] in _WITHOUT_RUNS:
+        return f"no onset by {_BASES[row['basis']]}"
     return "no run has a verdict"
 
 
