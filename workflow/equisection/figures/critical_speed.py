@@ -150,8 +150,14 @@ def _speeds(axes: Axes, one: xr.Dataset, look: Look, *, joined: bool) -> set[str
         axes.plot(angle[here], speed[here], marker, color=look.colour)
     none = np.isnan(speed) & np.isfinite(one["speed_low"].values)
     if none.any():
-        bars = {"linestyle": "", "marker": _UPWARDS, "markersize": 9}
-        axes.plot(angle[none], one["speed_low"].values[none], color=look.colour, **bars)
+        axes.plot(
+            angle[none],
+            one["speed_low"].values[none],
+            color=look.colour,
+            linestyle="",
+            marker=_UPWARDS,
+            markersize=9,
+        )
     return seen | ({_STABLE} if none.any() else set())
 
 
