@@ -98,6 +98,27 @@ def test_whole_beats_make_a_limit_cycle():
         assert "after a whole beat" in str(found["reason"])
 
 
+def test_rise_in_a_beat_is_no_growth_of_a_motion_that_was_as_large_before():
+    """The H section at 1 m/s, whose vortices keep its twist at some 0.3 deg."""
+    known = read_dataset(ROOT / "results/reference/openfoam-h-section/unsteady/2d/v1.nc")
+    judge, motion = Judge.of(case_of(known)), tip_motion(known)
+    (growth,) = growths_of_tips([judge], [motion])
+    assert growth.sign == 1
+    found = judge.attributes(motion)
+    assert found["regime"] == "undecided"
+    assert "was as large in each of 3 windows before" in str(found["reason"])
+
+
+@pytest.mark.parametrize("rate", [0.005, 0.01, 0.02])
+def test_growth_in_beats_is_no_limit_cycle(rate):
+    random = np.random.default_rng(4)
+    for _ in range(4):
+        found = judge_of().attributes(beating(random, 6.0, 100.0, 0.3, rate=rate))
+        assert found["regime"] in {"growing", "undecided"}, found["reason"]
+        if rate == 0.02:
+            assert found["regime"] == "growing"
+
+
 @pytest.mark.parametrize("noise", [0.0, 0.005, 0.02])
 @pytest.mark.parametrize("rate", [-0.02, -0.05])
 def test_decay_is_decided_as_early_as_by_its_amplitude_alone(rate, noise):

@@ -187,7 +187,7 @@ class EndCriteria(Block):
     history would get another verdict, or get it at another time.
     """
 
-    rules: int = 8
+    rules: int = 9
     settled_amplitude_deg: float
     growing_amplitude_deg: float
     steadiness: float

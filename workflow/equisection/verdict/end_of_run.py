@@ -12,7 +12,7 @@ import math
 
 import numpy as np
 
-from equisection.verdict.cycles import find_cycles
+from equisection.verdict.cycles import Array, find_cycles
 from equisection.verdict.growth import DECISIVE_PERIODS, Growth
 from equisection.verdict.observation import DEPARTS, GROWN, RUNS_AWAY, UNDIMINISHED, Observation
 from equisection.verdict.verdict import Regime
@@ -21,8 +21,10 @@ from equisection.verdict.wording import change, degrees
 _AT_THE_END = "decided by the trend at the end of the run: "
 # A trend has stalled when the last half of the window keeps less than this part of its rate.
 _STALLED = 0.3
-# Turns of an amplitude that has been through a whole beat.
-_WHOLE_BEAT = 3
+# Turns of an amplitude that has been through a whole beat, and through two.
+_WHOLE_BEAT, _TWO_BEATS = 3, 5
+# Windows before that of a growth in each of which a beating motion was as large.
+_WINDOWS_BEFORE = 3
 # With fewer extrema the swing from the release to the first is needed to compare with.
 _FEWEST_EXTREMA = 3
 
@@ -33,7 +35,7 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     A growth whose interval has one sign makes the run growing or decaying, and a decaying one that
     has fallen far enough settled. Without one it is a limit cycle if its amplitude is steady, or
     has come back to what it was for twice as long as it is judged or after a whole beat, or
-    stalls. What is none of these is undecided.
+    stalls. What is none of these is undecided, as is a growth in a beat that was as large before.
 
     Parameters
     ----------
@@ -56,6 +58,11 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
         )
     if growth.beats and not _has_outgrown(seen, growth):
         return _in_a_beat(seen, growth)
+    if growth.decides and growth.sign > 0 and _was_as_large(seen, growth):
+        return "undecided", (
+            f"{_between(seen)} beats, and was as large in each of {_WINDOWS_BEFORE} windows before "
+            f"that of its {growth.words}: a longer run would tell"
+        )
     return _by_growth(seen, growth)
 
 
@@ -106,15 +113,40 @@ def _in_a_beat(seen: Observation, growth: Growth) -> tuple[Regime, str]:
     """Decide from a record in which the motion beats: by whole beats, or not at all.
 
     A beat has been whole when the amplitude has turned three times, at a top, a bottom and a top
-    or the other way round.
+    or the other way round. The last of them must have grown beyond none of its kind: beats of a
+    slow growth rise little from one to the next.
     """
-    amplitude = seen.since_transient
-    between = f"{degrees(float(amplitude.min()))} to {degrees(float(amplitude.max()))}"
-    words = f"the twist's amplitude of {between} beats ({growth.drift_in_words})"
-    turns = find_cycles(seen.time_since_transient, amplitude).value
-    if turns.size >= _WHOLE_BEAT and turns[-1] <= GROWN * turns[-3]:
+    words = f"{_between(seen)} beats ({growth.drift_in_words})"
+    turns = _turns(seen)
+    if turns.size >= _WHOLE_BEAT and turns[-1] <= GROWN * turns[-3::-2].min():
         return "limit-cycle", f"{_AT_THE_END}{words}, and comes back after a whole beat"
     return "undecided", f"{words}: whole beats would tell what lasts of it; raise the duration"
+
+
+def _was_as_large(seen: Observation, growth: Growth) -> bool:
+    """Tell whether a motion that beats was as large before the window of its growth.
+
+    It was so in each of several windows, over two beats or more, in which such a growth would show.
+    """
+    length = growth.end - growth.start
+    if math.exp(growth.rate * _WINDOWS_BEFORE * length) < GROWN or _turns(seen).size < _TWO_BEATS:
+        return False
+    at, amplitude = seen.time_since_transient, seen.since_transient
+    windows = np.floor((growth.end - at) / length)
+    largest = [amplitude[windows == one].max(initial=0.0) for one in range(1 + _WINDOWS_BEFORE)]
+    return bool(min(largest[1:]) >= largest[0])
+
+
+def _turns(seen: Observation) -> Array:
+    """Return the amplitudes (rad) at which the twist's amplitude turns."""
+    return find_cycles(seen.time_since_transient, seen.since_transient).value
+
+
+def _between(seen: Observation) -> str:
+    """Return the range of the twist's amplitude in words."""
+    amplitude = seen.since_transient
+    ends = f"{degrees(float(amplitude.min()))} to {degrees(float(amplitude.max()))}"
+    return f"the twist's amplitude of {ends}"
 
 
 def _comes_back(seen: Observation, growth: Growth) -> bool:
