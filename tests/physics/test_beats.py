@@ -1,6 +1,7 @@
 """A beat with vortices near the twist's frequency is no decay, and a decay is no beat."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -172,3 +173,14 @@ def test_h_section_whose_vortices_beat_with_its_twist_is_undecided():
     assert found["regime"] == "undecided"
     assert "vortices beat with the motion" in found["reason"]
     assert found["growth_low"] < found["growth_rate"] < 0.0 < found["growth_high"]
+
+
+def test_motion_in_a_flow_without_vortices_does_not_beat():
+    """Next to an onset a rate is little, and drifts as it goes with the amplitude."""
+    motion = beating(np.random.default_rng(1), 0.5, 100.0, 0.6)
+    judge = judge_of()
+    alone = replace(judge, has_vortices=False)
+    assert growths_of_tips([judge], [motion])[0].may_beat
+    (growth,) = growths_of_tips([alone], [motion])
+    assert not growth.may_beat
+    assert growth.stays

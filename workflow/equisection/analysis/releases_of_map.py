@@ -310,7 +310,8 @@ def _judge_of(release: MapRelease, criteria: Criteria) -> Judge:
     body = release.line.body
     per_flow = body.chord / release.speed
     heaves = per_flow * body.bending_frequencies[:BENDING_MODES]
-    return Judge(criteria, per_flow * body.pitch_frequency, tuple(heaves.tolist()))
+    pitch = per_flow * body.pitch_frequency
+    return Judge(criteria, pitch, tuple(heaves.tolist()), has_vortices=False)
 
 
 def _together(releases: Sequence[MapRelease]) -> tuple[StripSystem, Floats, Floats]:

@@ -39,6 +39,8 @@ WITHOUT_EQUILIBRIUM = (
 BENDING_MODES = 2
 #: A heave that is this many times faster than the pitch does not beat with it (-).
 FASTEST_HEAVE = 4.0
+#: Name of the solver whose flow sheds no vortices of its own.
+EMBEDDED = "embedded"
 
 
 @dataclass(frozen=True)
@@ -102,23 +104,28 @@ class Judge:
     heaves
         Those of its heave, or of its first bending modes. Without them no growth is fitted, and
         the twist alone is judged.
+    has_vortices
+        The flow may shed vortices, which beat with the motion. That of the embedded solver has
+        none: its loads are those of the motion.
     """
 
     criteria: Criteria
     natural_frequency: float
     heaves: tuple[float, ...] = ()
+    has_vortices: bool = True
 
     @classmethod
     def of(cls, case: UnsteadyCase) -> Judge:
         """Return the judge of a case."""
         criteria = Criteria(**case.criteria.model_dump(exclude={"rules"}))
-        return cls(criteria, pitch_frequency(case), _heaves(case))
+        has_vortices = case.solver.name != EMBEDDED
+        return cls(criteria, pitch_frequency(case), _heaves(case), has_vortices)
 
     @classmethod
     def of_section(cls, section: Section, criteria: Criteria) -> Judge:
-        """Return the judge of a section in its flow."""
+        """Return the judge of a section in the flow of the embedded solver."""
         pitch, heave = section.uncoupled_frequencies
-        return cls(criteria, pitch, (heave,))
+        return cls(criteria, pitch, (heave,), has_vortices=False)
 
     @property
     def waves(self) -> tuple[float, ...]:
@@ -183,7 +190,7 @@ class Judge:
         """
         motion = (tip.time, tip.twist, tip.deflection, self.criteria)
         found = assess(*motion)
-        if found.regime not in {"settled", "decaying"}:
+        if not self.has_vortices or found.regime not in {"settled", "decaying"}:
             return found.decided
         (growth,) = growths_of_tips([self], [tip])
         return growth.stays or assess(*motion, growth=growth).decided
@@ -246,7 +253,7 @@ def growths_of_tips(judges: Sequence[Judge], tips: Sequence[TipMotion]) -> list[
         ]
         fits = with_drifts(time, records, [judges[lane].waves for lane in lanes], windows)
         for lane, growth in zip(lanes, fits, strict=True):
-            found[lane] = growth
+            found[lane] = growth if judges[lane].has_vortices else growth.without_drift()
     return found
 
 

@@ -58,7 +58,8 @@ def decide_at_end(seen: Observation, growth: Growth) -> tuple[Regime, str]:
         )
     if growth.beats and not _has_outgrown(seen, growth):
         return _in_a_beat(seen, growth)
-    if growth.decides and growth.sign > 0 and _was_as_large(seen, growth):
+    is_growth = growth.decides and growth.sign > 0
+    if is_growth and growth.may_beat and _was_as_large(seen, growth):
         return "undecided", (
             f"{_between(seen)} beats, and was as large in each of {_WINDOWS_BEFORE} windows before "
             f"that of its {growth.words}: a longer run would tell"

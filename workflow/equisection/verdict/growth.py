@@ -131,6 +131,15 @@ class Growth:
         return not self.beats and (by_chance or not self.drift.is_fast)
 
     @property
+    def may_beat(self) -> bool:
+        """Tell whether there may be a motion that the fit does not have."""
+        return math.isfinite(self.drift.change)
+
+    def without_drift(self) -> Growth:
+        """Return the growth of a motion whose loads are its own, so that nothing beats with it."""
+        return replace(self, drift=Drift(), drift_of_all=Drift())
+
+    @property
     def drift_in_words(self) -> str:
         """Drift that keeps the rate from staying, in words."""
         is_short = self.drift.is_of_loads or not self.drift_of_all.is_surely_fast
