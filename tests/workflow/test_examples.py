@@ -6,11 +6,9 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import pandas as pd
 import pytest
@@ -18,10 +16,8 @@ import yaml
 
 from equisection.run.answer import answer_of
 from tests.chromium import Chromium, program
-from tests.processes import LONG
 from tests.workflow.project import ROOT, Project
 
-RUNNER = Path(__file__).with_name("forked_runs.py")
 CONFIGS = {
     path.stem: yaml.safe_load(path.read_text(encoding="utf-8"))
     for path in sorted((ROOT / "config" / "examples").glob("*.yaml"))
@@ -34,14 +30,6 @@ EMBEDDED = [
     if ("solver" not in config if os.environ.get(ALL) == "all" else name in USUAL)
 ]
 MOST_BYTES = 10e6
-
-
-class Ended(NamedTuple):
-    """A run that ended: its status, its words and its folder."""
-
-    status: int
-    said: str
-    folder: Path
 
 
 def ends_and_middle(values: Any) -> Any:
@@ -67,35 +55,6 @@ def shortened(config: dict[str, Any]) -> dict[str, Any]:
 
 
 @pytest.fixture(scope="module")
-def runs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Ended]:
-    """Reports of all examples: how each run ended, what it said, and its folder."""
-    project = Project.fresh(tmp_path_factory.mktemp("examples") / "project")
-    style = project.folder / "envs" / "equisection.mplstyle"
-    style.write_text(style.read_text().replace("savefig.dpi: 200", "savefig.dpi: 50"))
-    names = [f"{name}.yaml" for name in EMBEDDED]
-    for file, name in zip(names, EMBEDDED, strict=True):
-        (project.folder / file).write_text(yaml.safe_dump(shortened(CONFIGS[name])))
-    said = subprocess.run(
-        [sys.executable, str(RUNNER), "report.html", *names],
-        cwd=project.folder,
-        env=project.environment(),
-        capture_output=True,
-        text=True,
-        check=True,
-        timeout=LONG,
-    ).stdout
-    status = dict(line.split() for line in said.splitlines() if line.split()[0] in CONFIGS)
-    return {
-        name: Ended(
-            int(status[name]),
-            (project.folder / f"{name}.log").read_text(),
-            project.folder / "results" / CONFIGS[name]["run"],
-        )
-        for name in EMBEDDED
-    }
-
-
-@pytest.fixture(scope="module")
 def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium | None]:
     """A browser; None where none is installed."""
     path = program()
@@ -108,25 +67,28 @@ def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Chromium | Non
 
 @pytest.mark.parametrize("name", EMBEDDED)
 def test_example_has_its_figures_its_report_and_an_answer(
-    name: str, runs: dict[str, Ended], browser: Chromium | None
+    name: str, tmp_path: Path, browser: Chromium | None
 ) -> None:
-    ended = runs[name]
-    assert ended.status == 0, ended.said
-    page = ended.folder / "report.html"
+    project = Project.fresh(tmp_path / "project", shortened(CONFIGS[name]))
+    style = project.folder / "envs" / "equisection.mplstyle"
+    style.write_text(style.read_text().replace("savefig.dpi: 200", "savefig.dpi: 50"))
+    project.run(project.target("report.html"))
+    folder = project.results
+    page = folder / "report.html"
     assert page.stat().st_size < MOST_BYTES
-    answer = list(answer_of(ended.folder).lines())
+    answer = list(answer_of(folder).lines())
     assert 4 <= len(answer) <= 5
     assert "e+" not in "".join(answer)
     text = page.read_text(encoding="utf-8")
-    for picture in (ended.folder / "figures").glob("*.png"):
+    for picture in (folder / "figures").glob("*.png"):
         assert f'id="figure-{picture.stem}"' in text
-    speeds = pd.read_csv(ended.folder / "comparison" / "critical_speed.csv")
+    speeds = pd.read_csv(folder / "comparison" / "critical_speed.csv")
     known = speeds[["speed", "speed_low", "speed_high"]].notna().any(axis=1)
     assert known.groupby(speeds["model"]).any().all()  # no model of it has failed runs alone
     if browser is None:
         return
     browser.open(page, 1000, 800, prefers_color_scheme="light")
-    assert browser.value("document.title") == f"equisection: {ended.folder.name}"
+    assert browser.value("document.title") == f"equisection: {folder.name}"
     assert browser.complaints() == []
     assert browser.value("[...document.images].every(one => one.naturalWidth > 0)")
     has_map = browser.value("document.querySelectorAll('#map .main-svg').length > 0")

@@ -27,7 +27,8 @@ class SolverEntry:
     ``work`` is the module with the work of its jobs (:class:`.work.Estimate`); without it they ask
     for the memory and time that starting them takes. ``check`` is one whose function ``problems``
     yields the parts of a configuration that it has no cases for. ``basis`` is what its runs are,
-    where they are neither those of a mesh nor of equations in time.
+    where they are neither those of a mesh nor of equations in time. ``has_vortices`` tells whether
+    its flow may shed vortices, which beat with a motion.
     """
 
     module: str
@@ -36,6 +37,7 @@ class SolverEntry:
     work: str = ""
     check: str = ""
     basis: str = ""
+    has_vortices: bool = True
 
 
 SOLVERS: dict[str, SolverEntry] = {
@@ -43,6 +45,7 @@ SOLVERS: dict[str, SolverEntry] = {
         "equisection.solvers.embedded.adapter",
         frozenset({Capability.BATCH, Capability.STATES}),
         work="equisection.solvers.embedded.job_work",
+        has_vortices=False,
     ),
     "openfoam": SolverEntry(
         "equisection.solvers.openfoam.adapter",

@@ -18,8 +18,15 @@ from equisection.beam.section import Section
 from equisection.cases import Case, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady_result import Regime, UnsteadyResult
+from equisection.solvers.registry import SOLVERS
 from equisection.verdict import Criteria, Verdict, assess, heave_grows, swings_grow
-from equisection.verdict.growth import NO_GROWTH, Growth, growth_window, with_drifts
+from equisection.verdict.growth import (
+    NO_GROWTH,
+    Growth,
+    growth_window,
+    growths_of,
+    growths_with_drifts,
+)
 
 Floats = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -39,8 +46,6 @@ WITHOUT_EQUILIBRIUM = (
 BENDING_MODES = 2
 #: A heave that is this many times faster than the pitch does not beat with it (-).
 FASTEST_HEAVE = 4.0
-#: Name of the solver whose flow sheds no vortices of its own.
-EMBEDDED = "embedded"
 
 
 @dataclass(frozen=True)
@@ -118,7 +123,8 @@ class Judge:
     def of(cls, case: UnsteadyCase) -> Judge:
         """Return the judge of a case."""
         criteria = Criteria(**case.criteria.model_dump(exclude={"rules"}))
-        has_vortices = case.solver.name != EMBEDDED
+        solver = SOLVERS.get(case.solver.name)
+        has_vortices = solver is None or solver.has_vortices
         return cls(criteria, pitch_frequency(case), _heaves(case), has_vortices)
 
     @classmethod
@@ -232,14 +238,16 @@ def first_modes(torsion: Floats, bending: Floats) -> Floats:
 def growths_of_tips(judges: Sequence[Judge], tips: Sequence[TipMotion]) -> list[Growth]:
     """Return the growth of motions that are sampled at the same times, each until its own end.
 
-    Those with as many records and natural frequencies are fitted at once.
+    Those with as many records and natural frequencies are fitted at once, those without vortices
+    apart.
     """
-    groups: dict[tuple[int, int], list[int]] = {}
+    groups: dict[tuple[int, int, bool], list[int]] = {}
     for lane, (judge, tip) in enumerate(zip(judges, tips, strict=True)):
         if judge.heaves and judge.natural_frequency > 0.0 and np.isfinite(tip.records).all():
-            groups.setdefault((len(tip.records), len(judge.waves)), []).append(lane)
+            alike = len(tip.records), len(judge.waves), judge.has_vortices
+            groups.setdefault(alike, []).append(lane)
     found = [NO_GROWTH] * len(tips)
-    for lanes in groups.values():
+    for (*_, has_vortices), lanes in groups.items():
         chosen = [tips[lane] for lane in lanes]
         time = max((tip.time for tip in chosen), key=len)
         if not time.size:
@@ -251,9 +259,10 @@ def growths_of_tips(judges: Sequence[Judge], tips: Sequence[TipMotion]) -> list[
             growth_window(float(tip.time[-1]) if tip.time.size else 0.0, judges[lane].waves[0])
             for lane, tip in zip(lanes, chosen, strict=True)
         ]
-        fits = with_drifts(time, records, [judges[lane].waves for lane in lanes], windows)
+        fitted = growths_with_drifts if has_vortices else growths_of
+        fits = fitted(time, records, [judges[lane].waves for lane in lanes], windows)
         for lane, growth in zip(lanes, fits, strict=True):
-            found[lane] = growth if judges[lane].has_vortices else growth.without_drift()
+            found[lane] = growth
     return found
 
 

@@ -135,10 +135,6 @@ class Growth:
         """Tell whether there may be a motion that the fit does not have."""
         return math.isfinite(self.drift.change)
 
-    def without_drift(self) -> Growth:
-        """Return the growth of a motion whose loads are its own, so that nothing beats with it."""
-        return replace(self, drift=Drift(), drift_of_all=Drift())
-
     @property
     def drift_in_words(self) -> str:
         """Drift that keeps the rate from staying, in words."""
@@ -224,7 +220,12 @@ def growth_of(
 
 
 def growths_of(
-    time: Array, records: Array, frequencies: ArrayLike, windows: ArrayLike
+    time: Array,
+    records: Array,
+    frequencies: ArrayLike,
+    windows: ArrayLike,
+    *,
+    drifts: bool = False,
 ) -> list[Growth]:
     """Growth of N motions at the same times.
 
@@ -239,6 +240,8 @@ def growths_of(
         (N, W). Each is looked for near its own.
     windows
         Start and end of each window (c/V), shape (N, 2).
+    drifts
+        Determine the drift of each rate, too, by which a beat is told.
     """
     natural = 2.0 * math.pi * np.asarray(frequencies, dtype=float)
     spans = np.asarray(windows, dtype=float)
@@ -247,26 +250,25 @@ def growths_of(
     lanes = np.flatnonzero(spans[:, 1] - spans[:, 0] >= shortest)
     if lanes.size and time.size > 1:
         fit = _Fit.of(time, records[:, lanes], spans[lanes], natural[lanes])
-        for lane, growth in zip(lanes.tolist(), fit.searched(), strict=True):
+        for lane, growth in zip(lanes.tolist(), fit.searched(drifts=drifts), strict=True):
             found[lane] = growth
     return found
 
 
-def with_drifts(
+def growths_with_drifts(
     time: Array, records: Array, frequencies: ArrayLike, windows: ArrayLike
 ) -> list[Growth]:
-    """Growth of N motions as by :func:`growths_of`, of decays with drift over the whole record."""
+    """Growth of N motions with its drift, that of a decay also over the whole record."""
     natural, spans = np.asarray(frequencies, dtype=float), np.asarray(windows, dtype=float)
-    found = growths_of(time, records, natural, spans)
+    found = growths_of(time, records, natural, spans, drifts=True)
     longer = [
         lane for lane, one in enumerate(found) if one.rate < 0.0 and one.start > AFTER_RELEASE
     ]
     if not longer:
         return found
     spans = np.column_stack((np.full(len(longer), AFTER_RELEASE), spans[longer, 1]))
-    for lane, whole in zip(
-        longer, growths_of(time, records[:, longer], natural[longer], spans), strict=True
-    ):
+    of_all = growths_of(time, records[:, longer], natural[longer], spans, drifts=True)
+    for lane, whole in zip(longer, of_all, strict=True):
         if abs(whole.frequency - found[lane].frequency) < _SAME_MOTION * whole.frequency:
             found[lane] = replace(found[lane], drift_of_all=whole.drift)
     return found
@@ -304,7 +306,7 @@ class _Fit:
         values = (values - values.mean(axis=1, keepdims=True)) / scale
         return cls(at - spans.mean(axis=1, keepdims=True), values, spans, natural)
 
-    def searched(self) -> list[Growth]:
+    def searched(self, *, drifts: bool) -> list[Growth]:
         """Return the best of two searches from near the natural frequencies."""
         best, cost = np.empty(0), np.full(len(self.natural), np.inf)
         for growth, others, nearness in ((0.0, -0.02, 0.93), (0.02, -0.08, 1.05)):
@@ -315,7 +317,8 @@ class _Fit:
             rates, left = self._refined(start)
             best = np.where((left < cost)[:, None], rates, best) if best.size else rates
             cost = np.minimum(left, cost)
-        return self._described(best)
+        found = self._described(best)
+        return self._with_drift(best, found) if drifts else found
 
     def _of(self, lanes: NDArray[np.intp]) -> _Fit:
         """Return the fit of some lanes alone."""
@@ -404,8 +407,7 @@ class _Fit:
         return self.values - basis @ weights, -left.reshape(raw.shape)
 
     def _described(self, rates: Array) -> list[Growth]:
-        residual, both = self._projected(rates, drifts=True)
-        jacobian = both[..., : rates.shape[1]]
+        residual, jacobian = self._projected(rates)
         omega, chosen = rates[:, 1::2] / (2.0 * math.pi), self._of_most_twist(rates)
         length = self.at[:, -1] - self.at[:, 0]
         found = []
@@ -413,23 +415,33 @@ class _Fit:
             others = np.abs(np.delete(omega[lane], wave) - omega[lane, wave])
             periods = max(round(float(length[lane] * omega[lane, wave])), 2)
             errors = _jackknife(residual[lane], jacobian[lane], periods)
-            rate, in_vacuum = float(rates[lane, 2 * wave]), float(self.natural[lane, wave])
-            change, error = _drift(residual[lane], both[lane], wave, periods)
-            by_loads = math.hypot(rate, rates[lane, 2 * wave + 1] - in_vacuum)
-            drift = Drift(rate, change * length[lane], error * length[lane], by_loads)
-            growth = Growth(
-                rate=rate,
-                standard_error=errors[2 * wave],
-                frequency=float(omega[lane, wave]),
-                start=float(self.spans[lane, 0]),
-                end=float(self.spans[lane, 1]),
-                residue=float(residual[lane, :, 0].std()),
-                nearest=float(others.min(initial=np.inf)),
-                periods=periods,
-                drift=drift,
+            found.append(
+                Growth(
+                    rate=float(rates[lane, 2 * wave]),
+                    standard_error=errors[2 * wave],
+                    frequency=float(omega[lane, wave]),
+                    start=float(self.spans[lane, 0]),
+                    end=float(self.spans[lane, 1]),
+                    residue=float(residual[lane, :, 0].std()),
+                    nearest=float(others.min(initial=np.inf)),
+                    periods=periods,
+                )
             )
-            found.append(growth)
         return found
+
+    def _with_drift(self, rates: Array, found: list[Growth]) -> list[Growth]:
+        """Return growths with the drift of their rates over the windows."""
+        residual, jacobian = self._projected(rates, drifts=True)
+        chosen = self._of_most_twist(rates).tolist()
+        drifting = []
+        for lane, (wave, growth) in enumerate(zip(chosen, found, strict=True)):
+            length = growth.end - growth.start
+            change, error = _drift(residual[lane], jacobian[lane], wave, growth.periods)
+            omega = rates[lane, 2 * wave + 1] - self.natural[lane, wave]
+            by_loads = math.hypot(growth.rate, omega)
+            drift = Drift(growth.rate, change * length, error * length, by_loads)
+            drifting.append(replace(growth, drift=drift))
+        return drifting
 
 
 def _drift(residual: Array, jacobian: Array, wave: int, periods: int) -> tuple[float, float]:
