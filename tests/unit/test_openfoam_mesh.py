@@ -52,6 +52,7 @@ def test_mesh_fills_the_channel() -> None:
         ("coarse", 9e3, 1.3e4),
         ("medium", 1.8e4, 2.5e4),
         ("fine", 4.5e4, 6e4),
+        ("extra-fine", 1.0e5, 1.2e5),
         ("finest", 7e4, 9e4),
         ("five-layers", 4.8e4, 5.4e4),  # 5.1e4 in the paper
     ],

@@ -24,7 +24,14 @@ def plate_mesh(refinement: float = 0.55, gap: float = 0.3, spacing: Spacing = SI
 
 @pytest.mark.parametrize(
     ("name", "cells"),
-    [("coarse", 8e4), ("medium", 3e5), ("fine", 1e6), ("finest", 5e6), ("five-layers", 5e6)],
+    [
+        ("coarse", 8e4),
+        ("medium", 3e5),
+        ("fine", 1e6),
+        ("extra-fine", 3.2e6),
+        ("finest", 5e6),
+        ("five-layers", 5e6),
+    ],
 )
 def test_presets_have_about_as_many_cells_as_they_are_to_have(name: str, cells: float) -> None:
     preset = PRESETS[name]

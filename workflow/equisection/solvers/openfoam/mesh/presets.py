@@ -52,12 +52,13 @@ class Preset:
         return self.spacing is SIMILAR
 
 
-#: About 1e4, 2e4 and 6e4 cells, and cells of given sizes; of the plate 8e4, 3e5, 1e6 and 5e6; and
-#: five layers at the wall, of section and plate.
+#: About 1e4, 2e4, 6e4 and 1e5 cells, and cells of given sizes; of the plate 8e4, 3e5, 1e6, 3e6 and
+#: 5e6; and five layers at the wall, of section and plate.
 _OWN: Mapping[str, Preset] = {
     "coarse": Preset(1.0, plate=0.52),
     "medium": Preset(math.sqrt(2.0), plate=0.81),
     "fine": Preset(math.sqrt(5.0), plate=1.19),
+    "extra-fine": Preset(math.sqrt(10.0), plate=1.75),
     "finest": Preset(1.0, BY_CELL_SIZE, plate=2.05),
     "five-layers": Preset(1.0, FIVE_LAYERS, plate_spacing=FIVE_LAYERS_OF_PLATE),
 }
