@@ -18,14 +18,14 @@ from equisection.config import Config, load_config
 from equisection.errors import ArgumentError, ConfigError
 from equisection.results.netcdf import read_dataset
 from equisection.results.unsteady_result import UnsteadyResult
-from equisection.solvers.protocol import HasRecords, Solver
+from equisection.solvers.protocol import HAS_VORTICES, HasRecords, Solver
 from equisection.solvers.registry import (
     check_provided,
     missing_records,
     solver_from_case,
     solver_from_config,
 )
-from equisection.solvers.verdicts import TipMotion, decided_at, judge
+from equisection.solvers.verdicts import Judge, TipMotion, decided_at, judge
 from equisection.store.index import read_index, read_missing
 
 RUN: dict[str, Any] = yaml.safe_load((ROOT / "docs/examples/other_program.yaml").read_text())
@@ -152,6 +152,21 @@ def test_a_case_changes_with_its_file(folder: Path, tmp_path: Path) -> None:
     assert digests[0] != digests[1]
     found = result_of(case, tmp_path)  # the history of another k* is that of another beam
     assert found.verdict["regime"] == "failed"
+
+
+def test_histories_of_a_computation_in_time_have_no_vortices_to_beat_with(folder: Path) -> None:
+    release = KEPT / "2d/k6.44.nc"
+    cases = {
+        basis: given_case(release, in_folder(folder, basis=basis))
+        for basis in ("cfd", "experiment", "time")
+    }
+    assert {basis: Judge.of(case).has_vortices for basis, case in cases.items()} == {
+        "cfd": True,
+        "experiment": True,
+        "time": False,
+    }
+    # releases that were judged before keep their settings
+    assert HAS_VORTICES not in cases["cfd"].solver.settings
 
 
 def test_a_folder_in_the_place_of_a_record_is_named(tmp_path: Path) -> None:

@@ -56,6 +56,10 @@ class Allocation:
 
 ONE_THREAD = Allocation()
 
+#: Setting of a release whose flow sheds no vortices of its own, false; without it the solver's
+#: entry says so.
+HAS_VORTICES = "has_vortices"
+
 #: Called with time simulated and longest time (c/V), summed over the cases of the job.
 Progress = Callable[[float, float], None]
 

@@ -18,6 +18,7 @@ from equisection.beam.section import Section
 from equisection.cases import Case, UnsteadyCase
 from equisection.errors import ResultFileError
 from equisection.results.unsteady_result import Regime, UnsteadyResult
+from equisection.solvers.protocol import HAS_VORTICES
 from equisection.solvers.registry import SOLVERS
 from equisection.verdict import Criteria, Verdict, assess, heave_grows, swings_grow
 from equisection.verdict.growth import (
@@ -124,7 +125,8 @@ class Judge:
         """Return the judge of a case."""
         criteria = Criteria(**case.criteria.model_dump(exclude={"rules"}))
         solver = SOLVERS.get(case.solver.name)
-        has_vortices = solver is None or solver.has_vortices
+        own = case.solver.settings.get(HAS_VORTICES, True)
+        has_vortices = (solver is None or solver.has_vortices) and own is not False
         return cls(criteria, pitch_frequency(case), _heaves(case), has_vortices)
 
     @classmethod

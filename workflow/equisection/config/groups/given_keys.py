@@ -96,8 +96,10 @@ class Given(SolverKeys):
     )
     basis: Literal["cfd", "experiment", "time"] = Field(
         "cfd",
-        description="What the histories are: `cfd`, `experiment` (a wind tunnel), or `time` (any "
-        "other computation in time). `comparison/critical_speed.csv` says so.",
+        description="What the histories are: `cfd`, `experiment` (a wind tunnel), or `time` (a "
+        "computation in time with loads of the motion alone, such as strips or a vortex lattice: "
+        "no vortices of the section's own beat with the motion). `comparison/critical_speed.csv` "
+        "says so.",
     )
     source: Annotated[str, EMPTY] = Field(
         "",

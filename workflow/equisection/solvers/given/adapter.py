@@ -24,7 +24,13 @@ from equisection.provenance import file_hash
 from equisection.results.forced_result import ForcedResult
 from equisection.results.steady_result import SteadyResult
 from equisection.results.unsteady_result import UnsteadyResult
-from equisection.solvers.protocol import ONE_THREAD, Allocation, Capability, Progress
+from equisection.solvers.protocol import (
+    HAS_VORTICES,
+    ONE_THREAD,
+    Allocation,
+    Capability,
+    Progress,
+)
 from equisection.solvers.steady_polar import section_of_polar
 
 if TYPE_CHECKING:
@@ -76,6 +82,7 @@ class Adapter:
                 "histories": keys.histories,
                 "forced": keys.forced,
                 "elastic_axis": config.beam.elastic_axis,
+                HAS_VORTICES: keys.basis != "time",
                 **{name: keys.model_dump()[name] for name in _MEANING},
             }
         )
@@ -104,7 +111,8 @@ class Adapter:
             Values of the case on the axes of the study by their names.
         """
         known = {name: f"{value:g}" for name, value in point.items()}
-        return self._record("histories", {"model": model, "case": case} | known)
+        record = self._record("histories", {"model": model, "case": case} | known)
+        return record if self._settings[HAS_VORTICES] else {**record, HAS_VORTICES: False}
 
     def motion_record_of(self, case: str, known: Mapping[str, str]) -> dict[str, Any]:
         """Return the settings of a forced motion: those of a release, and the polar.
