@@ -34,6 +34,7 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     growth_from_equilibrium,
     learnt_from_equilibrium,
     onsets_from_equilibrium,
+    section_from_equilibrium,
 )
 from equisection.paper.mesh_convergence.onset_targets import WANTED, best_limit, targets
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -129,6 +130,25 @@ def of_section(changes: Sequence[float], rates: Sequence[float]) -> list[MeshRel
     return found
 
 
+#: Cells of the section's meshes.
+CELLS = {"coarse": 11136, "medium": 22548, "fine": 56592, "extra-fine": 111808}
+
+
+def section_on(mesh: str, k_star: float, shift: float = 0.0) -> MeshRelease:
+    """Return a release of the section on a mesh whose growth is that of the line, and a shift."""
+    some = mesh_releases(KEPT_SECTION)[0]
+    settings = some.case.solver.settings | {"mesh": mesh}
+    solver = some.case.solver.model_copy(update={"settings": settings})
+    case = some.case.model_copy(update={"k_star": k_star, "solver": solver})
+    rate = SLOPE * math.log(k_star / ZERO) + shift
+    time = np.arange(0.0, 30.0, 0.1)
+    omegas = 2.0 * math.pi * np.array(Judge.of(case).waves)
+    pitch, heave = np.exp(np.outer((rate, -0.05), time)) * np.cos(np.outer(omegas, time))
+    records = np.stack((pitch + 0.02 * heave, 0.1 * pitch + heave))
+    tip = TipMotion(time, 0.01 * records[0], 0.3 + 0.1 * records[1], records)
+    return OfKnownGrowth(some.path, case, CELLS[mesh], tip, 8, 0.0, rate)
+
+
 def at_mesh(series: MeshSeries, mesh: str) -> MeshValue:
     return next(value for value in series.values if value.mesh == mesh)
 
@@ -206,6 +226,28 @@ def test_mesh_with_releases_on_both_sides_has_an_onset_of_its_own(
     (without,) = onsets_from_equilibrium([*curve, *elsewhere], [])
     assert [value.mesh for value in without.values] == ["coarse"]
     assert not list(onsets_from_equilibrium(over_k_star(at_equilibrium, 6.44, 8.0), []))
+
+
+def test_section_has_its_onset_on_finer_meshes_by_the_shift_of_the_finest_curve() -> None:
+    shifts = {"medium": -0.004, "fine": -0.006, "extra-fine": -0.007}
+    from_rest = [
+        section_on(mesh, k_star, shift)
+        for mesh, shift in (("coarse", 0.0), ("medium", shifts["medium"]))
+        for k_star in (6.44, 7.5, 8.5, 9.5, 11.0)
+    ]
+    at_equilibrium = [section_on(mesh, 6.44, shift) for mesh, shift in shifts.items()]
+    (found,) = section_from_equilibrium(at_equilibrium, from_rest)
+    assert (found.model, found.basis) == ("2d", BY_EQUILIBRIUM)
+    expected = [ZERO * math.exp(-shift / SLOPE) for shift in (0.0, *shifts.values())]
+    assert [value.mesh for value in found.values] == list(CELLS)
+    assert [value.value for value in found.values] == pytest.approx(expected, rel=2 * FIT / -SLOPE)
+    assert all(value.low < value.value < value.high for value in found.values)
+    assert "growth of medium -0.0030" in at_mesh(found, "extra-fine").note
+    assert found.limit.meshes == 3  # the finest
+    assert found.limit.value < expected[-1]
+    # without a release from equilibrium on the mesh of the curve nothing tells the shift
+    assert not list(section_from_equilibrium(at_equilibrium[1:], from_rest))
+    assert not list(section_from_equilibrium(at_equilibrium, []))
 
 
 @pytest.mark.parametrize("more", [(), (8.0,), (12.0,)])

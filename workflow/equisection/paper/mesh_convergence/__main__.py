@@ -36,6 +36,7 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
     ratio_series,
 )
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, as_table
+from equisection.paper.mesh_convergence.onset_by_difference import onsets_by_difference
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     early_growth_of_plate,
     growth_series,
@@ -49,6 +50,7 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     growth_from_equilibrium,
     learnt_from_equilibrium,
     onsets_from_equilibrium,
+    section_from_equilibrium,
 )
 from equisection.paper.mesh_convergence.onset_targets import targets
 from equisection.paper.printed_values import PAPER_ONSET
@@ -66,13 +68,19 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
     from_equilibrium = mesh_releases(reference, FROM_EQUILIBRIUM)
     section, plate = (rigid_loads(reference, dimension) for dimension in ("2d", "3d"))
     own, own_mesh = own_factors(section, plate)
-    series = [
+    of_sections = [
         *onsets_by_releases(releases),
+        *section_from_equilibrium(from_equilibrium, releases),
         *sections_by_model(releases, section, plate_of_table_1(CLONE), own),
+    ]
+    series = [
+        *of_sections,
+        *onsets_by_difference(of_sections),
         *plates_by_model(releases, plate),
         *onsets_from_equilibrium(from_equilibrium, releases),
         *learnt_from_equilibrium(from_equilibrium, plate),
         *growth_series(releases),
+        *growth_from_equilibrium(from_equilibrium, "2d"),
         *growth_from_equilibrium(from_equilibrium),
         early_growth_of_plate(releases),
         *mean_series(releases),

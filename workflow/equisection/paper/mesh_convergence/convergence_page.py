@@ -20,8 +20,10 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
     printed_limit,
 )
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue, as_table
+from equisection.paper.mesh_convergence.onset_by_difference import BY_DIFFERENCE
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
+    BY_RELEASES,
     GROWTH,
     GROWTH_EARLY,
     ONSET,
@@ -107,10 +109,13 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   coarser growth curve, shifted by the difference at that k\\*.
 - *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)); a polar of
   few angles is filled in the shape of the next coarser one.
-- *{BY_EQUILIBRIUM}*: the plate from static equilibrium with {DISTURBANCE:g} deg more
+- *{BY_EQUILIBRIUM}*: from static equilibrium with {DISTURBANCE:g} deg more
   ([why](openfoam.md#starts)), growth of small motions from 10 c/V on. Another mesh, or more
   iterations, shift the curve by the difference at one k\\*; its interval has what the section's
   shift changes with k\\*.
+- *{BY_DIFFERENCE}*: the best onset of `2d`, and what the correction moves it by: on `coarse` by
+  releases, from there as the learnt models change. That change is as uncertain as it is large, or
+  as they miss the difference of the releases.
 - *{LEARNT_FROM_EQUILIBRIUM}*: from such a release at k\\* 6.44, with the slope of the steady
   loads; onset of small motions by eigenvalues. Its band is the farthest miss at the other k\\*.
 - `2d-corrected` divides by the plate of the paper's Table 1: two programs' errors, and a moment
@@ -198,10 +203,7 @@ def _growth(series: Sequence[MeshSeries]) -> str:
     chosen = [one for one in series if one.quantity == GROWTH and one.model == "2d"]
     plate = [one for one in series if one.quantity == GROWTH and one.model == "3d"]
     early = [one for one in series if one.quantity == GROWTH_EARLY and one.values]
-    rows = [
-        (one.at.removeprefix("k* = "), one.basis.removeprefix("releases, ").removesuffix(" c/V"))
-        for one in chosen
-    ]
+    rows = [(one.at.removeprefix("k* = "), _window(one.basis)) for one in chosen]
     text = f"""## Growth at one k\\*
 
 Of the section `2d` (V/c, interval of 95 %), over one window on all meshes:
@@ -235,6 +237,12 @@ Of the plate from static equilibrium, 10 to 30 c/V:
 {_table(head, rows, plate, form="+.4f", judged=False)}
 """
     return text
+
+
+def _window(basis: str) -> str:
+    """Return the window of a growth, and its start where that is not from rest."""
+    start, _, window = basis.removesuffix(" c/V").partition(", ")
+    return window if start == BY_RELEASES else f"{window}, from equilibrium"
 
 
 def _means(series: Sequence[MeshSeries]) -> str:

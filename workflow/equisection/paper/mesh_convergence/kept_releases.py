@@ -30,7 +30,7 @@ from equisection.verdict.growth import MOST_PERIODS, Growth, growth_of
 #: 20 c/V the release itself shows.
 UNTIL, BEHIND_RELEASE = 100.0, 20.0
 #: Meshes that are similar, coarsest first; others have no place in a series.
-MESHES = ("coarse", "medium", "fine")
+MESHES = ("coarse", "medium", "fine", "extra-fine")
 #: Time step (c/V) of the releases that are compared, by dimension.
 STEPS = {"2d": 0.02, "3d": 0.04}
 #: Iterations of a time step of the section's releases: at most, until the residuals are small.

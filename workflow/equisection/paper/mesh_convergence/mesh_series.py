@@ -82,6 +82,8 @@ class MeshSeries:
     common_error
         True where the intervals of the values are of one error that all meshes share, so that
         the limit has it once. They are taken to be independent by default.
+    derived
+        The limit, where it does not come from the values.
     """
 
     quantity: str
@@ -91,6 +93,7 @@ class MeshSeries:
     dimensions: int
     values: tuple[MeshValue, ...]
     common_error: bool = False
+    derived: GridLimit | None = None
     limit: GridLimit = field(init=False)
 
     def __post_init__(self) -> None:
@@ -99,7 +102,7 @@ class MeshSeries:
             key=lambda value: value.cells,
         )
         object.__setattr__(self, "values", tuple(ordered))
-        object.__setattr__(self, "limit", self._limit())
+        object.__setattr__(self, "limit", self.derived or self._limit())
 
     @property
     def sizes(self) -> list[float]:

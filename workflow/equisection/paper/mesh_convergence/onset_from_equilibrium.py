@@ -1,4 +1,4 @@
-"""Growth and onset of the paper's plate over the cell size, from releases at static equilibrium.
+"""Growth and onset of plate and section over the cell size, from releases at static equilibrium.
 
 Flow and heave have nothing to settle there, so that the growth of small motions is known from 30
 c/V. A mesh with releases on both sides of its onset has it where the growth rate is zero. A mesh
@@ -63,7 +63,7 @@ SHORTEST_FROM_EQUILIBRIUM = 30.0
 
 @dataclass(frozen=True)
 class _Runs:
-    """Releases of the plate on one mesh with one number of iterations of a time step."""
+    """Releases of a model on one mesh with one number of iterations of a time step."""
 
     mesh: str
     iterations: int
@@ -77,9 +77,9 @@ class _Runs:
         return next((one for one in self.runs if one.case.k_star == k_star), None)
 
 
-def _groups(releases: Sequence[MeshRelease]) -> list[_Runs]:
-    """Return the plate's releases by mesh and iterations, the coarsest mesh first."""
-    own = [one for one in releases if one.model == "3d"]
+def _groups(releases: Sequence[MeshRelease], model: str = "3d") -> list[_Runs]:
+    """Return the releases of a model by mesh and iterations, the coarsest mesh first."""
+    own = [one for one in releases if one.model == model]
     keys = sorted({(one.cells, one.iterations, one.mesh) for one in own})
     return [
         _Runs(
@@ -91,31 +91,72 @@ def _groups(releases: Sequence[MeshRelease]) -> list[_Runs]:
     ]
 
 
-def _most_iterations(releases: Sequence[MeshRelease]) -> list[_Runs]:
+def _most_iterations(releases: Sequence[MeshRelease], model: str = "3d") -> list[_Runs]:
     """Return the group of each mesh with the most iterations, the coarsest mesh first."""
-    return list({one.mesh: one for one in _groups(releases)}.values())
+    return list({one.mesh: one for one in _groups(releases, model)}.values())
 
 
 def _growth(release: MeshRelease, end: float = math.inf) -> Growth:
     return release.growth(AFTER_RELEASE, min(release.end, end))
 
 
-def growth_from_equilibrium(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
-    """Yield the growth of the plate at each k* on the meshes that have a release from equilibrium.
+def growth_from_equilibrium(
+    releases: Sequence[MeshRelease], model: str = "3d"
+) -> Iterator[MeshSeries]:
+    """Yield the growth of a model at each k* on the meshes that have a release from equilibrium.
 
     It is that from 10 to 30 c/V. Of a mesh that has several the one with the most iterations of a
     time step is taken.
     """
-    own = [one for one in releases if one.model == "3d"]
+    own = [one for one in releases if one.model == model]
     for k_star in sorted({one.case.k_star for one in own}):
         values = []
-        for group in _most_iterations([one for one in own if one.case.k_star == k_star]):
+        for group in _most_iterations([one for one in own if one.case.k_star == k_star], model):
             growth = _growth(group.runs[0], EARLY)
             low, high = growth.interval
             note = f"{group.iterations} iterations"
             values.append(MeshValue(group.mesh, group.cells, growth.rate, low, high, note))
         basis = f"{BY_EQUILIBRIUM}, {AFTER_RELEASE:.0f} to {EARLY:.0f} c/V"
-        yield MeshSeries(GROWTH, "3d", f"k* = {k_star:g}", basis, 3, tuple(values))
+        dimensions = int(own[0].case.dimension[0])
+        yield MeshSeries(GROWTH, model, f"k* = {k_star:g}", basis, dimensions, tuple(values))
+
+
+def section_from_equilibrium(
+    releases: Sequence[MeshRelease], from_rest: Sequence[MeshRelease]
+) -> Iterator[MeshSeries]:
+    """Yield the onset of the section over the meshes, the finer ones by releases from equilibrium.
+
+    Meshes with releases from rest on both sides of their onset have it by these. The growth curve
+    of the finest of them is moved by the difference of a finer mesh to it, of both from
+    equilibrium.
+
+    Parameters
+    ----------
+    releases
+        Releases from equilibrium.
+    from_rest
+        Releases from rest.
+    """
+    values: list[MeshValue] = []
+    curve: _Runs | None = None
+    for group in _groups(from_rest, "2d"):
+        found = onset_by_growth(growth_table(group.runs), K_STAR)
+        if math.isfinite(found.value):
+            ends = found.value, found.low, found.high
+            values.append(onset_on(group.mesh, group.cells, ends, "from rest"))
+            curve = group
+    if curve is None:
+        return
+    table, base, change = growth_table(curve.runs), values[-1], change_of_shift(from_rest)
+    own = {group.mesh: group for group in _groups(releases, "2d")}
+    start = own.get(curve.mesh)
+    if start is None:
+        return
+    for group in own.values():
+        if group.cells > curve.cells:
+            values += _shifted(start, table, base, group, change)
+    if values[-1] is not base:
+        yield MeshSeries(ONSET, "2d", "", BY_EQUILIBRIUM, 2, tuple(values))
 
 
 def onsets_from_equilibrium(
