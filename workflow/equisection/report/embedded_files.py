@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import base64
-import struct
+import io
 from dataclasses import dataclass
 from pathlib import Path
 
-from equisection.errors import EquisectionError
+from PIL import Image, UnidentifiedImageError
 
-#: First bytes of a PNG file, before the width and height of its header.
-_PNG = b"\x89PNG\r\n\x1a\n"
+from equisection.errors import EquisectionError
 
 
 class EmbeddingError(EquisectionError):
@@ -54,21 +53,10 @@ def picture(path: Path) -> Picture:
         content = path.read_bytes()
     except OSError as error:
         raise EmbeddingError(f"{path}: cannot be read ({error.strerror}); run again") from None
-    if not content.startswith(_PNG) or len(content) < 24:
-        raise EmbeddingError(f"{path}: is no PNG picture; delete it and run again")
-    width, height = struct.unpack(">II", content[16:24])
-    return Picture(data_address(content, "image/png"), width, height, _warning(content))
-
-
-def _warning(content: bytes) -> str:
-    """Return the text of a PNG of the keyword ``Warning``, before its pixels; empty for none."""
-    place = len(_PNG)
-    while place + 12 <= len(content):
-        length, kind = struct.unpack(">I4s", content[place : place + 8])
-        keyword, _, text = content[place + 8 : place + 8 + length].partition(b"\0")
-        if kind == b"IDAT":
-            break
-        if kind == b"tEXt" and keyword == b"Warning":
-            return text.decode("latin-1")
-        place += length + 12
-    return ""
+    try:
+        with Image.open(io.BytesIO(content), formats=["PNG"]) as image:
+            width, height = image.size
+            warning = str(image.info.get("Warning", ""))  # a text of the PNG specification
+    except (UnidentifiedImageError, OSError, SyntaxError):
+        raise EmbeddingError(f"{path}: is no PNG picture; delete it and run again") from None
+    return Picture(data_address(content, "image/png"), width, height, warning)
