@@ -224,6 +224,10 @@ def test_what_is_told_of_a_run_that_goes_on_unsteadily_never_goes_back(
     follow_iterations(tmp_path, has_converged, tell, polled(monkeypatch, steady, 100.0))
     time = 0.02 * np.arange(1.0, 5501)
     drifting = Loads(time, 0.4 + time, 0.4 + time, 0.4 + time)
-    follow_unsteady(tmp_path, RECORD, tell, polled(monkeypatch, drifting, 5.0))
+
+    def run(source: Path, folder: Path, watch: Watch) -> None:
+        polled(monkeypatch, drifting, 5.0)(watch)
+
+    follow_until_even(tmp_path / "steady", tmp_path, RECORD, tell, run)
     assert np.all(np.diff(shares) > 0)
     assert shares[-1] == pytest.approx(1.0)

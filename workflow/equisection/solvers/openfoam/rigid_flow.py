@@ -167,6 +167,17 @@ def follow_unsteady(
 ) -> Loads:
     """Follow a rigid unsteady run until the means of its loads are known, or for long enough.
 
+    Parameters
+    ----------
+    folder
+        Folder of the run.
+    record
+        The record that is wanted.
+    tell
+        Called with the time of the run and its latest end (c/V).
+    run
+        Runs the solver with a function that tells it when to end.
+
     Returns
     -------
     Loads
@@ -192,7 +203,7 @@ def follow_unsteady(
         return first_known(loads, is_known, shortest, LOOKS_EVERY)
 
     def watch(time: float) -> bool:
-        tell(MOST * (1 + time / record.end), 2 * MOST)
+        tell(time, record.end)
         if time < shortest or not seen.is_due(time):
             return False
         return known(read_loads(folder)) is not None
@@ -224,7 +235,7 @@ def follow_until_even(
     wanted
         The record of each run.
     tell
-        Called with the progress.
+        Called with the progress; the steady run was the first half of the work.
     run
         Runs the solver in the second folder, from the last state of the first, with a function
         that tells it when to end.
@@ -243,9 +254,8 @@ def follow_until_even(
     for turn in range(turns):
         folder = emptied(work / f"unsteady{turn + 1 if turn else ''}")
 
-        def told(done: float, total: float, turn: int = turn) -> None:
-            share = 2.0 * done / total - 1.0  # of this run: the steady one is the first half
-            tell(MOST * (1.0 + (turn + share) / turns), 2 * MOST)
+        def told(time: float, end: float, turn: int = turn) -> None:
+            tell(MOST * (1.0 + (turn + time / end) / turns), 2 * MOST)
 
         def watched(watch: Watch, source: Path = source, folder: Path = folder) -> None:
             run(source, folder, watch)
