@@ -18,6 +18,9 @@ from equisection.run.cost import CellCost, megabytes, minutes, read_cost_model, 
 from equisection.run.cost_fit import fits, fitted
 from equisection.run.jobs import batch_work, solver_jobs
 from equisection.solvers.openfoam.adapter import Adapter
+from equisection.solvers.openfoam.job_work import steady_work, unsteady_work
+from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.solvers.openfoam.rigid_flow import TURNS
 from equisection.solvers.openfoam.work_done import work_done
 from equisection.solvers.registry import solver_from_config
 from equisection.solvers.work import Work
@@ -231,6 +234,7 @@ def test_solver_without_an_entry_is_told(tmp_path: Path) -> None:
         read_cost_model(path).of("openfoam", "3d")
 
 
+WORK = {"steady": steady_work, "free": unsteady_work}
 REFINED = {"k_star": [5.0, 6.0, 8.0], "models": ["2d", "3d"], "onset": "refine", "onset_points": 3}
 
 
@@ -255,6 +259,19 @@ def test_batch_is_one_job_and_so_is_each_round() -> None:
     section, _, free_section, _ = solver_jobs(load_config(raw), read_cost_model(COSTS))
     assert (section.number, section.cells) == (1, 4)
     assert (free_section.number, free_section.cells) == (1 + 3, 3)
+
+
+def test_rigid_flow_around_an_outline_may_go_on_once_more_on_cells_of_its_own() -> None:
+    raw = OPENFOAM | {"sweep": {"k_star": [5.0], "models": ["2d"]}}
+    around = {**raw, "openfoam": {"mesher": "outline"}}
+    on_blocks, of_outline = (
+        {kind: work(load_config(one), "2d", "coarse", 1) for kind, work in WORK.items()}
+        for one in (raw, around)
+    )
+    assert of_outline["steady"].cells == PRESETS["coarse"].outline_cells
+    assert of_outline["steady"].cells != on_blocks["steady"].cells == PRESETS["coarse"].cells
+    dearer = {kind: of_outline[kind].steps / on_blocks[kind].steps for kind in WORK}
+    assert dearer["steady"] == pytest.approx(TURNS * dearer["free"])
 
 
 def test_command_tells_what_jobs_ask_for(

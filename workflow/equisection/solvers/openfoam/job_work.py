@@ -15,7 +15,7 @@ from equisection.solvers.openfoam.mesh.outline_beam_mesh import OF_BEAM, Outline
 from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
 from equisection.solvers.openfoam.mesh.outline_sizes import TYPICAL_CELLS
 from equisection.solvers.openfoam.mesh.presets import PRESETS
-from equisection.solvers.openfoam.rigid_flow import MOST, STEP
+from equisection.solvers.openfoam.rigid_flow import MOST, STEP, TURNS
 from equisection.solvers.openfoam.section import rigid_section as section_rigid
 from equisection.solvers.work import Work
 
@@ -28,9 +28,13 @@ ENOUGH = 4
 
 
 def steady_work(config: Config, dimension: str, resolution: str, cases: int) -> Work:
-    """Return the work of a rigid case: a steady flow, and an unsteady one if it has none."""
+    """Return the work of a rigid case: a steady flow, and an unsteady one if it has none.
+
+    Around an outline that goes on once more where its vortices set in late.
+    """
     longest = section_rigid.RECORD if dimension == "2d" else plate_rigid.RECORD
     steps = longest.end / STEP * iterations_of(config.openfoam.outer_correctors)
+    steps *= 1 if _is_on_blocks(config) else TURNS
     return _work(config, dimension, resolution, cases, steps)
 
 
@@ -68,10 +72,12 @@ def iterations_of(outer_correctors: int) -> int:
 
 
 def cells_of_job(config: Config, dimension: str, resolution: str) -> int:
-    """Return the number of cells of a configuration's mesh; around a beam's outline, at most."""
+    """Return the number of cells of the mesh; around an outline roughly, around a beam at most."""
     mesh = config.openfoam.meshes[resolution]
-    if dimension == "2d" or _is_on_blocks(config):
+    if _is_on_blocks(config):
         return cells_of(mesh, dimension)
+    if dimension == "2d":
+        return PRESETS[mesh].outline_cells
     channel, far_field = config.flow.channel, config.openfoam.far_field_chords
     gap = far_field if channel is None else channel.tip_gap_chords
     refinement = PRESETS[mesh].plate
