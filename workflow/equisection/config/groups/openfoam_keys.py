@@ -66,7 +66,8 @@ class OpenFoam(SolverKeys):
         description="Mesh of each resolution: `coarse` (about 1e4 cells; 8e4 of the plate), "
         "`medium` (2e4; 3e5), `fine` (6e4; 1e6), `extra-fine` (1e5; 3e6), which are similar, or "
         "`finest` (8e4; 5e6), which has cells of 0.004 c along the section's wall, 0.02 c near it "
-        "and 0.04 c in the wake; `five-layers` (5e4; 5e6) has the same sizes and five layers of 0.075 c in all on it. "
+        "and 0.04 c in the wake; `five-layers` (5e4; 5e6) has the same sizes and five layers of "
+        "0.075 c in all on it. "
         "With `plate-` before the name the section has the cells of that plate in its plane.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
