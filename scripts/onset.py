@@ -79,7 +79,7 @@ def main(
 def known_errors(summary: Path, raw_config: dict[str, Any]) -> dict[tuple[str, str], KnownError]:
     """Return what is known of the error of each model's growth, by model and basis."""
     config = load_config(raw_config)
-    solver = solver_from_config(config, config.steady.resolution)
+    solver = solver_from_config(config, config.run_resolution)
     models = [plan.model(name, config.reduction) for name in config.sweep.models]
     dimensions = {model.name: model.dimension for model in models}
     return known_errors_of(solver, dimensions, pd.read_csv(summary))
@@ -105,7 +105,7 @@ def speeds(
     config, data = load_config(raw_config), read_dataset(equivalent)
     flow, table = config.flow, pd.read_csv(summary)
     given = AsGiven(nominal_k_star(data), flow.speed)
-    solver = solver_from_config(config, config.steady.resolution)
+    solver = solver_from_config(config, config.run_resolution)
     found = [
         critical_speeds.from_runs(
             table,

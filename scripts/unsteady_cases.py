@@ -29,7 +29,7 @@ def main(
     """
     config = load_config(raw_config)
     model = plan.model(model_name, config.reduction)
-    solver = solver_from_config(config, config.steady.resolution)
+    solver = solver_from_config(config, config.run_resolution)
     data = {name: read_dataset(path) for name, path in structure_files.items()}
     cases = {name: case_at(config, model, Point.named(name), data, solver) for name in names}
     write_cases(output, cases)

@@ -50,7 +50,7 @@ def work_of(wildcards):
         resolution, _ = plan.rigid_point(wildcards.angle)
         return cost.work_of(CONFIG, kinds.STEADY, dimension, resolution)
     if "case" in wildcards.keys():
-        return cost.work_of(CONFIG, kinds.FREE, dimension, CONFIG.steady.resolution)
+        return cost.work_of(CONFIG, kinds.FREE, dimension, CONFIG.run_resolution)
     if "batch" in wildcards.keys():
         return jobs.batch_work(CONFIG, kinds.FREE, wildcards.model)
     return jobs.batch_work(CONFIG, kinds.STEADY, dimension)

@@ -157,7 +157,7 @@ class Lessons:
 
     @cached_property
     def _solver(self) -> Solver:
-        return solver_from_config(self.config, self.config.steady.resolution)
+        return solver_from_config(self.config, self.config.run_resolution)
 
     @property
     def _is_beam(self) -> bool:

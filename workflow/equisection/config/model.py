@@ -108,6 +108,11 @@ class Config(KeyGroup):
         return section
 
     @property
+    def run_resolution(self) -> str:
+        """Resolution of the unsteady runs."""
+        return self.unsteady.resolution or self.steady.resolution
+
+    @property
     def reynolds_number(self) -> float:
         """Re = rho V c/mu."""
         return self.flow.density * self.flow.speed * self.beam.chord / self.flow.dynamic_viscosity
@@ -260,6 +265,24 @@ def _fittings_of_the_solver(
             solver,
             "allowed with beam.supports, beam.lumps or boundary 'supports' is 'embedded': "
             "OpenFOAM's bodies do not have them",
+        )
+
+
+@check("unsteady.resolution", "openfoam.meshes", "solver")
+def _resolution_of_runs_is_a_mesh(
+    resolution: str, meshes: dict[str, str], solver: str
+) -> Iterator[Problem]:
+    """Refuse runs at a resolution of their own where it is no mesh: the polars are the flow."""
+    allowed = sorted(meshes) if solver == "openfoam" else []
+    if resolution and resolution not in allowed:
+        names = ", ".join(allowed)
+        yield Problem(
+            "unsteady.resolution",
+            resolution,
+            f"allowed is a name in openfoam.meshes: {names}"
+            if names
+            else f"allowed with solver '{solver}' is none: its runs have the polars of "
+            "steady.resolution",
         )
 
 

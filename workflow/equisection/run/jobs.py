@@ -89,7 +89,7 @@ def batch_work(config: Config, kind: Kind, *models: str) -> Work:
     number = sum(len(one.names) for one in chosen)
     most = max(number, config.sweep.onset_points) if kind.of_sweep else number
     dimension = chosen[0].dimension
-    return cost.work_of(config, kind, dimension, config.steady.resolution, most)
+    return cost.work_of(config, kind, dimension, chosen[0].resolution, most)
 
 
 def table(jobs: list[Jobs]) -> Table:

@@ -121,7 +121,7 @@ def unsteady_case(
         dimension=model.dimension,
         k_star=k_star,
         incidence_deg=config.flow.incidence_deg,
-        resolution=config.steady.resolution,
+        resolution=config.run_resolution,
         geometry=_geometry(config),
         medium=_medium(config),
         section=section,

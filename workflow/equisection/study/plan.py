@@ -270,7 +270,7 @@ def planned_cases(config: Config) -> Iterator[PlannedCases]:
     for name in config.sweep.models:
         dimension = model(name, config.reduction).dimension
         of_sweep = tuple(sweep_cases(config, name))
-        yield PlannedCases(FREE, name, dimension, config.steady.resolution, of_sweep, refined)
+        yield PlannedCases(FREE, name, dimension, config.run_resolution, of_sweep, refined)
     for dimension in forced_dimensions(config):
         names = forced_names(config, dimension)
         yield PlannedCases(FORCED, dimension, dimension, config.steady.resolution, names)

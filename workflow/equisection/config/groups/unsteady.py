@@ -9,7 +9,7 @@ from pydantic import Field
 
 from equisection.keys.checks import Problem, check
 from equisection.keys.group import KeyGroup
-from equisection.keys.values import NUMBER, WHOLE, Angle, Positive
+from equisection.keys.values import EMPTY, NUMBER, WHOLE, Angle, Positive
 
 #: Most time steps of a run.
 MOST_STEPS = 10_000_000
@@ -70,6 +70,12 @@ class Unsteady(KeyGroup):
     time_step: Positive = Field(0.05, description="Time step (c/V).")
     output_interval: Positive = Field(
         0.1, description="Interval of the stored history (c/V), a multiple of the time step."
+    )
+    resolution: Annotated[str, EMPTY] = Field(
+        "",
+        description="Resolution of the runs, on solver `openfoam` a name in `openfoam.meshes`; "
+        "empty for `steady.resolution`, of whose polars equilibrium, correction and map are in any "
+        "case.",
     )
     start: StartKeys = Field(StartKeys(), description="What the runs start from.")
     verdict: VerdictKeys = Field(VerdictKeys(), description="How a run is judged.")
