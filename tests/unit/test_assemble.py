@@ -127,6 +127,18 @@ def test_section_starts_from_the_equilibrium_of_the_steady_polar(
     push = math.radians(0.3) * section.twist_recovery
     assert found.section_start_twist == pytest.approx(equilibrium[0] + push)
     assert case_of(0.5).start.equilibrium is None
+    # on a mesh of its own it starts from the same equilibrium
+    unsteady = {**flow_solver["unsteady"], "resolution": "fine"}
+    finer = load_config({**RAW, **flow_solver, "unsteady": unsteady})
+    on_fine = unsteady_case(
+        finer,
+        plan.model(name, finer.reduction),
+        6.0,
+        known,
+        solver_from_config(finer, finer.run_resolution),
+    )
+    assert (on_fine.resolution, on_fine.solver.settings["mesh"]) == ("fine", "fine")
+    assert on_fine.start == found.start
     rigid = load_config({**RAW, **flow_solver, "unsteady": {"time_step": 0.02}})
     released = unsteady_case(
         rigid, plan.model(name, rigid.reduction), 6.0, known, solver_from_config(rigid, "coarse")

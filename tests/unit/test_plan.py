@@ -14,7 +14,9 @@ from equisection.analysis.onset import (
     points_beyond,
     refinement_points,
 )
+from equisection.cases import FREE, STEADY
 from equisection.config import Config, load_config
+from equisection.errors import ConfigError
 from equisection.study import plan
 from equisection.study.axes import K_STAR, RIGID_PATTERN, SWEEP_PATTERN, Point, sweep_points
 
@@ -97,6 +99,34 @@ def test_further_resolutions_are_run_at_the_incidences_of_the_study() -> None:
     }
     names = plan.steady_cases(load_config(raw))
     assert names == ["a_a0", "a_a1", "a_a2.5", "a_a10", "b_a0", "b_a10"]
+
+
+def test_runs_have_a_mesh_of_their_own_where_one_is_named() -> None:
+    raw = {
+        "solver": "openfoam",
+        "steady": {"resolution": "coarse", "beam_polar": "config/polars/paper_plate_3d.csv"},
+        "sweep": {"k_star": [6.0], "models": ["2d"]},
+        "unsteady": {"time_step": 0.02},
+    }
+    own = {**raw, "unsteady": {"time_step": 0.02, "resolution": "fine"}}
+    for known, of_runs in ((raw, "coarse"), (own, "fine")):
+        found = {one.kind: one.resolution for one in plan.planned_cases(load_config(known))}
+        assert found == {STEADY: "coarse", FREE: of_runs}
+
+
+@pytest.mark.parametrize(
+    ("solver", "resolution", "words"),
+    [
+        ("openfoam", "nix", "allowed is a name in openfoam.meshes: coarse, fine, medium"),
+        ("embedded", "coarse", "allowed with solver 'embedded' is none"),
+    ],
+)
+def test_resolution_of_runs_that_no_mesh_has_is_refused(
+    solver: str, resolution: str, words: str
+) -> None:
+    unsteady = {"time_step": 0.02, "resolution": resolution}
+    with pytest.raises(ConfigError, match=words):
+        load_config({"solver": solver, "unsteady": unsteady})
 
 
 def test_no_refinement_has_the_sweep_alone() -> None:
