@@ -12,7 +12,7 @@ from equisection import needs
 
 PACKAGE = ROOT / "workflow" / "equisection"
 #: Packages whose module has another name.
-MODULES = {"pyyaml": "yaml", "scikit-fem": "skfem"}
+MODULES = {"pyyaml": "yaml", "scikit-fem": "skfem", "pillow": "PIL"}
 
 
 def test_every_dependency_is_looked_for() -> None:

@@ -25,6 +25,7 @@ MODULES = (
     "skfem",
     "foamlib",
     "matplotlib",
+    "PIL",
     "rich",
     "shtab",
     "pygments",
