@@ -10,6 +10,8 @@ import pytest
 import scipy
 from tests.workflow.project import ROOT
 
+from equisection.analysis.grid_convergence import SAFETY
+from equisection.analysis.grid_limit import SAFETY_OF_TWO
 from equisection.analysis.recorded_beam import on_strips, read_recorded_beam
 from equisection.analysis.reduced_beam import growth_of_pitch
 from equisection.analysis.reduced_model import onset_of
@@ -36,7 +38,7 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     onsets_from_equilibrium,
     section_from_equilibrium,
 )
-from equisection.paper.mesh_convergence.onset_targets import WANTED, best_limit, targets
+from equisection.paper.mesh_convergence.onset_targets import WANTED, best_limit, foreseen, targets
 from equisection.results.netcdf import read_dataset, write_dataset
 from equisection.solvers.verdicts import Judge, TipMotion
 from equisection.verdict.growth import Growth
@@ -354,6 +356,22 @@ def onset_of_model(model: str, basis: str, k_star: list[float], half: float) -> 
     meshes = zip(("coarse", "medium", "fine"), (85284, 300912, 1003392), k_star, strict=False)
     values = tuple(MeshValue(*one, one[2] - half, one[2] + half) for one in meshes)
     return MeshSeries(ONSET, model, "", basis, 3, values)
+
+
+def test_meshes_that_are_foreseen_narrow_the_interval_by_order_and_rule() -> None:
+    two = onset_of_model("3d", BY_EQUILIBRIUM, [10.2, 8.4], 0.0)
+    three = foreseen(two, [1003392])
+    # order 2 leads to the same limit, and three meshes have 1.25 in the place of 3
+    assert three.value == pytest.approx(two.limit.value)
+    assert three.order == pytest.approx(2.0)
+    left = (300912 / 1003392) ** (2 / 3)  # of the error on medium
+    expected = two.limit.half_width * left * SAFETY / SAFETY_OF_TWO
+    assert three.half_width == pytest.approx(expected)
+    # what the values err by stays, however fine the meshes
+    sharp, blurred = (foreseen(two, [1003392, 3112872], error).half_width for error in (0.0, 0.3))
+    assert math.sqrt(blurred**2 - sharp**2) > 0.3
+    text = page([onset_of_model("3d", BY_EQUILIBRIUM, [10.2, 8.4], 0.4)], "")
+    assert "`fine` (1.0 million cells) would make it ± " in text
 
 
 @pytest.mark.parametrize(("medium", "said"), [(13.6, True), (8.6, False)])

@@ -33,13 +33,16 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     BY_EQUILIBRIUM,
     LEARNT_FROM_EQUILIBRIUM,
 )
-from equisection.paper.mesh_convergence.onset_targets import best_limit, targets
+from equisection.paper.mesh_convergence.onset_targets import best_limit, foreseen, targets
 from equisection.paper.printed_values import COEFFICIENTS, PAPER_ONSET
+from equisection.solvers.openfoam.mesh.presets import PRESETS
 
 #: Twist (deg) that disturbs the equilibrium of a release.
 DISTURBANCE = FROM_EQUILIBRIUM["twist_deg"]
 #: Bases of an onset that is predicted by a learnt model.
 _LEARNT = (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
+#: Start of a note on what the page says of a basis.
+_TOLD = "polar of "
 #: Half-width of an interval, as a part of the value, up to which a value counts as converged.
 CONVERGED = 0.1
 
@@ -109,19 +112,17 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   coarser growth curve, shifted by the difference at that k\\*.
 - *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)); a polar of
   few angles is filled in the shape of the next coarser one.
-- *{BY_EQUILIBRIUM}*: from static equilibrium with {DISTURBANCE:g} deg more
-  ([why](openfoam.md#starts)), growth of small motions from 10 c/V on. Another mesh, or more
-  iterations, shift the curve by the difference at one k\\*; its interval has what the section's
-  shift changes with k\\*.
+- *{BY_EQUILIBRIUM}*: with {DISTURBANCE:g} deg more ([why](openfoam.md#starts)), growth of small
+  motions from 10 c/V on. A finer mesh, or more iterations, shift the curve by the difference at
+  one k\\*; the interval has what the section's shift changes with k\\*.
 - *{BY_DIFFERENCE}*: the best onset of `2d`, and what the correction moves it by: on `coarse` by
-  releases, from there as the learnt models change. That change is as uncertain as it is large, or
-  as they miss the difference of the releases.
+  releases, then as the learnt models change. That change is as uncertain as it is large, or as
+  they miss the releases.
 - *{LEARNT_FROM_EQUILIBRIUM}*: from such a release at k\\* 6.44, with the slope of the steady
   loads; onset of small motions by eigenvalues. Its band is the farthest miss at the other k\\*.
 - `2d-corrected` divides by the plate of the paper's Table 1: two programs' errors, and a moment
-  factor that grows with the mesh.
-- `{OWN_RATIOS}` divides by this project's plate, on equal cells in the plane
-  {f"(mesh {own_mesh}; releases: coarse)" if own_mesh else "(not kept)"}.
+  factor that grows with the mesh; `{OWN_RATIOS}` by this project's plate, on equal cells in the
+  plane {f"(mesh {own_mesh}; releases: coarse)" if own_mesh else "(not kept)"}.
 """
     return text + _notes(chosen) + _of_the_plate(chosen) + _targets(chosen)
 
@@ -139,9 +140,23 @@ def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
     return f"""
 **The plate's onset is {state}**: its best limit ({one.basis}) is {limit.value:.1f} with the
 interval {limit.low:.1f} to {limit.high:.1f}{order}{first}.
-From rest only the difference of `medium` from `coarse` over 30 c/V is known; the longer run
-is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+{_what_narrows_it(one)}From rest only the difference of `medium` from `coarse` over 30 c/V is
+known; the longer run is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
 {_contradictions([one for one in chosen if one.model == "3d"])}"""
+
+
+def _what_narrows_it(one: MeshSeries) -> str:
+    """Return how narrow the interval of two meshes would become with finer ones."""
+    if one.limit.meshes != 2:
+        return ""
+    fine, extra = (PRESETS[name].plate_cells for name in MESHES[2:])
+    limits = [foreseen(one, [fine]), foreseen(one, [fine, extra], 0.5 * one.values[-1].half_width)]
+    parts = [f"{100.0 * limit.half_width / limit.value:.0f} %" for limit in limits]
+    return (
+        f"By these rules and order 2 `fine` ({fine / 1e6:.1f} million cells) would make it ± "
+        f"{parts[0]};\n`extra-fine` ({extra / 1e6:.1f}) as well, with half of the error of each "
+        f"onset, ± {parts[1]}.\n"
+    )
 
 
 def _contradictions(chosen: Sequence[MeshSeries]) -> str:
@@ -398,7 +413,7 @@ def _notes(series: Iterable[MeshSeries]) -> str:
     found: dict[str, dict[tuple[str, str], dict[str, None]]] = {}
     for one in series:
         for value in one.values:
-            if value.note:
+            if value.note and not value.note.startswith(_TOLD):
                 models = found.setdefault(value.note, {}).setdefault((one.basis, value.mesh), {})
                 models[one.model] = None
     lines = ""

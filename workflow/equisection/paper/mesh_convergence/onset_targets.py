@@ -1,13 +1,16 @@
-"""Interval of the onset of each model, beside the one that is wanted."""
+"""Interval of the onset of each model, beside the one that is wanted, and what narrows it."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import replace
 
 import pandas as pd
 
+from equisection.analysis.grid_limit import FORMAL_ORDER, GridLimit
 from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
-from equisection.paper.mesh_convergence.mesh_series import LIMIT
+from equisection.paper.mesh_convergence.mesh_series import LIMIT, MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_mesh import ONSET
 
 #: Wanted half-width of the interval of the onset's limit, as a part of it, by model.
@@ -39,6 +42,30 @@ def best_limit(table: pd.DataFrame, model: str) -> pd.Series | None:
     width = chosen["high"] - chosen["low"]
     width = width.where(width < math.inf)
     return chosen.iloc[0] if width.isna().all() else chosen.loc[width.idxmin()]
+
+
+def foreseen(series: MeshSeries, cells: Sequence[int], error: float | None = None) -> GridLimit:
+    """Return the limit that a series of two meshes would have with values on finer ones.
+
+    These are taken to lie where the error falls by the formal order.
+
+    Parameters
+    ----------
+    series
+        Series of two meshes.
+    cells
+        Cells of each finer mesh, rising.
+    error
+        Half-width of the interval of each of their values; that of the finest mesh by default.
+    """
+    limit, finest = series.limit.value, series.values[-1]
+    half = finest.half_width if error is None else error
+    values = list(series.values)
+    for count in cells:
+        shrunk = (finest.cells / count) ** (FORMAL_ORDER / series.dimensions)
+        value = limit + (finest.value - limit) * shrunk
+        values.append(MeshValue("", count, value, value - half, value + half))
+    return replace(series, values=tuple(values)).limit
 
 
 def targets(table: pd.DataFrame) -> pd.DataFrame:
