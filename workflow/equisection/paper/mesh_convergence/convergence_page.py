@@ -25,9 +25,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
     GROWTH,
-    GROWTH_EARLY,
     ONSET,
-    WITHOUT_SECOND,
 )
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     BY_EQUILIBRIUM,
@@ -217,25 +215,12 @@ critical) in both motions, and half of their intervals (a model of one mesh has 
 def _growth(series: Sequence[MeshSeries]) -> str:
     chosen = [one for one in series if one.quantity == GROWTH and one.model == "2d"]
     plate = [one for one in series if one.quantity == GROWTH and one.model == "3d"]
-    early = [one for one in series if one.quantity == GROWTH_EARLY and one.values]
     rows = [(one.at.removeprefix("k* = "), _window(one.basis)) for one in chosen]
     text = f"""## Growth at one k\\*
 
 Of the section `2d` (V/c, interval of 95 %), over one window on all meshes:
 
 {_table(("k*", "window, c/V"), rows, chosen, form="+.4f", judged=False)}
-"""
-    if early:
-        notes = ", ".join(
-            f"{value.mesh} {value.note.removesuffix(WITHOUT_SECOND).rstrip()}"
-            for value in early[0].values
-        )
-        text += f"""
-Of the plate at {_plain(early[0].at)}, four iterations a step, 10 to 30 c/V. **Only the
-difference of both meshes counts**: fits with and without the second bending mode differ by more
-than their errors (without it {notes}).
-
-{_table((), [()], early, form="+.4f", judged=False)}
 """
     if plate:
         rows = [
