@@ -70,6 +70,57 @@ def test_errors_of_the_values_widen_the_interval() -> None:
     assert loose.half_width == pytest.approx(np.hypot(exact.half_width, 0.1 * (1.0 + part)))
 
 
+FOUR = (1.0, 0.7, 0.45, 0.32)
+
+
+def on_four(order: float, noise: tuple[float, ...] = (0.0, 0.0, 0.0, 0.0)) -> list[float]:
+    return [5.0 + 2.0 * h**order + by for h, by in zip(FOUR, noise, strict=True)]
+
+
+def test_of_four_meshes_the_three_finest_count_where_all_differ_by_more_than_their_errors() -> None:
+    found = grid_limit(on_four(2.0), FOUR, [0.01] * 4)
+    three = grid_limit(on_four(2.0)[1:], FOUR[1:], [0.01] * 3)
+    assert (found.value, found.half_width) == (three.value, three.half_width)
+    assert found.value == pytest.approx(5.0)
+
+
+def test_a_mesh_within_the_errors_of_the_finest_tells_no_order_and_is_passed_over() -> None:
+    """By the last three meshes the order would be chance and the interval nearly the change."""
+    errors = [0.02, 0.02, 0.15, 0.15]
+    noise = (0.0, 0.0, -0.12, 0.08)  # the last two are alike
+    values = on_four(2.0, noise)
+    found = grid_limit(values, FOUR, errors)
+    by_three = grid_limit([values[one] for one in (0, 1, 3)], [FOUR[one] for one in (0, 1, 3)])
+    assert found.order == by_three.order
+    assert found.value == by_three.value
+    assert found.low < 5.0 < found.high
+    assert "three of 4 meshes" in found.basis
+    last = grid_limit(values[1:], FOUR[1:], errors[1:])
+    assert found.half_width < 0.5 * last.half_width
+    # what the line through the others misses it by counts as an error
+    line = found.value + (values[3] - found.value) * (FOUR[2] / FOUR[3]) ** 2
+    without = grid_limit(
+        [values[one] for one in (0, 1, 3)],
+        [FOUR[one] for one in (0, 1, 3)],
+        [errors[one] for one in (0, 1, 3)],
+    )
+    assert found.half_width == pytest.approx(math.hypot(without.half_width, values[2] - line))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_the_interval_of_four_noisy_meshes_holds_the_limit(seed: int) -> None:
+    """Errors are half-widths of 95 %, so that a draw of their half as a standard error is usual."""
+    errors = np.array([0.02, 0.02, 0.1, 0.1])
+    noise = np.random.default_rng(seed).normal(size=(200, 4)) * errors / 2.0
+    held = [
+        (found := grid_limit(on_four(2.0, tuple(one)), FOUR, errors.tolist())).low
+        < 5.0
+        < found.high
+        for one in noise
+    ]
+    assert np.mean(held) > 0.95
+
+
 def test_order_is_credible_around_that_of_the_scheme() -> None:
     assert is_credible(2.6)
     assert not is_credible(10.6)

@@ -7,6 +7,10 @@ convergence index with the factor of safety 1.25 (Celik, Ghia, Roache & Freitas 
 Science and Engineering, 1998). Two meshes show no order: it is taken to be 2, with Roache's factor
 3 for two grids. Without convergence the limit is the finest value, give or take three times the
 largest difference (Eca & Hoekstra 2014, J. Comput. Phys. 262). One mesh has no limit.
+
+A difference within the values' own errors tells no order. Of more than three meshes one that
+differs from the finest by no more is passed over, as long as three are left; what the limit and the
+order that are found miss it by is added to the interval.
 """
 
 from __future__ import annotations
@@ -62,7 +66,8 @@ def grid_limit(
     Parameters
     ----------
     values
-        The value on each mesh, coarsest first, shape (n,). Of more than three the finest count.
+        The value on each mesh, coarsest first, shape (n,). Of more than three the finest count, of
+        those that differ from the finest of all by more than their errors.
     sizes
         Cell sizes h, in any unit, falling, shape (n,).
     errors
@@ -77,24 +82,47 @@ def grid_limit(
         return GridLimit(value=values[0], meshes=1, basis="one mesh, no interval")
     if count == 2:
         words = f"two meshes: order {FORMAL_ORDER:g} assumed, factor of safety {SAFETY_OF_TWO:g}"
-        limit, half = _extrapolated(values, sizes, own, FORMAL_ORDER, SAFETY_OF_TWO)
+        limit, half = _extrapolated(values, sizes, own, order=FORMAL_ORDER, safety=SAFETY_OF_TWO)
         return GridLimit(limit, limit - half, limit + half, 2, math.nan, words)
-    three = (values[-3], values[-2], values[-1])
-    found = grid_convergence(three, (sizes[-3], sizes[-2], sizes[-1]))
+    used, passed = _three_that_tell(values, own)
+    three = (values[used[0]], values[used[1]], values[-1])
+    found = grid_convergence(three, (sizes[used[0]], sizes[used[1]], sizes[-1]))
+    words = f"three of {count} meshes" if passed else "three meshes"
     if found.convergence is Convergence.MONOTONIC and is_credible(found.order):
-        used = min(found.order, FORMAL_ORDER)
-        limit, half = _extrapolated(values[-2:], sizes[-2:], own[-2:], used, SAFETY)
-        words = (
-            f"three meshes: order {found.order:.1f} observed, {used:.1f} used, factor of safety "
-            f"{SAFETY:g}"
+        order, pair = min(found.order, FORMAL_ORDER), used[1:]
+        of_pair = ([column[one] for one in pair] for column in (values, sizes, own))
+        limit, half = _extrapolated(*of_pair, order=order, safety=SAFETY)
+        slope = (values[-1] - limit) / sizes[-1] ** order
+        misses = [values[one] - limit - slope * sizes[one] ** order for one in passed]
+        half = math.hypot(half, max(map(abs, misses), default=0.0))
+        words += (
+            f": order {found.order:.1f} observed, {order:.1f} used, factor of safety {SAFETY:g}"
         )
         return GridLimit(limit, limit - half, limit + half, 3, found.order, words)
     half = math.hypot(SAFETY_WITHOUT_ORDER * (max(three) - min(three)), own[-1])
     kind = str(found.convergence)
     if found.convergence is Convergence.MONOTONIC:
         kind = f"order {found.order:.1f}, which is chance"
-    words = f"three meshes, {kind}: three times their largest difference"
+    words += f", {kind}: three times their largest difference"
     return GridLimit(three[-1], three[-1] - half, three[-1] + half, 3, math.nan, words)
+
+
+def _three_that_tell(
+    values: Sequence[float], errors: Sequence[float]
+) -> tuple[tuple[int, int, int], list[int]]:
+    """Return the places of the three meshes that an order is read from, and of those between."""
+    last = len(values) - 1
+    differ = [
+        one
+        for one in range(last)
+        if abs(values[one] - values[last]) > math.hypot(errors[one], errors[last])
+    ]
+    if len(differ) < 2:
+        return (last - 2, last - 1, last), []
+    coarse, medium = differ[-2:]
+    return (coarse, medium, last), [
+        one for one in range(coarse, last) if one not in {coarse, medium}
+    ]
 
 
 def is_credible(order: float) -> bool:
@@ -106,6 +134,7 @@ def _extrapolated(
     values: Sequence[float],
     sizes: Sequence[float],
     errors: Sequence[float],
+    *,
     order: float,
     safety: float,
 ) -> tuple[float, float]:
