@@ -34,7 +34,7 @@ from equisection.solvers.work import Work
 COST_MODEL = Path("workflow") / "profiles" / "cost.yaml"
 #: What a job is given beyond what it is expected to take: other processors, company on the memory
 #: bus, a flow that needs more iterations of the pressure.
-SAFETY = 2.0
+SAFETY = 3.0
 #: Starting up, reading, meshing and writing (minutes).
 START_UP = 10.0
 #: Python with what a job imports, and a program without a mesh on one rank (MB).
