@@ -125,8 +125,8 @@ class Judge:
         """Return the judge of a case."""
         criteria = Criteria(**case.criteria.model_dump(exclude={"rules"}))
         solver = SOLVERS.get(case.solver.name)
-        own = case.solver.settings.get(HAS_VORTICES, True)
-        has_vortices = (solver is None or solver.has_vortices) and own is not False
+        usual = solver is None or solver.has_vortices
+        has_vortices = bool(case.solver.settings.get(HAS_VORTICES, usual))
         return cls(criteria, pitch_frequency(case), _heaves(case), has_vortices)
 
     @classmethod

@@ -26,6 +26,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_RELEASES,
     GROWTH,
     ONSET,
+    POLAR_OF,
 )
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     BY_EQUILIBRIUM,
@@ -39,8 +40,6 @@ from equisection.solvers.openfoam.mesh.presets import PRESETS
 DISTURBANCE = FROM_EQUILIBRIUM["twist_deg"]
 #: Bases of an onset that is predicted by a learnt model.
 _LEARNT = (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
-#: Start of a note on what the page says of a basis.
-_TOLD = "polar of "
 #: Half-width of an interval, as a part of the value, up to which a value counts as converged.
 CONVERGED = 0.1
 
@@ -148,7 +147,7 @@ def _what_narrows_it(one: MeshSeries) -> str:
     """Return how narrow the interval of two meshes would become with finer ones."""
     if one.limit.meshes != 2:
         return ""
-    fine, extra = (PRESETS[name].plate_cells for name in MESHES[2:])
+    fine, extra = (PRESETS[name].plate_cells for name in ("fine", "extra-fine"))
     limits = [foreseen(one, [fine]), foreseen(one, [fine, extra], 0.5 * one.values[-1].half_width)]
     parts = [f"{100.0 * limit.half_width / limit.value:.0f} %" for limit in limits]
     return (
@@ -399,7 +398,7 @@ def _notes(series: Iterable[MeshSeries]) -> str:
     found: dict[str, dict[tuple[str, str], dict[str, None]]] = {}
     for one in series:
         for value in one.values:
-            if value.note and not value.note.startswith(_TOLD):
+            if value.note and not value.note.startswith(POLAR_OF):  # which the bases tell
                 models = found.setdefault(value.note, {}).setdefault((one.basis, value.mesh), {})
                 models[one.model] = None
     lines = ""

@@ -55,6 +55,8 @@ ONSET, GROWTH, GROWTH_EARLY = (
 )
 #: Bases of an onset.
 BY_RELEASES, BY_MODEL = "releases", "learnt model"
+#: Start of a note on the polar that a model rests on.
+POLAR_OF = "polar of "
 #: End of a note on the growth of the plate.
 WITHOUT_SECOND = "without the second bending mode"
 #: k* of the release that models are learnt from.
@@ -275,7 +277,7 @@ def sections_by_model(
         lanes = [lane for kind, zeta in places for lane in _sections(base, kinds[kind], zeta, run)]
         table = predicted(model, [k for k, _ in lanes], [section for _, section in lanes])
         lacking = "the polar lacks angles" if model.missing_angles else ""
-        filled_in = f"polar of {polar.label}" if polar.label != run.mesh else ""
+        filled_in = f"{POLAR_OF}{polar.label}" if polar.label != run.mesh else ""
         note = "; ".join(filter(None, (lacking, filled_in)))
         count = _SECTIONS_AT.size
         for number, place in enumerate(places):
