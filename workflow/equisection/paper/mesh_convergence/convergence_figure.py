@@ -15,6 +15,7 @@ from equisection.figures.panels import letter
 from equisection.figures.style import GREEN, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.paper.mesh_convergence.onset_by_difference import BY_DIFFERENCE
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
@@ -36,7 +37,12 @@ _APART = 0.022
 _ASIDE = 0.012
 _MODELS = ("2d", "2d-corrected", OWN_RATIOS, "3d")
 #: Bases that are shown, with the part of a marker that is filled.
-_FILLED = {BY_RELEASES: "full", BY_MODEL: "full", BY_EQUILIBRIUM: "left"}
+_FILLED = {
+    BY_RELEASES: "full",
+    BY_MODEL: "full",
+    BY_EQUILIBRIUM: "left",
+    BY_DIFFERENCE: "bottom",
+}
 
 
 def draw(series: Sequence[MeshSeries], onset: tuple[float, float, float]) -> Figure:
@@ -66,8 +72,8 @@ def draw(series: Sequence[MeshSeries], onset: tuple[float, float, float]) -> Fig
     figure.legend(entries.values(), entries.keys(), loc="outside upper center", ncols=len(entries))
     add_provenance(
         figure,
-        "open: releases by OpenFOAM v1912 (half filled: from equilibrium); filled: model learnt "
-        "from one release; at 0: limit with its interval",
+        "open: releases by OpenFOAM v1912 (half filled: from equilibrium; below: 2D and "
+        "difference); filled: model learnt from one release; at 0: limit with its interval",
         "grey: the paper's 5.5, give or take 10 %",
     )
     return figure
