@@ -70,6 +70,22 @@ def test_the_change_of_the_difference_is_learnt_and_as_uncertain_as_large() -> N
     assert found.limit.half_width == pytest.approx(width)
 
 
+def test_of_several_meshes_with_releases_the_finest_has_the_difference() -> None:
+    """The change up to it is no longer learnt, nor is its error that of the model."""
+    learnt = onset(OWN_RATIOS, BY_MODEL, [7.7, 6.5, 6.0])  # from 2d: -0.5, -0.7, -0.7
+    of_2d = [SECTION, LEARNT_SECTION]
+    finer = onset(OWN_RATIOS, BY_EQUILIBRIUM, [7.9, 6.7], 0.05)
+    coarse = onset(OWN_RATIOS, BY_RELEASES, [7.9], 0.05)
+    (found,) = onsets_by_difference([*of_2d, coarse, finer, learnt])
+    (by_coarse,) = onsets_by_difference([*of_2d, coarse, learnt])
+    assert [v.value for v in found.values] == pytest.approx([7.9, 6.7, 6.2, 5.95])
+    assert [v.half_width for v in found.values[:2]] == pytest.approx([0.05, 0.05])
+    error = math.hypot(0.05, 0.02)
+    assert found.limit.half_width == pytest.approx(math.hypot(SECTION.limit.half_width, error))
+    wider = math.hypot(found.limit.half_width, 0.2)  # the learnt change from coarse on
+    assert by_coarse.limit.half_width == pytest.approx(wider)
+
+
 def test_a_model_that_misses_the_releases_difference_is_as_uncertain() -> None:
     hits, misses = (by_difference(one, [7.7, 6.7, 6.2]) for one in (7.9, 7.6))
     assert misses.limit.value == pytest.approx(hits.limit.value - 0.3)

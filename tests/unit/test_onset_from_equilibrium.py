@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -21,6 +22,7 @@ from equisection.motion.learnt_beams import LearntBeams
 from equisection.paper.mesh_convergence.convergence_page import page
 from equisection.paper.mesh_convergence.kept_releases import (
     FROM_EQUILIBRIUM,
+    OWN_RATIOS,
     MeshLoads,
     MeshRelease,
     mesh_releases,
@@ -36,7 +38,7 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     growth_from_equilibrium,
     learnt_from_equilibrium,
     onsets_from_equilibrium,
-    section_from_equilibrium,
+    sections_from_equilibrium,
 )
 from equisection.paper.mesh_convergence.onset_targets import WANTED, best_limit, foreseen, targets
 from equisection.results.netcdf import read_dataset, write_dataset
@@ -136,7 +138,9 @@ def of_section(changes: Sequence[float], rates: Sequence[float]) -> list[MeshRel
 CELLS = {"coarse": 11136, "medium": 22548, "fine": 56592, "extra-fine": 111808}
 
 
-def section_on(mesh: str, k_star: float, shift: float = 0.0) -> MeshRelease:
+def section_on(
+    mesh: str, k_star: float, shift: float = 0.0, folder: str = "run/unsteady/2d"
+) -> MeshRelease:
     """Return a release of the section on a mesh whose growth is that of the line, and a shift."""
     some = mesh_releases(KEPT_SECTION)[0]
     settings = some.case.solver.settings | {"mesh": mesh}
@@ -148,7 +152,7 @@ def section_on(mesh: str, k_star: float, shift: float = 0.0) -> MeshRelease:
     pitch, heave = np.exp(np.outer((rate, -0.05), time)) * np.cos(np.outer(omegas, time))
     records = np.stack((pitch + 0.02 * heave, 0.1 * pitch + heave))
     tip = TipMotion(time, 0.01 * records[0], 0.3 + 0.1 * records[1], records)
-    return OfKnownGrowth(some.path, case, CELLS[mesh], tip, 8, 0.0, rate)
+    return OfKnownGrowth(Path(folder, "k1.nc"), case, CELLS[mesh], tip, 8, 0.0, rate)
 
 
 def at_mesh(series: MeshSeries, mesh: str) -> MeshValue:
@@ -238,7 +242,7 @@ def test_section_has_its_onset_on_finer_meshes_by_the_shift_of_the_finest_curve(
         for k_star in (6.44, 7.5, 8.5, 9.5, 11.0)
     ]
     at_equilibrium = [section_on(mesh, 6.44, shift) for mesh, shift in shifts.items()]
-    (found,) = section_from_equilibrium(at_equilibrium, from_rest)
+    (found,) = sections_from_equilibrium(at_equilibrium, from_rest)
     assert (found.model, found.basis) == ("2d", BY_EQUILIBRIUM)
     expected = [ZERO * math.exp(-shift / SLOPE) for shift in (0.0, *shifts.values())]
     assert [value.mesh for value in found.values] == list(CELLS)
@@ -248,8 +252,30 @@ def test_section_has_its_onset_on_finer_meshes_by_the_shift_of_the_finest_curve(
     assert found.limit.meshes == 3  # the finest
     assert found.limit.value < expected[-1]
     # without a release from equilibrium on the mesh of the curve nothing tells the shift
-    assert not list(section_from_equilibrium(at_equilibrium[1:], from_rest))
-    assert not list(section_from_equilibrium(at_equilibrium, []))
+    assert not list(sections_from_equilibrium(at_equilibrium[1:], from_rest))
+    assert not list(sections_from_equilibrium(at_equilibrium, []))
+
+
+@pytest.mark.parametrize(
+    ("folder", "model"),
+    [
+        ("corrected-equilibrium-medium/unsteady/2d-corrected", "2d-corrected"),
+        ("own-ratios-equilibrium-medium/unsteady/2d-corrected", OWN_RATIOS),
+    ],
+)
+def test_section_has_its_own_onset_where_releases_from_equilibrium_are_on_both_sides(
+    folder: str, model: str
+) -> None:
+    """It needs no release from equilibrium on the mesh of the curve then."""
+    from_rest = [section_on("coarse", k, folder=folder) for k in (7.5, 8.5, 9.5, 11.0)]
+    sides = [section_on("medium", k, -0.004, folder) for k in (8.0, 10.0)]
+    (found,) = sections_from_equilibrium(sides, from_rest)
+    assert (found.model, found.basis) == (model, BY_EQUILIBRIUM)
+    assert at_mesh(found, "coarse").note == "from rest"
+    expected = ZERO * math.exp(0.004 / SLOPE)
+    assert at_mesh(found, "medium").value == pytest.approx(expected, rel=FIT / -SLOPE)
+    one_side = [section_on("medium", k, -0.004, folder) for k in (9.0, 10.0)]
+    assert not list(sections_from_equilibrium(one_side, from_rest))
 
 
 @pytest.mark.parametrize("more", [(), (8.0,), (12.0,)])

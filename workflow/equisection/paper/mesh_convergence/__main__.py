@@ -50,7 +50,7 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     growth_from_equilibrium,
     learnt_from_equilibrium,
     onsets_from_equilibrium,
-    section_from_equilibrium,
+    sections_from_equilibrium,
 )
 from equisection.paper.mesh_convergence.onset_targets import targets
 from equisection.paper.printed_values import PAPER_ONSET
@@ -70,7 +70,7 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
     own, own_mesh = own_factors(section, plate)
     of_sections = [
         *onsets_by_releases(releases),
-        *section_from_equilibrium(from_equilibrium, releases),
+        *sections_from_equilibrium(from_equilibrium, releases),
         *sections_by_model(releases, section, plate_of_table_1(CLONE), own),
     ]
     series = [

@@ -113,9 +113,9 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
 - *{BY_EQUILIBRIUM}*: with {DISTURBANCE:g} deg more ([why](openfoam.md#starts)), growth of small
   motions from 10 c/V on. A finer mesh, or more iterations, shift the curve by the difference at
   one k\\*; the interval has what the section's shift changes with k\\*.
-- *{BY_DIFFERENCE}*: the best onset of `2d`, and what the correction moves it by: on `coarse` by
-  releases, then as the learnt models change. That change is as uncertain as it is large, or as
-  they miss the releases.
+- *{BY_DIFFERENCE}*: the best onset of `2d`, and what the correction moves it by: by releases
+  where there are any, on finer meshes as the learnt models change. That change is as uncertain as
+  it is large, or as they miss the releases.
 - *{LEARNT_FROM_EQUILIBRIUM}*: from such a release at k\\* 6.44, with the slope of the steady
   loads; onset of small motions by eigenvalues. Its band is the farthest miss at the other k\\*.
 - `2d-corrected` divides by the plate of the paper's Table 1: two programs' errors, and a moment

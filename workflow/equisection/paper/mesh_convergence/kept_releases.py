@@ -39,8 +39,8 @@ ITERATIONS_OF_SECTION = 8
 FROM_EQUILIBRIUM = {"state": "equilibrium", "twist_deg": 0.3, "heave_rate": 0.0}
 #: Range of the incidence (rad) in which a release of the section moves.
 SEEN = (0.0, math.radians(5.0))
-#: The section corrected by this project's plate on the section's cells, and the end of the name of
-#: the folder that its releases are kept in (``config/paper/own_ratios.yaml``).
+#: The section corrected by this project's plate on the section's cells, and what the names of the
+#: folders have that its releases are kept in (``config/paper/own_ratios.yaml``).
 OWN_RATIOS, _OWN_FOLDER = "2d-corrected, own ratios", "own-ratios"
 _MODELS = ("2d", "2d-corrected", "3d")
 _OF_MESH = "mesh"
@@ -187,7 +187,7 @@ def _starts_from(case: dict[str, Any], start: dict[str, Any] | None) -> bool:
 
 def _model_of(path: Path) -> str:
     """Return the model of a result, by the folders that it is in."""
-    return OWN_RATIOS if path.parents[2].name.endswith(_OWN_FOLDER) else path.parent.name
+    return OWN_RATIOS if _OWN_FOLDER in path.parents[2].name else path.parent.name
 
 
 def cells_of(description: str) -> float:

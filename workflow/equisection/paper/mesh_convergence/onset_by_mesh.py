@@ -55,6 +55,8 @@ ONSET, GROWTH, GROWTH_EARLY = (
 )
 #: Bases of an onset.
 BY_RELEASES, BY_MODEL = "releases", "learnt model"
+#: Models of the section.
+SECTIONS = ("2d", "2d-corrected", OWN_RATIOS)
 #: Start of a note on the polar that a model rests on.
 POLAR_OF = "polar of "
 #: End of a note on the growth of the plate.
@@ -130,10 +132,11 @@ def half_width(growth: Growth) -> float:
 
 def onsets_by_releases(releases: Sequence[MeshRelease]) -> Iterator[MeshSeries]:
     """Yield the onset of each model over the meshes, from releases."""
-    for model, dimensions in (("2d", 2), ("2d-corrected", 2), (OWN_RATIOS, 2), ("3d", 3)):
+    for model in (*SECTIONS, "3d"):
         own = [one for one in releases if one.model == model]
         values = _of_plate(own) if model == "3d" else _of_section(own)
         if values:
+            dimensions = 3 if model == "3d" else 2
             yield MeshSeries(ONSET, model, "", BY_RELEASES, dimensions, tuple(values))
 
 

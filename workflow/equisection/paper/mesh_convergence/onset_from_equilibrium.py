@@ -44,6 +44,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     LEARNT_AT,
     ONSET,
     PLATE_ITERATIONS,
+    SECTIONS,
     beam_at,
     curve_of_plate,
     half_width,
@@ -121,14 +122,14 @@ def growth_from_equilibrium(
         yield MeshSeries(GROWTH, model, f"k* = {k_star:g}", basis, dimensions, tuple(values))
 
 
-def section_from_equilibrium(
+def sections_from_equilibrium(
     releases: Sequence[MeshRelease], from_rest: Sequence[MeshRelease]
 ) -> Iterator[MeshSeries]:
-    """Yield the onset of the section over the meshes, the finer ones by releases from equilibrium.
+    """Yield the onset of each section over the meshes, the finer ones by releases from equilibrium.
 
-    Meshes with releases from rest on both sides of their onset have it by these. The growth curve
-    of the finest of them is moved by the difference of a finer mesh to it, of both from
-    equilibrium.
+    Meshes with releases from rest on both sides of their onset have it by these, and finer ones by
+    those from equilibrium. Where the latter are on one side alone, the growth curve of the finest
+    mesh from rest is moved by the difference to it, of both from equilibrium.
 
     Parameters
     ----------
@@ -137,26 +138,36 @@ def section_from_equilibrium(
     from_rest
         Releases from rest.
     """
+    for model in SECTIONS:
+        values = _section_by_mesh(_groups(releases, model), _groups(from_rest, model), from_rest)
+        if values:
+            yield MeshSeries(ONSET, model, "", BY_EQUILIBRIUM, 2, tuple(values))
+
+
+def _section_by_mesh(
+    own: Sequence[_Runs], of_rest: Sequence[_Runs], from_rest: Sequence[MeshRelease]
+) -> list[MeshValue]:
+    """Return the onset on each mesh; nothing where no finer mesh has it from equilibrium."""
     values: list[MeshValue] = []
     curve: _Runs | None = None
-    for group in _groups(from_rest, "2d"):
+    for group in of_rest:
         found = onset_by_growth(growth_table(group.runs), K_STAR)
         if math.isfinite(found.value):
-            ends = found.value, found.low, found.high
-            values.append(onset_on(group.mesh, group.cells, ends, "from rest"))
+            values.append(_onset_of(group, found, "from rest"))
             curve = group
     if curve is None:
-        return
-    table, base, change = growth_table(curve.runs), values[-1], change_of_shift(from_rest)
-    own = {group.mesh: group for group in _groups(releases, "2d")}
-    start = own.get(curve.mesh)
-    if start is None:
-        return
-    for group in own.values():
-        if group.cells > curve.cells:
+        return []
+    base = values[-1]
+    start = next((group for group in own if group.mesh == curve.mesh), None)
+    for group in own:
+        if group.cells <= curve.cells:
+            continue
+        if math.isfinite((found := _zero(group)).value):
+            values.append(_onset_of(group, found))
+        elif start is not None:
+            table, change = growth_table(curve.runs), change_of_shift(from_rest)
             values += _shifted(start, table, base, group, change)
-    if values[-1] is not base:
-        yield MeshSeries(ONSET, "2d", "", BY_EQUILIBRIUM, 2, tuple(values))
+    return values if values[-1] is not base else []
 
 
 def onsets_from_equilibrium(
@@ -189,16 +200,14 @@ def onsets_from_equilibrium(
             return
         (curve,) = groups
     zigzag = _zigzag_in_words(curve) if curve.iterations < PLATE_ITERATIONS else ""
-    ends = found.value, found.low, found.high
-    base = onset_on(curve.mesh, curve.cells, ends, "; ".join(filter(None, (words, zigzag))))
+    base = _onset_of(curve, found, "; ".join(filter(None, (words, zigzag))))
     change = change_of_shift(from_rest)
     values = []
     for group in _most_iterations(releases):
         if group == curve:
             values.append(base)
         elif group in own:
-            ends = own[group].value, own[group].low, own[group].high
-            values.append(onset_on(group.mesh, group.cells, ends))
+            values.append(_onset_of(group, own[group]))
         else:
             values += _shifted(curve, table, base, group, change)
     yield MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, tuple(values))
@@ -206,6 +215,10 @@ def onsets_from_equilibrium(
 
 def _zero(group: _Runs) -> GrowthOnset:
     return onset_by_growth(growth_table(group.runs, _growth), K_STAR)
+
+
+def _onset_of(group: _Runs, found: GrowthOnset, note: str = "") -> MeshValue:
+    return onset_on(group.mesh, group.cells, (found.value, found.low, found.high), note)
 
 
 def _shifted(
