@@ -54,9 +54,10 @@ def test_run_that_is_not_there_yet_needs_nothing(tmp_path: Path) -> None:
     assert mend(tmp_path / "nothing") == []
 
 
-def test_truncated_result_is_set_aside_and_its_index_asked_for_again(run: Path) -> None:
+@pytest.mark.parametrize("left", [0, 100])
+def test_truncated_result_is_set_aside_and_its_index_asked_for_again(run: Path, left: int) -> None:
     path = run / "unsteady" / "2d" / "k5.nc"
-    path.write_bytes(path.read_bytes()[:100])
+    path.write_bytes(path.read_bytes()[:left])
     said = mend(run)
     assert names(run) == ["k4.nc", "k5.nc.broken", "k6.nc"]
     assert "k5.nc: truncated or not NetCDF-4; kept as k5.nc.broken, made again" in said[0]
