@@ -10,10 +10,12 @@ from tests.conftest import ROOT
 
 from equisection.aerodynamics.polar import Polar
 from equisection.analysis.polar_of_results import polar_aerodyn, polar_csv
-from equisection.errors import ResultFileError
+from equisection.config import load_config
+from equisection.errors import ConfigError, ResultFileError
 from equisection.results.netcdf import write_dataset
 from equisection.results.steady_result import SteadyResult
 from equisection.run.command_line import main
+from equisection.study.given_polars import check_polars
 
 NOTHING = np.empty(0)
 
@@ -32,13 +34,46 @@ def result(
     return path
 
 
+@pytest.mark.parametrize(
+    ("name", "kept"),
+    [
+        ("plate_2d_11136", ["paper-plate-openfoam/steady/2d/coarse_a*.nc"]),
+        ("plate_2d_7112", ["plate-cells/steady/2d/medium_a*.nc"]),
+        ("plate_3d_85284", ["paper-plate-openfoam-3d/steady/3d/coarse_a*.nc"]),
+        (
+            "plate_3d_300912",
+            [
+                "paper-plate-openfoam-3d-grid/steady/3d/medium_a*.nc",
+                "plate-equilibrium-medium/steady/3d/medium_a*.nc",
+            ],
+        ),
+    ],
+)
 def test_polar_that_is_shipped_is_that_of_the_results_that_are_kept(
-    capsys: pytest.CaptureFixture[str],
+    name: str, kept: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    kept = ROOT / "results/reference/paper-plate-openfoam/steady/2d"
-    assert main(["polar", *map(str, kept.glob("coarse_a*.nc"))]) == 0
-    written = (ROOT / "config/polars/plate_2d_11136.csv").read_text(encoding="utf-8")
+    paths = [str(path) for one in kept for path in (ROOT / "results/reference").glob(one)]
+    assert main(["polar", *paths]) == 0
+    written = (ROOT / "config" / "polars" / f"{name}.csv").read_text(encoding="utf-8")
     assert capsys.readouterr().out == written
+
+
+def test_polar_of_a_beam_is_held_to_the_beam_and_the_channel_of_its_results(
+    tmp_path: Path,
+) -> None:
+    """Written by the command, it is refused as ``steady.beam_polar`` of any other."""
+    kept = ROOT / "results/reference/paper-plate-openfoam-3d/steady/3d"
+    (tmp_path / "beam.csv").write_text(polar_csv(list(kept.glob("coarse_a*.nc"))))
+    steady = {"beam_polar": "beam.csv"}
+    cfd = {"solver": "openfoam", "sweep": {"models": ["2d"]}, "unsteady": {"time_step": 0.02}}
+    check_polars(load_config({**cfd, "steady": steady}), tmp_path)
+    for change, reason in (
+        ({"beam": {"length": 0.6}}, "of L/c 3.7 and not 6"),
+        ({"flow": {"root_on_wall": False}}, "of flow.root_on_wall true and not false"),
+        ({"flow": {"channel": {"height_chords": 8}}}, "height_chords 4 and not 8"),
+    ):
+        with pytest.raises(ConfigError, match=reason):
+            check_polars(load_config({**cfd, **change, "steady": steady}), tmp_path)
 
 
 def test_polar_is_read_back_in_order_without_what_failed(tmp_path: Path) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any
 
 import xarray as xr
 
@@ -13,6 +14,7 @@ from equisection.errors import ResultFileError
 from equisection.io.aerodyn_polar import aerodyn_text
 from equisection.io.csv_polar import csv_text
 from equisection.io.polar_columns import COLUMNS
+from equisection.io.polar_rows import MID_CHORD, REYNOLDS
 from equisection.results.netcdf import read_dataset
 
 
@@ -114,8 +116,27 @@ def _flow(data: xr.Dataset) -> list[str]:
     around = "free air" if height is None else f"channel {height:g} c high"
     return [
         f"Thickness {geometry['thickness']:g} c, Reynolds number {reynolds:.3g}, {around}.",
-        f"Valid for: h/c {geometry['thickness']:g}",
+        *(f"Valid for: {what}" for what in _valid_for(case, reynolds)),
     ]
+
+
+def _valid_for(case: dict[str, Any], reynolds: float) -> Iterator[str]:
+    """Yield what a polar is of: thickness, and of a beam what ``steady.beam_polar`` is held to."""
+    geometry = case["geometry"]
+    thickness = f"h/c {geometry['thickness']:g}"
+    if case["dimension"] != "3d":
+        yield thickness
+        return
+    wall = str(geometry["root_on_wall"]).lower()
+    yield (
+        f"L/c {geometry['span']:g}, {thickness}, {REYNOLDS} {reynolds:.0f}, "
+        f"flow.root_on_wall {wall}, moment_axis {MID_CHORD:g}"
+    )
+    if geometry["channel_height"] is not None:
+        yield (
+            f"flow.channel.height_chords {geometry['channel_height']:g}, "
+            f"flow.channel.tip_gap_chords {geometry['tip_gap']:g}"
+        )
 
 
 def _require_one_polar(results: Sequence[xr.Dataset]) -> None:

@@ -120,7 +120,7 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   loads; onset of small motions by eigenvalues. Its band is the farthest miss at the other k\\*.
 - `2d-corrected` divides by the plate of the paper's Table 1: two programs' errors, and a moment
   factor that grows with the mesh; `{OWN_RATIOS}` by this project's plate, on equal cells in the
-  plane {f"(mesh {own_mesh}; releases: coarse)" if own_mesh else "(not kept)"}.
+  plane {f"(mesh {own_mesh}; releases: the mesh's own)" if own_mesh else "(not kept)"}.
 """
     return text + _notes(chosen) + _of_the_plate(chosen) + _targets(chosen)
 
