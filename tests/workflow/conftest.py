@@ -22,6 +22,14 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
 
 
 @pytest.fixture(scope="session")
+def finished_sweep(tmp_path_factory: pytest.TempPathFactory) -> Project:
+    """A small sweep of every model up to its summary, without figures; not to be changed."""
+    project = Project.fresh(tmp_path_factory.mktemp("finished-sweep") / "project", small())
+    project.run(project.target("comparison/summary.csv"))
+    return project
+
+
+@pytest.fixture(scope="session")
 def finished_section(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """A small sweep of model 2d up to its summary; not to be changed."""
     project = Project.fresh(

@@ -41,17 +41,17 @@ def test_model_and_map_of_the_beam_are_made_from_its_own_files(tmp_path: Path) -
 
 
 def test_finished_sweep_of_the_beam_can_be_learnt_from(
-    finished: Project, tmp_path: Path, caplog: pytest.LogCaptureFixture
+    finished_sweep: Project, tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     """The model of a release says what it is, and the angles that its polar lacks are named."""
     lessons = Lessons.read(
         load_config(small(sweep=LEARNT)),
         "3d",
         {
-            "releases": [str(finished.results / "unsteady" / "3d" / "sweep.json")],
-            "equivalent": str(finished.results / "structure" / "equivalent.nc"),
-            "modes": str(finished.results / "structure" / "modes.nc"),
-            "polar_3d": str(finished.results / "steady" / "polar_3d.nc"),
+            "releases": [str(finished_sweep.results / "unsteady" / "3d" / "sweep.json")],
+            "equivalent": str(finished_sweep.results / "structure" / "equivalent.nc"),
+            "modes": str(finished_sweep.results / "structure" / "modes.nc"),
+            "polar_3d": str(finished_sweep.results / "steady" / "polar_3d.nc"),
         },
     )
     with caplog.at_level(logging.WARNING):

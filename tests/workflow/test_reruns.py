@@ -26,9 +26,9 @@ def results_of_solver(project: Project) -> dict[str, bytes]:
 
 
 def test_editing_the_package_without_changing_a_case_runs_no_solver(
-    finished: Project, tmp_path: Path
+    finished_sweep: Project, tmp_path: Path
 ) -> None:
-    project = finished.copy(tmp_path / "project")
+    project = finished_sweep.copy(tmp_path / "project")
     before = results_of_solver(project)
     for module in ("solvers/embedded/adapter.py", "structure/modes.py", "aerodynamics/polar.py"):
         with (project.folder / "workflow" / "equisection" / module).open("a") as source:
@@ -99,10 +99,10 @@ def test_another_value_in_the_polar_computes_the_sweep_again(section: Project) -
 
 
 def test_correction_by_what_the_modes_feel_computes_the_corrected_section_alone(
-    finished: Project, tmp_path: Path
+    finished_sweep: Project, tmp_path: Path
 ) -> None:
     """They feel less than the mean of a load that is lost at the tip: less twist and deflection."""
-    project = finished.copy(tmp_path / "project")
+    project = finished_sweep.copy(tmp_path / "project")
     project.config = small(correction="modal")
     before = pd.read_csv(project.results / SUMMARY).set_index(["model", "k_star"])
 
@@ -110,7 +110,7 @@ def test_correction_by_what_the_modes_feel_computes_the_corrected_section_alone(
 
     assert done["correction_factors"] == done["sections_batch"] == 1
     assert not {"modes", "steady_batch", "unsteady_batch"} & set(done)
-    for name, content in results_of_solver(finished).items():  # what they cost is in them too
+    for name, content in results_of_solver(finished_sweep).items():  # what they cost is in them too
         same = (project.results / name).read_bytes() == content
         assert same == ("2d-corrected" not in name)
     after = pd.read_csv(project.results / SUMMARY).set_index(["model", "k_star"])
