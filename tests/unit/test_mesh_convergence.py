@@ -39,6 +39,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     own_factors,
     plates_by_model,
 )
+from equisection.paper.mesh_convergence.onset_from_equilibrium import BY_EQUILIBRIUM
 from equisection.paper.printed_values import PAPER_ONSET
 from equisection.results.netcdf import read_attributes, read_dataset
 from equisection.store.kept import Kept
@@ -268,3 +269,15 @@ def test_figure_has_each_model_with_its_limit_and_the_papers_onset() -> None:
     ]
     assert len(limits) >= 4
     figure.draw_without_rendering()
+
+
+def test_series_that_is_part_of_another_is_not_drawn_twice() -> None:
+    """Neither its onsets nor its limit, which is that of fewer meshes."""
+    part, whole = onset("2d", BY_EQUILIBRIUM, [7.4, 6.2]), onset("2d", BY_RELEASES, [7.4, 6.2, 5.8])
+    of_another = onset("2d-corrected", BY_RELEASES, [7.4, 6.2, 5.8])
+    alone, both, apart = (
+        len(draw(series, PAPER_ONSET).axes[0].containers)
+        for series in ([whole], [whole, part], [part, of_another])
+    )
+    assert both == alone
+    assert apart == 2 * alone

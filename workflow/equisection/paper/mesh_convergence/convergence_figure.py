@@ -83,9 +83,10 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
     letter(axes, "a", "over the cell size, without damping")
     axes.set_xlabel("cell size over that of the coarse mesh")
     for number, model in enumerate(_MODELS):
+        of_model = [one for one in onsets if (one.model, one.at) == (model, "")]
         for basis in _FILLED:
-            for one in onsets:
-                if (one.model, one.at, one.basis) == (model, "", basis):
+            for one in of_model:
+                if one.basis == basis and not _is_part_of_another(one, of_model):
                     aside = 0.5 * list(_FILLED).index(basis)
                     _series(axes, one, -_APART * (number + 1 + aside))
     axes.axvline(0.0, color=GREY, linewidth=0.6)
@@ -101,6 +102,12 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
         color=GREY,
     )
     axes.set_xlim(-_APART * (len(_MODELS) + 2), 1.06)
+
+
+def _is_part_of_another(one: MeshSeries, onsets: Sequence[MeshSeries]) -> bool:
+    """Tell whether another series has all onsets of one, and further meshes."""
+    own = {(value.mesh, value.value) for value in one.values}
+    return any(own < {(value.mesh, value.value) for value in other.values} for other in onsets)
 
 
 def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:
