@@ -10,7 +10,7 @@ import hashlib
 import json
 import logging
 import shutil
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -48,13 +48,17 @@ class Kept:
         found: dict[str, Any] = json.loads(self.attributes.get("case", "{}"))
         return found
 
-    def is_of(self, case: Case) -> bool:
-        """Tell whether its case is this one within the scatter between machines."""
-        return are_alike(self.case, json.loads(canonical(case)))
 
-    def has_history_of(self, case: Case) -> bool:
-        """Tell whether its case is this one in the same way but for the end of its history."""
-        return are_alike(_without_end(self.case), _without_end(json.loads(canonical(case))))
+def kept_of(kept: Iterable[Kept], case: Case) -> Iterator[Kept]:
+    """Yield the kept results whose case is this one within the scatter between machines."""
+    wanted = json.loads(canonical(case))
+    return (one for one in kept if are_alike(one.case, wanted))
+
+
+def with_history_of(kept: Iterable[Kept], case: Case) -> Iterator[Kept]:
+    """Yield those whose case is this one in the same way but for the end of its history."""
+    wanted = _without_end(json.loads(canonical(case)))
+    return (one for one in kept if are_alike(_without_end(one.case), wanted))
 
 
 def _without_end(case: dict[str, Any]) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from typing import Any
 from equisection.cases import Case, are_alike, canonical, kind_of, point_of
 from equisection.cases.kinds import ends_of
 from equisection.files import second_name
-from equisection.store.kept import Kept, kept_results
+from equisection.store.kept import Kept, kept_results, with_history_of
 from equisection.store.result_store import ResultStore, task_of
 
 #: Parts of a case that a reason does not take apart: they follow from others.
@@ -71,7 +71,7 @@ def _shorter(case: Case, kept: Sequence[Kept]) -> list[Case]:
     """Return the case as it would be if it could take no longer than its longest history."""
     if "duration" not in kind_of(case).ends or case.not_run:
         return []
-    lengths = [one.end_time for one in kept if one.has_history_of(case)]
+    lengths = [one.end_time for one in with_history_of(kept, case)]
     return [case.model_copy(update={"duration": max(lengths)})] if lengths else []
 
 

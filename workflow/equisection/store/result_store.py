@@ -29,7 +29,7 @@ from equisection.results.netcdf import read_attributes, read_dataset, write_data
 from equisection.solvers.protocol import Capability
 from equisection.solvers.registry import SOLVERS
 from equisection.store.judged_again import judged_again
-from equisection.store.kept import Kept
+from equisection.store.kept import Kept, kept_of, with_history_of
 
 logger = logging.getLogger(__name__)
 
@@ -133,10 +133,9 @@ class ResultStore:
                 self._put_history(task, attributes)
                 return attributes
         if not runs_batches(task.case):
-            for one in kept:
-                if one.is_of(task.case):
-                    logger.info("taken from %s, whose case is alike", one.path)
-                    return self._put_known(task, read_dataset(one.path), one.attributes)
+            for one in kept_of(kept, task.case):
+                logger.info("taken from %s, whose case is alike", one.path)
+                return self._put_known(task, read_dataset(one.path), one.attributes)
         return None
 
     def judge_again(
@@ -150,7 +149,7 @@ class ResultStore:
             return None
         own = self._history(task)
         histories = [own] if not kept_alone and _length(own) else []
-        histories += [one.path for one in kept if one.has_history_of(task.case)]
+        histories += [one.path for one in with_history_of(kept, task.case)]
         for path in histories:
             history = read_dataset(path)
             result = judged_again(task.case, history)
