@@ -19,7 +19,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run install report paper validation cost identification cost-model status verify test lint docs drawing gallery pictures bench openfoam slurm chromium clean
+.PHONY: run install report paper paper-runs paper-meshes validation cost identification cost-model status verify test lint docs drawing gallery pictures bench openfoam slurm chromium clean
 
 run: $(ENV)/run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && echo "$(SNAKEMAKE)" && $(SNAKEMAKE) && printf '%s\n' '' \
@@ -36,6 +36,16 @@ report: $(ENV)/report
 		echo "report: $$folder/report.html"
 
 paper: $(ENV)/run
+	@$(MAKE) --no-print-directory -j 2 paper-runs paper-meshes
+	$(BIN)/python -m equisection.paper.claims_page
+	cp results/paper-figures/figures/fig16-response.png results/paper-figures/figures/growth-rate.png \
+		$(PAPER_REDUCTIONS)/figures/section-and-beam.png docs/
+	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Figs. 9 to 12 in $(PAPER_PLATE)/figures/" \
+		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \
+		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"
+
+# Parts of `make paper`, side by side: runs of the workflow, and the page of the meshes, which takes one core.
+paper-runs:
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
 		$(PAPER_PLATE)/figures/fig09-plate-mesh.png $(PAPER_PLATE)/figures/fig10-spanwise-loads.png \
@@ -45,13 +55,9 @@ paper: $(ENV)/run
 		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml config/paper/reductions-modal.yaml \
 		--config $(PAPER_FROM_$(FROM)) -- $(PAPER_REDUCTIONS)-modal/figures/section-and-beam.png
+
+paper-meshes:
 	$(BIN)/python -m equisection.paper.mesh_convergence
-	$(BIN)/python -m equisection.paper.claims_page
-	cp results/paper-figures/figures/fig16-response.png results/paper-figures/figures/growth-rate.png \
-		$(PAPER_REDUCTIONS)/figures/section-and-beam.png docs/
-	@printf '%s\n' '' "figures:    results/paper-figures/figures/, Figs. 9 to 12 in $(PAPER_PLATE)/figures/" \
-		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \
-		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"
 
 validation: $(ENV)/run
 	$(BIN)/python -m equisection.validation
