@@ -13,13 +13,16 @@ SNAKEMAKE := $(BIN)/snakemake --cores $(CORES) --workflow-profile workflow/profi
 # What `make paper` draws: kept results alone, or with FROM=scratch what is computed.
 PAPER_FROM_kept := compute=false
 PAPER_FROM_scratch := compute=true reuse='""'
+# How many of its parts run side by side; CFD takes all cores.
+PAPER_PARTS_kept := 3
+PAPER_PARTS_scratch := 1
 PAPER_PLATE := results/paper-plate-figures
 PAPER_REDUCTIONS := results/paper-reductions
 ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run install report paper paper-runs paper-meshes validation cost identification cost-model status verify test lint docs drawing gallery pictures bench openfoam slurm chromium clean
+.PHONY: run install report paper paper-figures paper-reductions paper-meshes validation cost identification cost-model status verify test lint docs drawing gallery pictures bench openfoam slurm chromium clean
 
 run: $(ENV)/run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && echo "$(SNAKEMAKE)" && $(SNAKEMAKE) && printf '%s\n' '' \
@@ -36,7 +39,7 @@ report: $(ENV)/report
 		echo "report: $$folder/report.html"
 
 paper: $(ENV)/run
-	@$(MAKE) --no-print-directory -j 2 paper-runs paper-meshes
+	@$(MAKE) --no-print-directory -j $(PAPER_PARTS_$(FROM)) paper-figures paper-reductions paper-meshes
 	$(BIN)/python -m equisection.paper.claims_page
 	cp results/paper-figures/figures/fig16-response.png results/paper-figures/figures/growth-rate.png \
 		$(PAPER_REDUCTIONS)/figures/section-and-beam.png docs/
@@ -44,13 +47,15 @@ paper: $(ENV)/run
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \
 		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"
 
-# Parts of `make paper`, side by side: runs of the workflow, and the page of the meshes, which takes one core.
-paper-runs:
+# Parts of `make paper`, side by side: each has spells in which it takes one core.
+paper-figures:
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
 		$(PAPER_PLATE)/figures/fig09-plate-mesh.png $(PAPER_PLATE)/figures/fig10-spanwise-loads.png \
 		$(PAPER_PLATE)/figures/fig11-plate-surface.png $(PAPER_PLATE)/figures/fig12-tip-flow.png
 	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER_FROM_$(FROM))
+
+paper-reductions:
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml config/paper/reductions-modal.yaml \

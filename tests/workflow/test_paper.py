@@ -19,7 +19,7 @@ def commands(origin: str) -> list[list[str]]:
     """Return the arguments of Snakemake in `make paper FROM=<origin>`, targets first."""
     text = (ROOT / "Makefile").read_text().replace("\\\n", " ")
     variables = dict(re.findall(r"^(PAPER_\w+) := (.*)$", text, flags=re.MULTILINE))
-    recipe = text[text.index("\npaper-runs:") :].split("\n\n")[0]
+    recipe = text[text.index("\npaper-figures:") : text.index("\npaper-meshes:")]
     recipe = recipe.replace("$(PAPER_FROM_$(FROM))", variables[f"PAPER_FROM_{origin}"])
     for run in ("PAPER_PLATE", "PAPER_REDUCTIONS"):
         recipe = recipe.replace(f"$({run})", variables[run])
