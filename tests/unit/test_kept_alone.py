@@ -9,6 +9,7 @@ from tests.sample_cases import STEADY, UNSTEADY
 
 from equisection.cases import Case, UnsteadyCase, canonical, case_hash
 from equisection.results.netcdf import read_dataset, write_dataset
+from equisection.store import kept
 from equisection.store.index import read_index, read_missing, write_index
 from equisection.store.kept_alone import Answers, answer_from_kept
 
@@ -105,3 +106,18 @@ def test_index_names_what_is_missing_beside_the_results(tmp_path: Path) -> None:
     write_index(tmp_path / "sweep.json", {"k5": {"regime": "growing"}}, {"k6": "not kept"})
     assert set(read_index(tmp_path / "sweep.json")) == {"k5"}
     assert read_missing(tmp_path / "sweep.json") == {"k6": "not kept"}
+
+
+@pytest.mark.parametrize("others", [1, 12])
+def test_a_case_is_written_as_often_however_many_results_are_kept(
+    others: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The mode shapes of a beam make that dear."""
+    for number in range(others):
+        angle = 5.0 + number
+        keep(tmp_path / f"kept/a{angle:g}.nc", RUN.model_copy(update={"incidence_deg": angle}))
+    written = []
+    monkeypatch.setattr(kept, "canonical", lambda case: written.append(case) or canonical(case))
+    assert answers({"not": RUN}, tmp_path).missing
+    # is it alike, has it its history (asked twice: by how long, and to be judged again)
+    assert len(written) == 3
