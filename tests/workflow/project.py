@@ -64,7 +64,9 @@ class Project:
         for part in PARTS:
             source = ROOT / part
             if source.is_dir():
-                shutil.copytree(source, folder / part)
+                # which another process may be writing
+                without = shutil.ignore_patterns("__pycache__")
+                shutil.copytree(source, folder / part, ignore=without)
             else:
                 shutil.copy2(source, folder / part)
         return cls(folder, config)
