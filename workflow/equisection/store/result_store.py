@@ -133,9 +133,10 @@ class ResultStore:
                 self._put_history(task, attributes)
                 return attributes
         if not runs_batches(task.case):
-            for one in kept_of(kept, task.case):
-                logger.info("taken from %s, whose case is alike", one.path)
-                return self._put_known(task, read_dataset(one.path), one.attributes)
+            alike = next(kept_of(kept, task.case), None)
+            if alike is not None:
+                logger.info("taken from %s, whose case is alike", alike.path)
+                return self._put_known(task, read_dataset(alike.path), alike.attributes)
         return None
 
     def judge_again(
