@@ -87,7 +87,7 @@ verify: $(ENV)/run
 
 # Three parts side by side: tests that run OpenFOAM or SLURM, the first half of those that start Snakemake, and
 # the others, which are seen while they run.
-FIRST_HALF := tests/workflow/test_[a-k]*.py
+FIRST_HALF := tests/workflow/test_[a-o]*.py
 test: $(ENV)/test
 	@logs=$$(mktemp -d); ids=; trap 'kill $$ids; rm -r $$logs; exit 130' INT TERM; \
 		$(BIN)/python -m pytest -p no:cacheprovider tests/openfoam tests/slurm >$$logs/openfoam 2>&1 & ids="$$ids $$!"; \

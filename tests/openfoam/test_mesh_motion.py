@@ -21,8 +21,8 @@ from equisection.solvers.openfoam.section.free_section import SectionRun
 from equisection.solvers.openfoam.section.overset_section import OversetRun
 from equisection.solvers.openfoam.section.rigid_section import WINDOW, mesh_of
 
-#: Coarser than any preset, about 5,000 cells: for what does not depend on the mesh.
-VERY_COARSE = 0.6
+#: Coarser than any preset, about 4,000 cells: for what does not depend on the mesh.
+VERY_COARSE = 0.5
 STEP = 0.04
 
 
@@ -94,7 +94,7 @@ def whole(
     installation: Installation, tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[OversetRun, UnsteadyResult]:
     """The soft section on overset meshes, to where the other mesh has long tangled."""
-    case, work = soft(7.6), tmp_path_factory.mktemp("whole")
+    case, work = soft(8.4), tmp_path_factory.mktemp("whole")
     run = OversetRun(installation, case, mesh_of(case, VERY_COARSE), Coupling(), work)
     return run, run.run(nothing)
 
@@ -136,7 +136,7 @@ def test_overset_run_that_was_killed_goes_on_without_a_jump(
         shutil.rmtree(path)
     (again.folder / "log.pimpleFoam").unlink()
     control = again.folder / "system" / "controlDict"
-    control.write_text(control.read_text().replace("endTime 7.6", "endTime 4"))
+    control.write_text(control.read_text().replace("endTime 8.4", "endTime 4"))
 
     with pytest.raises(KeyboardInterrupt):
         again.run(interrupt_after(3.0))

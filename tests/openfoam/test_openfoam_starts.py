@@ -118,7 +118,7 @@ def test_release_at_zero_incidence_is_that_of_the_embedded_solver(
 ) -> None:
     """Over two thirds of the first period; the moment at the release is the polar's at a degree."""
     case = free(4.0).model_copy(update={"incidence_deg": 0.0, "start": Start(twist_deg=1.0)})
-    run = SectionRun(installation, case, mesh_of(case, VERY_COARSE), Coupling(), tmp_path)
+    run = SectionRun(installation, case, mesh_of(case, 0.6), Coupling(), tmp_path)
     result = run.run(nothing)
     polar = Polar.read(POLAR)
     assert case.section is not None

@@ -16,7 +16,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory: pytest.TempPathFactory) -> Project:
     """A small run of every model with all its files; not to be changed."""
-    project = Project.fresh(tmp_path_factory.mktemp("finished") / "project", small())
+    config = small(figure_formats=["png", "svg", "pdf"])
+    project = Project.fresh(tmp_path_factory.mktemp("finished") / "project", config)
     project.run()
     return project
 

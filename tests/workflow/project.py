@@ -18,9 +18,11 @@ ROOT = Path(__file__).parents[2]
 #: What a clone holds that a run needs.
 PARTS = ("Snakefile", "config", "envs", "scripts", "workflow")
 
-#: Small enough for a test: one-dimensional modes, few angles, few k*, short runs.
+#: Small enough for a test: one-dimensional modes, few angles, few k*, short runs, one
+#: format of the figures.
 SMALL: dict[str, Any] = {
     "run": "small",
+    "figure_formats": ["png"],
     "structure": {
         "method": "beam",
         "elements": {"chord": 4, "span": 15, "thickness": 1},
@@ -64,8 +66,8 @@ class Project:
         for part in PARTS:
             source = ROOT / part
             if source.is_dir():
-                # which another process may be writing
-                without = shutil.ignore_patterns("__pycache__")
+                # with its bytecode, but what another process is writing of it
+                without = shutil.ignore_patterns("*.pyc.*")
                 shutil.copytree(source, folder / part, ignore=without)
             else:
                 shutil.copy2(source, folder / part)

@@ -16,11 +16,15 @@ from tests.workflow.project import ROOT, Project, jobs_planned
 
 
 def commands(origin: str) -> list[list[str]]:
-    """Return the arguments of Snakemake in `make paper FROM=<origin>`, targets first."""
+    """Return the arguments of Snakemake in `make paper FROM=<origin>`, targets first.
+
+    Figures have one format of the three.
+    """
     text = (ROOT / "Makefile").read_text().replace("\\\n", " ")
     variables = dict(re.findall(r"^(PAPER_\w+) := (.*)$", text, flags=re.MULTILINE))
     recipe = text[text.index("\npaper-figures:") : text.index("\npaper-meshes:")]
-    recipe = recipe.replace("$(PAPER_FROM_$(FROM))", variables[f"PAPER_FROM_{origin}"])
+    chosen = f"{variables[f'PAPER_FROM_{origin}']} figure_formats=[png]"
+    recipe = recipe.replace("$(PAPER_FROM_$(FROM))", chosen)
     for run in ("PAPER_PLATE", "PAPER_REDUCTIONS"):
         recipe = recipe.replace(f"$({run})", variables[run])
     found = []

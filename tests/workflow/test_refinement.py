@@ -7,7 +7,7 @@ import pytest
 
 from tests.workflow.project import Project, has_nothing_to_do, jobs_run, one_case_at_a_time, small
 
-TOLERANCE = 0.3
+TOLERANCE = 0.4
 
 
 @pytest.fixture(scope="module", params=["batches", "one case at a time"])
@@ -20,7 +20,7 @@ def refined(
         "k_star": [6.0, 21.0],
         "onset": "refine",
         "onset_tolerance": TOLERANCE,
-        "onset_points": 2,
+        "onset_points": 2 if request.param == "batches" else 1,
     }
     project = Project.fresh(tmp_path_factory.mktemp("refined") / "project", small(sweep=sweep))
     if request.param == "one case at a time":

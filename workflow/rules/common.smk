@@ -390,7 +390,7 @@ def figure_files():
         f"{RESULTS}/figures/{name}.{suffix}"
         for entry in catalogue.figures(CONFIG)
         for name in filter(None, names_of([entry]).popitem())
-        for suffix in catalogue.FORMATS
+        for suffix in CONFIG.figure_formats
     ]
 
 

@@ -55,7 +55,7 @@ def files_of(name):
     """Return the files of a figure, one for each format."""
     return {
         f"{name}_{suffix}": f"{RESULTS}/figures/{name}.{suffix}"
-        for suffix in catalogue.FORMATS
+        for suffix in CONFIG.figure_formats
     }
 
 

@@ -11,7 +11,10 @@ rule identification:
     output:
         lags=f"{RESULTS}/identification/lags.yaml",
         judgement=f"{RESULTS}/identification/judgement.csv",
-        figures=multiext(f"{RESULTS}/identification/judgement", ".png", ".svg", ".pdf"),
+        figures=multiext(
+            f"{RESULTS}/identification/judgement",
+            *(f".{suffix}" for suffix in CONFIG.figure_formats),
+        ),
     log:
         f"{LOGS}/identification.log",
     conda:

@@ -13,7 +13,7 @@ if is_paper_case(CONFIG):
         f"{RESULTS}/comparison/paper.csv",
         f"{RESULTS}/tables/table2.csv",
         *(f"{RESULTS}/tables/table1.csv" for _ in polar_of_beam()),
-        *(f"{RESULTS}/figures/{WORKFLOW}.{suffix}" for suffix in ("png", "svg", "pdf")),
+        *(f"{RESULTS}/figures/{WORKFLOW}.{suffix}" for suffix in CONFIG.figure_formats),
     ]
 
     rule workflow_drawing:
@@ -21,14 +21,17 @@ if is_paper_case(CONFIG):
         input:
             of_project("workflow/report/workflow.*[!t]"),
         output:
-            png=report(
+            report(
                 f"{RESULTS}/figures/{WORKFLOW}.png",
                 caption=caption(1),
                 category="Figures",
                 labels={"figure": "1", "shows": "the workflow"},
             ),
-            svg=f"{RESULTS}/figures/{WORKFLOW}.svg",
-            pdf=f"{RESULTS}/figures/{WORKFLOW}.pdf",
+            *(
+                f"{RESULTS}/figures/{WORKFLOW}.{suffix}"
+                for suffix in CONFIG.figure_formats
+                if suffix != "png"
+            ),
         log:
             f"{LOGS}/workflow_drawing.log",
         localrule: True

@@ -95,13 +95,13 @@ class LearntLoads:
         Parameters
         ----------
         a, twist_rate, lag
-            alpha - theta_0 (rad), theta' and x (rad), of one shape.
+            alpha - theta_0 (rad), theta' and x (rad), shape (N,).
         """
         terms = terms_of(a, twist_rate, a - lag)
         alpha = self.incidence_rad + a
         return (
-            self.polar.lift_coefficient(alpha) + np.tensordot(self.lift, terms, 1),
-            self.polar.moment_coefficient(alpha) + np.tensordot(self.moment, terms, 1),
+            self.polar.lift_coefficient(alpha) + self.lift @ terms,
+            self.polar.moment_coefficient(alpha) + self.moment @ terms,
         )
 
     def slopes(self, a: float) -> tuple[Floats, Floats]:
@@ -123,7 +123,7 @@ class LearntLoads:
 def terms_of(a: Floats, twist_rate: Floats, h: Floats) -> Floats:
     """Return T, shape (8, ...), of incidence a (rad), theta' and h (rad)."""
     ah = a * h
-    return np.stack([twist_rate, a * twist_rate, h, ah, h * h, a * ah, ah * h, h * h * h])
+    return np.array([twist_rate, a * twist_rate, h, ah, h * h, a * ah, ah * h, h * h * h])
 
 
 def lagged(signal: Floats, step: float, rate: float) -> Floats:

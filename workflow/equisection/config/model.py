@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import Field, ValidationInfo, model_validator
 
@@ -36,6 +36,8 @@ from equisection.config.groups.sweep import Range
 from equisection.keys.checks import DisagreementError, Problem, check, disagreements
 from equisection.keys.values import EMPTY, Name
 
+FigureFormat = Literal["png", "svg", "pdf"]
+FIGURE_FORMATS: tuple[FigureFormat, ...] = get_args(FigureFormat)
 #: Holds the recorded reference runs, which no run may mix with.
 RESERVED_RUN = "reference"
 
@@ -71,6 +73,11 @@ class Config(KeyGroup):
         description="Whether a case without a kept result is computed. With false, results come "
         "from `reuse` alone and no solver is needed: cases that it has not are named in "
         "`comparison/missing.csv` and left out.",
+    )
+    figure_formats: Annotated[tuple[FigureFormat, ...], Field(min_length=1)] = Field(
+        FIGURE_FORMATS,
+        description="Formats of each figure: `png`, which the report shows, and any of `svg` and "
+        "`pdf`.",
     )
     beam: Beam = Field(Beam(), description="The beam.")
     flow: Flow = Field(Flow(), description="The flow.")
@@ -207,6 +214,14 @@ def _learnt_from_this_start(onset: str, start: StartKeys) -> Iterator[Problem]:
             "unsteady.start.state",
             start.state,
             "allowed with sweep.onset 'model' is 'rigid': a learnt model releases from there",
+        )
+
+
+@check("figure_formats")
+def _shown_in_the_report(formats: tuple[str, ...]) -> Iterator[Problem]:
+    if "png" not in formats:
+        yield Problem(
+            "figure_formats", list(formats), "allowed is 'png', which the report shows, and others"
         )
 
 

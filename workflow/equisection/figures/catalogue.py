@@ -25,9 +25,6 @@ if TYPE_CHECKING:  # jobs need not build the models, nor the graph load what dra
 
     from equisection.config import Config
 
-#: Formats that every figure is written in.
-FORMATS = ("png", "svg", "pdf")
-
 
 class FurtherName(NamedTuple):
     """Another name that a figure goes by, with its number and caption (a path seen from a rule)."""

@@ -99,7 +99,7 @@ class LearntSections:
         up = lift - self._damping[0] * w_rate - self._stiffness[0] * w
         turn = moment - self._damping[1] * theta_rate - self._stiffness[1] * theta
         inverse = self._inverse
-        return np.stack(
+        return np.array(
             [
                 w_rate,
                 theta_rate,
