@@ -254,6 +254,7 @@ MALFORMED = [
     ({"sweep": {"k_star": [5], "speed": [20]}}, "sweep.speed", "[20]", "one of sweep.k_star and"),
     ({"sweep": {"speed": [20, 200]}}, "sweep.speed", "200", "up to 102 m/s, Mach 0.3"),
     ({"sweep": {"speed": [20, 20]}}, "sweep.speed.1", "20", "allowed is each speed once"),
+    ({"figure_formats": ["svg"]}, "figure_formats", "['svg']", "allowed is 'png'"),
     ({"sweep": {"speed": [-3]}}, "sweep.speed.0", "-3", "a number above 0"),
     ({"sweep": {"speed": [30], "onset": "refine"}}, "sweep.speed", "[30]", "two speeds or more"),
     ({"sweep": {"onset_reach": 0.5}}, "sweep.onset_reach", "0.5", "from 1 to 100"),

@@ -195,12 +195,28 @@ def test_onset_is_where_the_shifted_growth_of_coarse_is_zero(at_equilibrium: Mes
     coarse, medium = (at_mesh(found, mesh) for mesh in ("coarse", "medium"))
     assert coarse.value == pytest.approx(ZERO, rel=FIT / -SLOPE)
     assert medium.value == pytest.approx(ZERO * math.exp(-shift / SLOPE), rel=FIT / -SLOPE)
-    ends = [ZERO * math.exp(-shift * part / SLOPE) for part in (1.0 + change, 1.0 - change)]
+    # as far as it is from the release to the onset
+    part = change * (medium.value - 6.44) / (7.5 - 6.44)
+    ends = [ZERO * math.exp(-shift * (1.0 + sign * part) / SLOPE) for sign in (1.0, -1.0)]
     assert [medium.low, medium.high] == pytest.approx(ends, rel=2.0 * FIT / -SLOPE)
     ratio = (300912 / 85284) ** (1.0 / 3.0)
     drop = (medium.value - coarse.value) / (ratio**2 - 1.0)  # order 2 is assumed
     assert found.limit.value == pytest.approx(medium.value + drop)
     assert found.limit.half_width >= 3.0 * abs(drop)
+
+
+def test_release_nearest_to_the_onset_says_where_it_is(at_equilibrium: MeshRelease) -> None:
+    """Of two on one side of it; the shift is another at the farther one."""
+    curve = over_k_star(at_equilibrium, 6.44, 7.0, 8.0, 9.0, 10.5)
+    near = made_up(at_equilibrium, "medium", 8.0, iterations=4, shift=-0.004)
+    far = made_up(at_equilibrium, "medium", 6.44, iterations=4, shift=-0.007)
+    sections = of_section((-0.1, -0.005, -0.006, -0.005, -0.1), RATES)
+    (both,) = onsets_from_equilibrium([*curve, far, near], sections)
+    (alone,) = onsets_from_equilibrium([*curve, near], sections)
+    (farther,) = onsets_from_equilibrium([*curve, far], sections)
+    assert at_mesh(both, "medium") == at_mesh(alone, "medium")
+    assert "the difference at k* = 8" in at_mesh(both, "medium").note
+    assert at_mesh(both, "medium").half_width < at_mesh(farther, "medium").half_width
 
 
 def test_iterations_of_a_time_step_move_the_onset_of_their_mesh(
@@ -299,7 +315,8 @@ def test_curve_is_that_from_rest_where_releases_from_equilibrium_show_none(
 def test_shift_changes_over_k_star_as_that_of_the_section_up_to_its_onset() -> None:
     """Far inside, where motions are large, and far above the onset it is not read."""
     changes = (-0.001, -0.004, -0.0046, -0.0038, -0.001)
-    assert change_of_shift(of_section(changes, RATES)) == pytest.approx(0.15)
+    per_k_star = 0.15 / (7.5 - 6.44)
+    assert change_of_shift(of_section(changes, RATES)) == pytest.approx(per_k_star)
     all_stable = (0.01, -0.001, -0.003, -0.004, -0.01)
     assert change_of_shift(of_section(changes, all_stable)) == 1.0
     assert change_of_shift([]) == 1.0

@@ -224,21 +224,37 @@ def _onset_of(group: _Runs, found: GrowthOnset, note: str = "") -> MeshValue:
 def _shifted(
     curve: _Runs, table: pd.DataFrame, base: MeshValue, group: _Runs, change: float
 ) -> list[MeshValue]:
-    """Return the onset of releases by the shift of a curve, at the k* nearest to its onset."""
-    both = [(one, known) for one in group.runs if (known := curve.at(one.case.k_star))]
-    if not both:
-        return []
-    run, known = min(both, key=lambda pair: abs(pair[0].case.k_star - base.value))
-    end = min(run.end, known.end)
+    """Return the onset of releases by the shift of a curve, at the k* nearest to that onset."""
+    found = []
+    for run in group.runs:
+        known = curve.at(run.case.k_star)
+        if known is None:
+            continue
+        onset = _by_shift(curve, table, base, (run, known, group.iterations), change)
+        found.append((abs(onset.value - run.case.k_star), onset))
+    return [min(found, key=lambda one: one[0])[1]] if found else []
+
+
+def _by_shift(
+    curve: _Runs,
+    table: pd.DataFrame,
+    base: MeshValue,
+    pair: tuple[MeshRelease, MeshRelease, int],
+    change: float,
+) -> MeshValue:
+    """Return the onset by the difference of two releases, the second one of the curve."""
+    run, known, iterations = pair
+    k_star, end = run.case.k_star, min(run.end, known.end)
     here, there = _growth(run, end), _growth(known, end)
     shift = here.rate - there.rate
-    half = math.hypot(half_width(here), half_width(there), change * shift)
-    of = curve.mesh if group.mesh != curve.mesh else f"{curve.iterations} iterations"
-    note = f"growth of {of} {shift:+.4f} +- {half:.4f} V/c, the difference at k* = "
-    note += f"{run.case.k_star:g}"
-    if group.mesh != curve.mesh and group.iterations != curve.iterations:
-        note += f", a part of it that of {group.iterations} iterations beside {curve.iterations}"
-    return [moved_onset(table, (shift, half), base, run, note)]
+    onset = moved_onset(table, (shift, 0.0), base, run, "").value
+    away = abs((onset if math.isfinite(onset) else base.value) - k_star)
+    half = math.hypot(half_width(here), half_width(there), change * away * shift)
+    of = curve.mesh if run.mesh != curve.mesh else f"{curve.iterations} iterations"
+    note = f"growth of {of} {shift:+.4f} +- {half:.4f} V/c, the difference at k* = {k_star:g}"
+    if run.mesh != curve.mesh and iterations != curve.iterations:
+        note += f", a part of it that of {iterations} iterations beside {curve.iterations}"
+    return moved_onset(table, (shift, half), base, run, note)
 
 
 def _zigzag_in_words(group: _Runs) -> str:
@@ -250,18 +266,21 @@ def _zigzag_in_words(group: _Runs) -> str:
 def change_of_shift(from_rest: Sequence[MeshRelease]) -> float:
     """Return how far the growth's difference of two meshes changes with k*, as a part of it.
 
-    It is that of the section on its coarse and its medium mesh, from k* = 6.44 up to the first k*
-    at which the coarse one decays, over the difference at 6.44; 1 where these do not tell.
+    It is that of the section on its coarse and its medium mesh, over a k* of 1: the fastest change
+    from k* = 6.44 up to the first k* at which the coarse one decays, over the difference at 6.44; 1
+    where these do not tell.
     """
-    shifts, sign = [], 1.0
+    shifts: list[tuple[float, float]] = []
+    sign = 1.0
     for k_star, alike, end in alike_sections(from_rest):
         by_mesh = {one.mesh: one.behind_release(end).rate for one in alike}
         if k_star >= LEARNT_AT and {"coarse", "medium"} <= by_mesh.keys() and sign > 0.0:
-            shifts.append(by_mesh["medium"] - by_mesh["coarse"])
+            shifts.append((k_star, by_mesh["medium"] - by_mesh["coarse"]))
             sign = by_mesh["coarse"]
     if len(shifts) < 2:
         return 1.0
-    return float(np.abs(np.array(shifts) / shifts[0] - 1.0).max())
+    start, first = shifts[0]
+    return max(abs(shift / first - 1.0) / (k_star - start) for k_star, shift in shifts[1:])
 
 
 def learnt_from_equilibrium(
