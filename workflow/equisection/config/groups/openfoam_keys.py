@@ -21,6 +21,9 @@ MeshName = Literal[
     "extra-fine",
     "finest",
     "five-layers",
+    "coarse-medium-span",
+    "coarse-fine-span",
+    "medium-coarse-span",
     "plate-coarse",
     "plate-medium",
     "plate-fine",
@@ -68,7 +71,9 @@ class OpenFoam(SolverKeys):
         "`finest` (8e4; 5e6), which has cells of 0.004 c along the section's wall, 0.02 c near it "
         "and 0.04 c in the wake; `five-layers` (5e4; 5e6) has the same sizes and five layers of "
         "0.075 c in all on it. "
-        "With `plate-` before the name the section has the cells of that plate in its plane.",
+        "With `plate-` before the name the section has the cells of that plate in its plane. "
+        "`coarse-medium-span`, `coarse-fine-span` and `medium-coarse-span` are the first mesh in "
+        "the plane, and the second one along the plate's span.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
         8,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
 from equisection.solvers.openfoam.mesh.beam_mesh import layers_of_beam, plate_cells
@@ -49,7 +49,12 @@ class Preset:
     @property
     def is_similar(self) -> bool:
         """Tell whether it is similar to others: they differ by their refinement alone."""
-        return self.spacing is SIMILAR
+        return self.spacing is SIMILAR and self.plate_spacing is OF_PLATE
+
+    def along_span_of(self, other: Preset) -> Preset:
+        """Return this mesh with as many cells along the plate's span as another one has."""
+        ratio = other.plate / self.plate
+        return replace(self, plate_spacing=replace(OF_PLATE, along_span=ratio))
 
 
 #: About 1e4, 2e4, 6e4 and 1e5 cells, and cells of given sizes; of the plate 8e4, 3e5, 1e6, 3e6 and
@@ -62,8 +67,13 @@ _OWN: Mapping[str, Preset] = {
     "finest": Preset(1.0, BY_CELL_SIZE, plate=2.05),
     "five-layers": Preset(1.0, FIVE_LAYERS, plate_spacing=FIVE_LAYERS_OF_PLATE),
 }
+#: Meshes that are refined in the plane or along the span alone, by both meshes' names.
+_BY_DIRECTION = {
+    f"{plane}-{span}-span": _OWN[plane].along_span_of(_OWN[span])
+    for plane, span in (("coarse", "medium"), ("coarse", "fine"), ("medium", "coarse"))
+}
 _OF_PLATE = {
     ON_CELLS_OF_PLATE + name: Preset(own.plate, own.plate_spacing, own.plate, own.plate_spacing)
     for name, own in _OWN.items()
 }
-PRESETS: Mapping[str, Preset] = {**_OWN, **_OF_PLATE}
+PRESETS: Mapping[str, Preset] = {**_OWN, **_BY_DIRECTION, **_OF_PLATE}
