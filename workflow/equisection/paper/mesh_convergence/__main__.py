@@ -37,6 +37,10 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
 )
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, as_table
 from equisection.paper.mesh_convergence.onset_by_difference import onsets_by_difference
+from equisection.paper.mesh_convergence.onset_by_direction import (
+    growths_by_direction,
+    onset_by_direction,
+)
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     early_growth_of_plate,
     growth_series,
@@ -47,6 +51,8 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     sections_by_model,
 )
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    change_of_shift,
+    curve_from_equilibrium,
     growth_from_equilibrium,
     learnt_from_equilibrium,
     onsets_from_equilibrium,
@@ -73,15 +79,20 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
         *sections_from_equilibrium(from_equilibrium, releases),
         *sections_by_model(releases, section, plate_of_table_1(CLONE), own),
     ]
+    of_plate = list(onsets_from_equilibrium(from_equilibrium, releases))
+    directions = list(growths_by_direction(reference))
+    curve = curve_from_equilibrium(from_equilibrium, releases)
     series = [
         *of_sections,
         *onsets_by_difference(of_sections),
         *plates_by_model(releases, plate),
-        *onsets_from_equilibrium(from_equilibrium, releases),
+        *of_plate,
+        *onset_by_direction(directions, of_plate, curve, change_of_shift(releases)),
         *learnt_from_equilibrium(from_equilibrium, plate),
         *growth_series(releases),
         *growth_from_equilibrium(from_equilibrium, "2d"),
         *growth_from_equilibrium(from_equilibrium),
+        *(one for both in directions for one in (both.along_span, both.in_plane)),
         early_growth_of_plate(releases),
         *mean_series(releases),
         *load_series(section, "2d", reference),

@@ -21,6 +21,11 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
 )
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue, as_table
 from equisection.paper.mesh_convergence.onset_by_difference import BY_DIFFERENCE
+from equisection.paper.mesh_convergence.onset_by_direction import (
+    ALONG_SPAN,
+    BY_DIRECTION,
+    IN_PLANE,
+)
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
@@ -118,6 +123,8 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   it is large, or as they miss the releases.
 - *{LEARNT_FROM_EQUILIBRIUM}*: from such a release at k\\* 6.44, with the slope of the steady
   loads; onset of small motions by eigenvalues. Its band is the farthest miss at the other k\\*.
+- *{BY_DIRECTION}*: cells that shrink along the span alone and, as the section on the plate's
+  cells, in the plane alone ([growth](#growth-at-one-k)).
 - `2d-corrected` divides by the plate of the paper's Table 1: two programs' errors, and a moment
   factor that grows with the mesh; `{OWN_RATIOS}` by this project's plate, on equal cells in the
   plane {f"(mesh {own_mesh}; releases: the mesh's own)" if own_mesh else "(not kept)"}.
@@ -213,8 +220,12 @@ critical) in both motions, and half of their intervals (a model of one mesh has 
 
 
 def _growth(series: Sequence[MeshSeries]) -> str:
-    chosen = [one for one in series if one.quantity == GROWTH and one.model == "2d"]
-    plate = [one for one in series if one.quantity == GROWTH and one.model == "3d"]
+    growths = [one for one in series if one.quantity == GROWTH]
+    directions = [one for one in growths if one.basis in (ALONG_SPAN, IN_PLANE)]
+    chosen, plate = (
+        [one for one in growths if one.model == model and one not in directions]
+        for model in ("2d", "3d")
+    )
     rows = [(one.at.removeprefix("k* = "), _window(one.basis)) for one in chosen]
     text = f"""## Growth at one k\\*
 
@@ -236,7 +247,18 @@ Of the plate from static equilibrium, 10 to 30 c/V:
 
 {_table(head, rows, plate, form="+.4f", judged=False)}
 """
+    if directions:
+        text += f"""
+The same on cells that shrink in one direction, of the plate with those of `coarse` in the plane and
+of the section with those of the plate's meshes:
+
+{_table(("k*", "finer"), _places(directions), directions, form="+.4f", judged=False)}
+"""
     return text
+
+
+def _places(series: Sequence[MeshSeries]) -> list[tuple[str, str]]:
+    return [(one.at.removeprefix("k* = "), f"{one.basis}, `{one.model}`") for one in series]
 
 
 def _window(basis: str) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import methodcaller
 from pathlib import Path
@@ -114,7 +114,9 @@ def growth_behind_release(case: UnsteadyCase, tip: TipMotion, end: float = UNTIL
     return growth_over(case, tip, (start, last))
 
 
-def mesh_releases(reference: Path, start: dict[str, Any] | None = None) -> list[MeshRelease]:
+def mesh_releases(
+    reference: Path, start: dict[str, Any] | None = None, meshes: Collection[str] = MESHES
+) -> list[MeshRelease]:
     """Return the kept releases of the plate and its sections on meshes of one family.
 
     They have the time step of :data:`STEPS`; of several of a model, k*, mesh and number of
@@ -126,10 +128,12 @@ def mesh_releases(reference: Path, start: dict[str, Any] | None = None) -> list[
         Folder with what is kept.
     start
         Their start, as :data:`FROM_EQUILIBRIUM`; None: from rest, rigid.
+    meshes
+        Names of the meshes.
     """
     chosen: dict[tuple[Any, ...], MeshRelease] = {}
     for kept in kept_results(reference):  # the longest first
-        if not (_is_compared(kept) and _starts_from(kept.case, start)):
+        if not (_is_compared(kept, meshes) and _starts_from(kept.case, start)):
             continue
         settings = kept.case["solver"]["settings"]
         iterations = int(settings["outer_correctors"])
@@ -162,12 +166,12 @@ def alike_sections(
             yield k_star, alike, min(one.end for one in alike)
 
 
-def _is_compared(kept: Kept) -> bool:
+def _is_compared(kept: Kept, meshes: Collection[str]) -> bool:
     case = kept.case
     if case.get("kind") != FREE.folder or "outline" in case["geometry"]:
         return False
     settings = case["solver"]["settings"]
-    if settings.keys() - _USUAL or settings.get(_OF_MESH) not in MESHES:
+    if settings.keys() - _USUAL or settings.get(_OF_MESH) not in meshes:
         return False
     if case["time_step"] != STEPS[case["dimension"]]:
         return False

@@ -175,34 +175,29 @@ def _shifted(
         return []
     run, known, shift, half = min(found, key=lambda one: abs(one[0].case.k_star - base.value))
     note = f"growth of {known.mesh} {shift:+.4f} V/c, the difference at k* = {run.case.k_star:g}"
-    return [moved_onset(growth_table(curve), (shift, half), base, run, note)]
+    onset = moved_onset(growth_table(curve), (shift, half), base.half_width)
+    return [onset_on(run.mesh, run.cells, onset, note)]
 
 
 def moved_onset(
-    curve: pd.DataFrame, shift: tuple[float, float], base: MeshValue, run: MeshRelease, note: str
-) -> MeshValue:
-    """Return the onset where a growth curve over k* is zero that is moved by a shift.
+    curve: pd.DataFrame, shift: tuple[float, float], error: float
+) -> tuple[float, float, float]:
+    """Return the k* where a growth curve is zero that is moved by a shift, and its interval.
 
     Parameters
     ----------
     curve
-        Growth rates of a mesh (:func:`.kept_releases.growth_table`).
+        Growth rates of a mesh over k* (:func:`.kept_releases.growth_table`).
     shift
         The shift and half of its interval (V/c).
-    base
-        Onset of that mesh, whose interval is added as an independent error.
-    run
-        Release on the mesh that the onset is of.
-    note
-        Remark.
+    error
+        Half of the interval of the onset on that mesh, which is added as an independent error.
     """
     ordered = curve.sort_values("k_star")
     k_star, rates = ordered["k_star"].tolist(), ordered["growth_rate"].to_numpy()
     moved, half = shift
     value, low, high = (onset_of(k_star, rates + by) for by in (moved, moved - half, moved + half))
-    own = base.half_width
-    low, high = value - math.hypot(value - low, own), value + math.hypot(high - value, own)
-    return onset_on(run.mesh, run.cells, (value, low, high), note)
+    return value, value - math.hypot(value - low, error), value + math.hypot(high - value, error)
 
 
 def onset_on(mesh: str, cells: int, onset: tuple[float, float, float], note: str = "") -> MeshValue:
@@ -238,7 +233,8 @@ def _of_plate(own: Sequence[MeshRelease]) -> list[MeshValue]:
         spread = without.rate - there_without.rate - shift
         half = math.hypot(*map(half_width, (here, there)), spread)
         words = f"growth of coarse {shift:+.4f} +- {half:.4f} V/c, the difference over 30 c/V"
-        values.append(moved_onset(table, (shift, half), base, run, words))
+        onset = moved_onset(table, (shift, half), base.half_width)
+        values.append(onset_on(run.mesh, run.cells, onset, words))
     return values
 
 

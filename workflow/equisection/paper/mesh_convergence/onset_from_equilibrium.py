@@ -17,6 +17,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 import pandas as pd
@@ -76,6 +77,70 @@ class _Runs:
 
     def at(self, k_star: float) -> MeshRelease | None:
         return next((one for one in self.runs if one.case.k_star == k_star), None)
+
+
+class MovedOnset(NamedTuple):
+    """Onset of a growth curve that is moved to a growth at one k*.
+
+    Attributes
+    ----------
+    ends
+        The onset (k*) and its interval.
+    shift, half
+        The shift and half of its interval (V/c).
+    away
+        Distance of the onset from the k*; infinite without an onset.
+    """
+
+    ends: tuple[float, float, float]
+    shift: float
+    half: float
+    away: float
+
+
+@dataclass(frozen=True)
+class GrowthCurve:
+    """Growth over k* on one mesh.
+
+    Attributes
+    ----------
+    runs
+        Releases on the mesh, from equilibrium.
+    table
+        Growth rates (:func:`.kept_releases.growth_table`).
+    base
+        Onset on the mesh.
+    """
+
+    runs: _Runs
+    table: pd.DataFrame
+    base: MeshValue
+
+    def moved(
+        self, k_star: float, growth: tuple[float, float], change: float, end: float = math.inf
+    ) -> MovedOnset:
+        """Return the onset of the curve that is moved to a growth at a k*.
+
+        Parameters
+        ----------
+        k_star
+            The k*, at which there is a release on the mesh.
+        growth
+            Growth rate there and half of its interval (V/c).
+        change
+            Part of the shift by which it changes over a k* of 1 (:func:`change_of_shift`).
+        end
+            End (c/V) up to which the release on the mesh is compared.
+        """
+        known = self.runs.at(k_star)
+        assert known is not None
+        there = _growth(known, end)
+        shift = growth[0] - there.rate
+        onset = moved_onset(self.table, (shift, 0.0), self.base.half_width)[0]
+        away = abs(onset - k_star) if math.isfinite(onset) else math.inf
+        half = math.hypot(growth[1], half_width(there), change * away * shift)
+        ends = moved_onset(self.table, (shift, half), self.base.half_width)
+        return MovedOnset(ends, shift, half, away)
 
 
 def _groups(releases: Sequence[MeshRelease], model: str = "3d") -> list[_Runs]:
@@ -165,8 +230,8 @@ def _section_by_mesh(
         if math.isfinite((found := _zero(group)).value):
             values.append(_onset_of(group, found))
         elif start is not None:
-            table, change = growth_table(curve.runs), change_of_shift(from_rest)
-            values += _shifted(start, table, base, group, change)
+            moved = GrowthCurve(start, growth_table(curve.runs), base)
+            values += _shifted(moved, group, change_of_shift(from_rest))
     return values if values[-1] is not base else []
 
 
@@ -184,12 +249,31 @@ def onsets_from_equilibrium(
         the plate's on coarse are the curve where those from equilibrium are fewer than three, or of
         one sign.
     """
+    curve = curve_from_equilibrium(releases, from_rest)
+    if curve is None:
+        return
+    change = change_of_shift(from_rest)
+    values = []
+    for group in _most_iterations(releases):
+        if group == curve.runs:
+            values.append(curve.base)
+        elif math.isfinite((found := _zero(group)).value):
+            values.append(_onset_of(group, found))
+        else:
+            values += _shifted(curve, group, change)
+    yield MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, tuple(values))
+
+
+def curve_from_equilibrium(
+    releases: Sequence[MeshRelease], from_rest: Sequence[MeshRelease]
+) -> GrowthCurve | None:
+    """Return the plate's growth over k* on the coarsest mesh that shows it; None without one."""
     own = {
         group: found for group in _groups(releases) if math.isfinite((found := _zero(group)).value)
     }
-    curve = next((group for group in own if len(group.runs) >= FEWEST_OF_CURVE), None)
-    if curve is not None:
-        table, found, words = growth_table(curve.runs, _growth), own[curve], ""
+    runs = next((group for group in own if len(group.runs) >= FEWEST_OF_CURVE), None)
+    if runs is not None:
+        table, found, words = growth_table(runs.runs, _growth), own[runs], ""
     else:
         of_rest = curve_of_plate(from_rest)
         table, words = growth_table(of_rest), "growth curve of releases from rest"
@@ -197,20 +281,11 @@ def onsets_from_equilibrium(
         keys = [(one.mesh, one.iterations) for one in of_rest]
         groups = [one for one in _groups(releases) if (one.mesh, one.iterations) in keys]
         if not groups or not math.isfinite(found.value):
-            return
-        (curve,) = groups
-    zigzag = _zigzag_in_words(curve) if curve.iterations < PLATE_ITERATIONS else ""
-    base = _onset_of(curve, found, "; ".join(filter(None, (words, zigzag))))
-    change = change_of_shift(from_rest)
-    values = []
-    for group in _most_iterations(releases):
-        if group == curve:
-            values.append(base)
-        elif group in own:
-            values.append(_onset_of(group, own[group]))
-        else:
-            values += _shifted(curve, table, base, group, change)
-    yield MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, tuple(values))
+            return None
+        (runs,) = groups
+    zigzag = _zigzag_in_words(runs) if runs.iterations < PLATE_ITERATIONS else ""
+    base = _onset_of(runs, found, "; ".join(filter(None, (words, zigzag))))
+    return GrowthCurve(runs, table, base)
 
 
 def _zero(group: _Runs) -> GrowthOnset:
@@ -221,40 +296,27 @@ def _onset_of(group: _Runs, found: GrowthOnset, note: str = "") -> MeshValue:
     return onset_on(group.mesh, group.cells, (found.value, found.low, found.high), note)
 
 
-def _shifted(
-    curve: _Runs, table: pd.DataFrame, base: MeshValue, group: _Runs, change: float
-) -> list[MeshValue]:
+def _shifted(curve: GrowthCurve, group: _Runs, change: float) -> list[MeshValue]:
     """Return the onset of releases by the shift of a curve, at the k* nearest to that onset."""
     found = []
     for run in group.runs:
-        known = curve.at(run.case.k_star)
+        known = curve.runs.at(run.case.k_star)
         if known is None:
             continue
-        onset = _by_shift(curve, table, base, (run, known, group.iterations), change)
-        found.append((abs(onset.value - run.case.k_star), onset))
+        k_star, end = run.case.k_star, min(run.end, known.end)
+        growth = _growth(run, end)
+        onset = curve.moved(k_star, (growth.rate, half_width(growth)), change, end)
+        of = f"{curve.runs.iterations} iterations"
+        if run.mesh != curve.runs.mesh:
+            of = curve.runs.mesh
+        note = f"growth of {of} {onset.shift:+.4f} +- {onset.half:.4f} V/c, the difference at k* = "
+        note += f"{k_star:g}"
+        if run.mesh != curve.runs.mesh and group.iterations != curve.runs.iterations:
+            note += f", a part of it that of {group.iterations} iterations beside "
+            note += f"{curve.runs.iterations}"
+        value = onset_on(run.mesh, run.cells, onset.ends, note)
+        found.append((onset.away, value))
     return [min(found, key=lambda one: one[0])[1]] if found else []
-
-
-def _by_shift(
-    curve: _Runs,
-    table: pd.DataFrame,
-    base: MeshValue,
-    pair: tuple[MeshRelease, MeshRelease, int],
-    change: float,
-) -> MeshValue:
-    """Return the onset by the difference of two releases, the second one of the curve."""
-    run, known, iterations = pair
-    k_star, end = run.case.k_star, min(run.end, known.end)
-    here, there = _growth(run, end), _growth(known, end)
-    shift = here.rate - there.rate
-    onset = moved_onset(table, (shift, 0.0), base, run, "").value
-    away = abs((onset if math.isfinite(onset) else base.value) - k_star)
-    half = math.hypot(half_width(here), half_width(there), change * away * shift)
-    of = curve.mesh if run.mesh != curve.mesh else f"{curve.iterations} iterations"
-    note = f"growth of {of} {shift:+.4f} +- {half:.4f} V/c, the difference at k* = {k_star:g}"
-    if run.mesh != curve.mesh and iterations != curve.iterations:
-        note += f", a part of it that of {iterations} iterations beside {curve.iterations}"
-    return moved_onset(table, (shift, half), base, run, note)
 
 
 def _zigzag_in_words(group: _Runs) -> str:

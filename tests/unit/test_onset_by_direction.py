@@ -1,0 +1,188 @@
+"""Limit of the plate's growth and onset from meshes that are finer in one direction."""
+
+import math
+from dataclasses import dataclass, fields, replace
+
+import pytest
+from tests.workflow.project import ROOT
+
+from equisection.paper.mesh_convergence.kept_releases import (
+    FROM_EQUILIBRIUM,
+    MeshRelease,
+    mesh_releases,
+)
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.paper.mesh_convergence.onset_by_direction import (
+    BY_DIRECTION,
+    by_direction,
+    onset_by_direction,
+)
+from equisection.paper.mesh_convergence.onset_by_mesh import ONSET
+from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    BY_EQUILIBRIUM,
+    GrowthCurve,
+    curve_from_equilibrium,
+)
+from equisection.solvers.openfoam.mesh.beam_mesh import layers_of_beam
+from equisection.solvers.openfoam.mesh.presets import PRESETS
+from equisection.verdict.growth import Growth
+
+#: Growth (V/c) in the limit at k* 8, and what an error of the order 2 is on the coarse mesh.
+LIMIT, IN_PLANE, ALONG = -0.004, 0.006, 0.008
+#: The section's own growth in the limit, and its error on the coarse mesh.
+OF_SECTION, ERROR_OF_SECTION = -0.01, 0.005
+NAMES = ("coarse", "medium", "fine")
+#: Name of the mesh of the plate that has the cells of one in the plane, and of one along the span.
+MESHES = {
+    ("coarse", "coarse"): "coarse",
+    ("coarse", "medium"): "coarse-medium-span",
+    ("coarse", "fine"): "coarse-fine-span",
+    ("medium", "coarse"): "medium-coarse-span",
+    ("medium", "medium"): "medium",
+}
+
+
+@dataclass(frozen=True, eq=False)
+class OfKnownGrowth(MeshRelease):
+    """A release whose growth is known."""
+
+    rate: float = math.nan
+
+    def growth(self, start: float, end: float, waves: int = 3) -> Growth:
+        return Growth(rate=self.rate, standard_error=1e-6, start=start, end=end, periods=8)
+
+
+@pytest.fixture(scope="module")
+def plate() -> MeshRelease:
+    kept = mesh_releases(ROOT / "results/reference/plate-equilibrium", FROM_EQUILIBRIUM)
+    return next(one for one in kept if one.case.k_star == 8.0)
+
+
+def of_growth(
+    some: MeshRelease,
+    mesh: str,
+    rate: float,
+    k_star: float = 8.0,
+    *,
+    cells: int = 1000,
+    iterations: int = 4,
+) -> OfKnownGrowth:
+    solver = some.case.solver.model_copy(update={"settings": {"mesh": mesh}})
+    case = some.case.model_copy(update={"k_star": k_star, "solver": solver})
+    own = {field.name: getattr(some, field.name) for field in fields(MeshRelease)}
+    own |= {"case": case, "cells": cells, "iterations": iterations}
+    return OfKnownGrowth(**own, rate=rate)
+
+
+def layers(name: str) -> int:
+    return sum(layers_of_beam(PRESETS[name].plate))
+
+
+def along(name: str) -> float:
+    """Return the square of the cell size along the span over that of coarse."""
+    return (layers("coarse") / layers(name)) ** 2
+
+
+def in_plane(name: str) -> float:
+    cells = {one: PRESETS[f"plate-{one}"].cells for one in ("coarse", name)}
+    return cells["coarse"] / cells[name]
+
+
+def plates(some: MeshRelease, mixed: float = 0.0) -> list[MeshRelease]:
+    """Return the plate on every mesh, with errors of the order 2 and one of both directions."""
+    found: list[MeshRelease] = []
+    for (plane, span), mesh in MESHES.items():
+        rate = LIMIT + IN_PLANE * in_plane(plane) + ALONG * along(span)
+        found.append(of_growth(some, mesh, rate + mixed * in_plane(plane) * along(span)))
+    return found
+
+
+def sections(some: MeshRelease) -> list[MeshRelease]:
+    return [
+        of_growth(
+            some,
+            f"plate-{name}",
+            OF_SECTION + ERROR_OF_SECTION * in_plane(name),
+            cells=PRESETS[f"plate-{name}"].cells,
+        )
+        for name in NAMES
+    ]
+
+
+def test_errors_that_add_up_leave_the_limit(plate: MeshRelease) -> None:
+    (found,) = by_direction(plates(plate), sections(plate))
+    value, half = found.limit
+    assert value == pytest.approx(LIMIT, abs=2e-5)
+    assert found.mixed == pytest.approx(0.0, abs=1e-9)
+    # the grid convergence index of what is left beyond the finest mesh of either direction
+    left = 1.25 * math.hypot(ALONG * along("fine"), IN_PLANE * in_plane("fine"))
+    assert half == pytest.approx(left, rel=0.05)
+
+
+@pytest.mark.parametrize("mixed", [-0.002, 0.002])
+def test_errors_that_do_not_add_up_are_in_the_interval(plate: MeshRelease, mixed: float) -> None:
+    (found,) = by_direction(plates(plate, mixed), sections(plate))
+    missed = mixed * (1.0 - along("medium")) * (1.0 - in_plane("medium"))
+    assert found.mixed == pytest.approx(missed, abs=1e-9)
+    value, half = found.limit
+    assert half > abs(missed)
+    assert value - half < LIMIT < value + half
+
+
+@pytest.mark.parametrize("without", sorted(set(MESHES.values())))
+def test_every_mesh_is_needed(plate: MeshRelease, without: str) -> None:
+    rest = [one for one in plates(plate) if one.mesh != without]
+    assert not list(by_direction(rest, sections(plate)))
+    assert not list(by_direction(plates(plate), sections(plate)[:2]))
+    elsewhere = [of_growth(plate, one.mesh, 0.0, 10.0, cells=one.cells) for one in sections(plate)]
+    assert not list(by_direction(plates(plate), elsewhere))
+
+
+#: Growth over k* on the coarse mesh (V/c): its slope over ln k*, and where it is zero.
+SLOPE, ZERO = -0.03, 10.0
+
+
+@pytest.fixture
+def curve(plate: MeshRelease) -> GrowthCurve:
+    found = curve_from_equilibrium(
+        [
+            of_growth(plate, "coarse", SLOPE * math.log(k / ZERO), k, iterations=2)
+            for k in (4.5, 5.0, 5.5, 6.0, 6.5, 7.0, 8.0, 9.0, 11.0)
+        ],
+        [],
+    )
+    assert found is not None
+    return found
+
+
+@pytest.fixture
+def of_meshes() -> MeshSeries:
+    value = MeshValue("medium", 300912, 8.4, 8.2, 8.6)
+    return MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, (value,))
+
+
+def test_onset_is_where_the_growth_is_zero_that_is_moved_to_the_limit(
+    plate: MeshRelease, curve: GrowthCurve, of_meshes: MeshSeries
+) -> None:
+    (growth,) = by_direction(plates(plate), sections(plate))
+    (found,) = onset_by_direction([growth], [of_meshes], curve, 0.0)
+    rate, half = growth.limit
+    assert found.basis == BY_DIRECTION
+    expected = 8.0 * math.exp(-rate / SLOPE)
+    assert found.limit.value == pytest.approx(expected, rel=2e-3)
+    assert found.limit.half_width == pytest.approx(expected * half / -SLOPE, rel=0.02)
+    (wider,) = onset_by_direction([growth], [of_meshes], curve, 0.5)
+    assert wider.limit.value == found.limit.value
+    assert wider.limit.half_width > found.limit.half_width
+    assert not list(onset_by_direction([], [of_meshes], curve, 0.0))
+    assert not list(onset_by_direction([growth], [of_meshes], None, 0.0))
+
+
+def test_growth_nearest_to_its_onset_counts(
+    plate: MeshRelease, curve: GrowthCurve, of_meshes: MeshSeries
+) -> None:
+    (near,) = by_direction(plates(plate), sections(plate))
+    far = [replace(near, k_star=k_star) for k_star in (5.0, 11.0)]
+    (alone,) = onset_by_direction([near], [of_meshes], curve, 0.1)
+    (of_three,) = onset_by_direction([far[0], near, far[1]], [of_meshes], curve, 0.1)
+    assert of_three.limit == alone.limit
