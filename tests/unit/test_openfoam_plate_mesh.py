@@ -39,6 +39,22 @@ def test_presets_have_about_as_many_cells_as_they_are_to_have(name: str, cells: 
     assert plate_mesh(preset.plate, spacing=preset.plate_spacing).cells == preset.plate_cells
 
 
+@pytest.mark.parametrize(
+    ("plane", "span"), [("coarse", "medium"), ("coarse", "fine"), ("medium", "coarse")]
+)
+def test_mesh_by_direction_is_one_in_the_plane_and_another_along_the_span(
+    plane: str, span: str
+) -> None:
+    of_plane, of_span, both = (
+        plate_mesh(PRESETS[name].plate, spacing=PRESETS[name].plate_spacing)
+        for name in (plane, span, f"{plane}-{span}-span")
+    )
+    assert both.section.cells == of_plane.section.cells
+    np.testing.assert_allclose(both.edges(), of_span.edges(), rtol=1e-9)
+    assert both.layers == of_span.layers != of_plane.layers
+    assert not PRESETS[f"{plane}-{span}-span"].is_similar  # to the others
+
+
 def test_layers_along_the_plate_grow_evenly_from_the_tip_to_the_root() -> None:
     edges = plate_mesh().edges()
     sizes = np.diff(edges)
