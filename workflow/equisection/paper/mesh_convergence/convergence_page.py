@@ -48,10 +48,7 @@ _LEARNT = (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
 #: Half-width of an interval, as a part of the value, up to which a value counts as converged.
 CONVERGED = 0.1
 
-_PICTURE = (
-    "Left: k* of the onset over the cell size, with the limits and the paper's 5.5. Right: over "
-    "the structural damping"
-)
+_PICTURE = "k* of the onset: left over the cell size, right over the structural damping"
 _HEAD = f"""# The onset over the cell size
 
 Onset of the paper's plate and sections, and how sure its limit is.
@@ -63,8 +60,8 @@ make paper                                          # or this step of it alone:
 python -m equisection.paper.mesh_convergence
 ```
 
-writes this page (do not edit it), its figure and
-`results/paper-convergence/mesh_convergence.csv` from kept results, with no flow solver.
+writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from kept
+results.
 
 A **limit** is the value at vanishing cell size:
 
@@ -106,6 +103,12 @@ def _onsets(series: Sequence[MeshSeries], own_mesh: str) -> str:
     chosen = [one for one in series if one.quantity == ONSET and not one.at]
     low, high = PAPER_ONSET[1:]
     stated = f"{PAPER_ONSET[0]:g}, here taken as {low:g} to {high:g}"
+    of_directions = (
+        f"- *{BY_DIRECTION}*: cells that shrink along the span alone and, as the section on the "
+        "plate's\n  cells, in the plane alone ([growth](#growth-at-one-k)).\n"
+        if any(one.basis == BY_DIRECTION for one in chosen)
+        else ""
+    )
     text = f"""## Onset
 
 k\\* of the onset; above it a release decays. The paper: about {stated}.
@@ -123,8 +126,7 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   it is large, or as they miss the releases.
 - *{LEARNT_FROM_EQUILIBRIUM}*: from such a release at k\\* 6.44, with the slope of the steady
   loads; onset of small motions by eigenvalues. Its band is the farthest miss at the other k\\*.
-- *{BY_DIRECTION}*: cells that shrink along the span alone and, as the section on the plate's
-  cells, in the plane alone ([growth](#growth-at-one-k)).
+{of_directions}\
 - `2d-corrected` divides by the plate of the paper's Table 1: two programs' errors, and a moment
   factor that grows with the mesh; `{OWN_RATIOS}` by this project's plate, on equal cells in the
   plane {f"(mesh {own_mesh}; releases: the mesh's own)" if own_mesh else "(not kept)"}.
@@ -145,8 +147,8 @@ def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
     return f"""
 **The plate's onset is {state}**: its best limit ({one.basis}) is {limit.value:.1f} with the
 interval {limit.low:.1f} to {limit.high:.1f}{order}{first}.
-{_what_narrows_it(one)}From rest only the difference of `medium` from `coarse` over 30 c/V is
-known; the longer run is [not converged in its time step](plate-sweep.md#on-the-medium-mesh).
+{_what_narrows_it(one)}From rest the run on `medium` is
+[not converged in its time step](plate-sweep.md#on-the-medium-mesh) beyond 30 c/V.
 {_contradictions([one for one in chosen if one.model == "3d"])}"""
 
 
@@ -214,7 +216,7 @@ def _damping(series: Sequence[MeshSeries]) -> str:
     return f"""## Structural damping
 
 The paper gives none. Limits of the onset by the learnt models, with the same damping (of
-critical) in both motions, and half of their intervals (a model of one mesh has none):
+critical) in both motions, and half of their intervals:
 
 {_limits("damping", chosen, form=".2f", line=lambda one: one.model)}"""
 
@@ -229,7 +231,7 @@ def _growth(series: Sequence[MeshSeries]) -> str:
     rows = [(one.at.removeprefix("k* = "), _window(one.basis)) for one in chosen]
     text = f"""## Growth at one k\\*
 
-Of the section `2d` (V/c, interval of 95 %), over one window on all meshes:
+Of `2d` (V/c, interval of 95 %), one window on all meshes:
 
 {_table(("k*", "window, c/V"), rows, chosen, form="+.4f", judged=False)}
 """
