@@ -242,7 +242,7 @@ def test_page_says_which_limits_are_converged() -> None:
     assert f"with the assumed order 2 ({first:.1f} with the order 1)" in text
     assert "| 2d | learnt model | ± 3.9 % | ± 5 % | yes |" in text
     assert "| 2d-corrected | learnt model | ± 7.0 % | ± 5 % | no |" in text
-    assert "k*" not in text.replace("k\\*", "").replace("Left: k* of", "")
+    assert "k*" not in text.replace("k\\*", "")
 
 
 def test_quantity_of_two_models_at_one_place_has_a_line_for_each() -> None:

@@ -48,7 +48,7 @@ _LEARNT = (BY_MODEL, LEARNT_FROM_EQUILIBRIUM)
 #: Half-width of an interval, as a part of the value, up to which a value counts as converged.
 CONVERGED = 0.1
 
-_PICTURE = "k* of the onset: left over the cell size, right over the structural damping"
+_PICTURE = "The onset: left over the cell size, right over the structural damping"
 _HEAD = f"""# The onset over the cell size
 
 Onset of the paper's plate and sections, and how sure its limit is.
