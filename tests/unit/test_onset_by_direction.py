@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 import pytest
 from tests.workflow.project import ROOT
 
+from equisection.paper.mesh_convergence.convergence_page import page
 from equisection.paper.mesh_convergence.kept_releases import (
     FROM_EQUILIBRIUM,
     MeshRelease,
@@ -186,3 +187,21 @@ def test_growth_nearest_to_its_onset_counts(
     (alone,) = onset_by_direction([near], [of_meshes], curve, 0.1)
     (of_three,) = onset_by_direction([far[0], near, far[1]], [of_meshes], curve, 0.1)
     assert of_three.limit == alone.limit
+
+
+def test_page_has_the_growth_in_either_direction(
+    plate: MeshRelease, curve: GrowthCurve, of_meshes: MeshSeries
+) -> None:
+    (growth,) = by_direction(plates(plate), sections(plate))
+    onsets = onset_by_direction([growth], [of_meshes], curve, 0.1)
+    text = page([of_meshes, *onsets, growth.along_span, growth.in_plane], "")
+    lines = {line.rpartition(" | yes")[0] or line for line in text.splitlines()}
+    (along,) = (line for line in lines if line.startswith("| 8 | along the span, `3d` | +0.0100 "))
+    assert " | 2.0 | +0.0020 | " in along
+    (plane,) = (line for line in lines if line.startswith("| 8 | in the plane, `2d` | -0.0050 "))
+    assert " | 2.0 | -0.0100 | " in plane
+    assert "its best limit (by direction) is 7.0 with" in text
+    assert "limit of the growth -0.0040 +- " in text
+    without = page([of_meshes], "")
+    assert "along the span" not in without
+    assert BY_DIRECTION not in without
