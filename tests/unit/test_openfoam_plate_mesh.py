@@ -40,7 +40,8 @@ def test_presets_have_about_as_many_cells_as_they_are_to_have(name: str, cells: 
 
 
 @pytest.mark.parametrize(
-    ("plane", "span"), [("coarse", "medium"), ("coarse", "fine"), ("medium", "coarse")]
+    ("plane", "span"),
+    [("coarse", "medium"), ("coarse", "fine"), ("coarse", "extra-fine"), ("fine", "coarse")],
 )
 def test_mesh_by_direction_is_one_in_the_plane_and_another_along_the_span(
     plane: str, span: str

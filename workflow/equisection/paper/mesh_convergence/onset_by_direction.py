@@ -1,10 +1,11 @@
 """Onset of the plate in the limit of cells that shrink in the plane and along the span apart.
 
 The next finer mesh of the plate has three times the cells, one that is finer along the span alone
-half as many more. So three meshes with the cells of ``coarse`` in the plane tell the error along
-the span, and the section on the cells that the plate's meshes have in the plane tells how the error
-there falls. The four meshes of ``coarse`` and ``medium`` in either direction show by how much the
-two errors do not add up; that is in the interval.
+half as many more. So meshes with the cells of ``coarse`` in the plane tell the error along the
+span. The section on the cells that the plate's meshes have in the plane tells how the error there
+falls, and one mesh of the plate that is finer in the plane alone, how much of it the plate has. The
+mesh that is finer in both directions shows by how much the two changes miss their sum; that is in
+the interval.
 """
 
 from __future__ import annotations
@@ -37,11 +38,12 @@ from equisection.verdict.growth import AFTER_RELEASE
 #: Basis of the onset, and of the growth in one direction.
 BY_DIRECTION = "by direction"
 ALONG_SPAN, IN_PLANE = "along the span", "in the plane"
-_FINER_ALONG_SPAN = ("coarse", "coarse-medium-span", "coarse-fine-span")
-_FINER_IN_PLANE = "medium-coarse-span"
-_FINER_IN_BOTH = "medium"
-#: Meshes of the plate that the limit rests on.
-_NEEDED = {*_FINER_ALONG_SPAN, _FINER_IN_PLANE, _FINER_IN_BOTH}
+#: Meshes of the plate that have the cells of ``coarse`` in the plane, by those along the span.
+_OF_SPAN = {name: f"coarse-{name}-span" for name in MESHES} | {"coarse": "coarse"}
+#: Mesh of the plate that is finer in the plane alone, with its cells there, and one finer in both.
+_OF_PLANE, _IN_PLANE, _OF_BOTH = "fine-coarse-span", "fine", "medium"
+#: Fewest meshes of a direction, which show an order.
+_FEWEST = 3
 
 
 @dataclass(frozen=True)
@@ -67,66 +69,96 @@ class GrowthByDirection:
     finer_in_both: MeshValue
 
     @property
-    def mixed(self) -> float:
-        """By how much (V/c) the changes in both directions are not the sum of those in one."""
-        coarse, finer = self.along_span.values[:2]
-        return self.finer_in_both.value - finer.value - self.finer_in_plane.value + coarse.value
+    def part(self) -> tuple[float, float]:
+        """Change of the plate over that of the section, in the plane, and half of its interval."""
+        pair = self.finer_in_plane, _on(self.along_span, "coarse")
+        of_section = _on(self.in_plane, _IN_PLANE), _on(self.in_plane, "coarse")
+        change, own = (one.value - other.value for one, other in (pair, of_section))
+        part = change / own
+        errors, own_errors = (
+            math.hypot(*(one.half_width for one in both)) for both in (pair, of_section)
+        )
+        return part, math.hypot(errors / own, part * own_errors / own)
+
+    @property
+    def missed(self) -> float:
+        """By how much (V/c) the change in both directions is not the sum of those in one."""
+        both = self.finer_in_both
+        span = _on(self.along_span, both.mesh).value
+        plane = _on(self.in_plane, both.mesh).value - _on(self.in_plane, "coarse").value
+        return both.value - span - self.part[0] * plane
 
     @property
     def limit(self) -> tuple[float, float]:
         """Growth (V/c) in the limit, and half of its interval.
 
-        The mesh that is finer in both directions, and what is left in each: along the span from
-        the limit of the plate itself, in the plane in proportion to what is left of the section.
+        The mesh that is finer in both directions, and what is left in each: along the span to the
+        limit of the plate itself, in the plane the part of what is left of the section.
         """
-        coarse, finer = self.along_span.values[:2]
-        span = self.along_span.limit.value - finer.value
-        change = self.finer_in_plane.value - coarse.value
-        change_error = math.hypot(self.finer_in_plane.half_width, coarse.half_width)
-        of_section = {value.mesh: value.value for value in self.in_plane.values}
-        step = of_section["medium"] - of_section["coarse"]
-        part = (self.in_plane.limit.value - of_section["medium"]) / step
+        both, (part, of_part) = self.finer_in_both, self.part
+        span = self.along_span.limit.value - _on(self.along_span, both.mesh).value
+        plane = self.in_plane.limit.value - _on(self.in_plane, both.mesh).value
         errors = (
-            self.finer_in_both.half_width,
+            both.half_width,
             self.along_span.limit.half_width,
-            self.in_plane.limit.half_width / step * change,
-            part * change_error,
-            self.mixed,
+            part * self.in_plane.limit.half_width,
+            of_part * plane,
+            self.missed,
         )
-        return self.finer_in_both.value + span + part * change, math.hypot(*errors)
+        return both.value + span + part * plane, math.hypot(*errors)
+
+
+def _on(series: MeshSeries, mesh: str) -> MeshValue:
+    return next(value for value in series.values if value.mesh == mesh)
 
 
 def growths_by_direction(reference: Path) -> Iterator[GrowthByDirection]:
     """Yield the growth at each k* that has a release from equilibrium on every mesh."""
-    plates = mesh_releases(reference, FROM_EQUILIBRIUM, _NEEDED)
+    meshes = [*_OF_SPAN.values(), _OF_PLANE, _OF_BOTH]
+    plates = mesh_releases(reference, FROM_EQUILIBRIUM, meshes)
     on_cells = [ON_CELLS_OF_PLATE + name for name in MESHES]
     sections = mesh_releases(reference, FROM_EQUILIBRIUM, on_cells)
     yield from by_direction(
-        [one for one in plates if (one.model, one.iterations) == ("3d", PLATE_ITERATIONS)],
-        [one for one in sections if one.model == "2d"],
+        [one for one in plates if one.model == "3d"], [one for one in sections if one.model == "2d"]
     )
 
 
 def by_direction(
     plates: Sequence[MeshRelease], sections: Sequence[MeshRelease]
 ) -> Iterator[GrowthByDirection]:
-    """Yield the same of releases of plate and section, the latter on the plate's cells."""
+    """Yield the same of releases of plate and section, the latter on the plate's cells.
+
+    Of several releases of the plate on one mesh that with the most iterations of a time step
+    counts; two are enough with the cells of ``coarse`` in the plane, and only there.
+    """
     for k_star in sorted({one.case.k_star for one in plates}):
-        at = f"k* = {k_star:g}"
-        of_plate = {one.mesh: _value(one) for one in plates if one.case.k_star == k_star}
+        of_plate = {
+            one.mesh: _value(one)
+            for one in sorted(plates, key=lambda one: one.iterations)
+            if one.case.k_star == k_star
+            and (one.iterations >= PLATE_ITERATIONS or one.mesh in _OF_SPAN.values())
+        }
         in_plane = [_value(one) for one in sections if one.case.k_star == k_star]
-        if not (of_plate.keys() >= _NEEDED and len(in_plane) > 2):
-            continue
-        along = tuple(
+        along = [
             replace(of_plate[mesh], mesh=name, cells=sum(layers_of_beam(PRESETS[name].plate)))
-            for mesh, name in zip(_FINER_ALONG_SPAN, MESHES, strict=False)
-        )
+            for name, mesh in _OF_SPAN.items()
+            if mesh in of_plate
+        ]
+        there = [{one.mesh for one in values} for values in (along, in_plane)]
+        if not (
+            {_OF_PLANE, _OF_BOTH} <= of_plate.keys()
+            and {"coarse", _OF_BOTH} <= there[0]
+            and {"coarse", _OF_BOTH, _IN_PLANE} <= there[1]
+            and len(along) >= _FEWEST
+        ):
+            continue
+        at = f"k* = {k_star:g}"
         yield GrowthByDirection(
             k_star,
-            MeshSeries(GROWTH, "3d", at, ALONG_SPAN, 1, along),
+            MeshSeries(GROWTH, "3d", at, ALONG_SPAN, 1, tuple(along)),
             MeshSeries(GROWTH, "2d", at, IN_PLANE, 2, tuple(in_plane)),
-            of_plate[_FINER_IN_PLANE],
-            of_plate[_FINER_IN_BOTH],
+            of_plate[_OF_PLANE],
+            of_plate[_OF_BOTH],
         )
 
 
@@ -158,8 +190,9 @@ def onset_by_direction(
     growth, onset = min(found, key=lambda pair: pair[1].away)
     rate, half = growth.limit
     words = (
-        f"limit of the growth {rate:+.4f} +- {half:.4f} V/c at k* = {growth.k_star:g}; the "
-        f"directions' changes miss their sum by {growth.mixed:+.4f}"
+        f"limit of the growth {rate:+.4f} +- {half:.4f} V/c at k* = {growth.k_star:g}; in the "
+        f"plane {growth.part[0]:.2f} times the section's change, both directions' changes miss "
+        f"their sum by {growth.missed:+.4f}"
     )
     limit = GridLimit(*onset.ends, 3, growth.along_span.limit.order, "limits of both directions")
     *coarser, finest = (replace(one, note="") for one in of_meshes.values)

@@ -70,7 +70,12 @@ _OWN: Mapping[str, Preset] = {
 #: Meshes that are refined in the plane or along the span alone, by both meshes' names.
 _BY_DIRECTION = {
     f"{plane}-{span}-span": _OWN[plane].along_span_of(_OWN[span])
-    for plane, span in (("coarse", "medium"), ("coarse", "fine"), ("medium", "coarse"))
+    for plane, span in (
+        ("coarse", "medium"),
+        ("coarse", "fine"),
+        ("coarse", "extra-fine"),
+        ("fine", "coarse"),
+    )
 }
 _OF_PLATE = {
     ON_CELLS_OF_PLATE + name: Preset(own.plate, own.plate_spacing, own.plate, own.plate_spacing)
