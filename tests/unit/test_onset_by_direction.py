@@ -135,6 +135,8 @@ def test_errors_that_do_not_add_up_are_in_the_interval(plate: MeshRelease, mixed
 def test_every_mesh_is_needed(plate: MeshRelease, without: str) -> None:
     rest = [one for one in plates(plate) if one.mesh != without]
     assert not list(by_direction(rest, sections(plate)))
+    few = of_growth(plate, without, 0.0, iterations=2)
+    assert not list(by_direction([*rest, few], sections(plate)))
     assert not list(by_direction(plates(plate), sections(plate)[:2]))
     elsewhere = [of_growth(plate, one.mesh, 0.0, 10.0, cells=one.cells) for one in sections(plate)]
     assert not list(by_direction(plates(plate), elsewhere))

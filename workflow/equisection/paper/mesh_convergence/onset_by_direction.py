@@ -128,15 +128,13 @@ def by_direction(
 ) -> Iterator[GrowthByDirection]:
     """Yield the same of releases of plate and section, the latter on the plate's cells.
 
-    Of several releases of the plate on one mesh that with the most iterations of a time step
-    counts; two are enough with the cells of ``coarse`` in the plane, and only there.
+    Releases of the plate with fewer than four iterations of a time step are left out.
     """
     for k_star in sorted({one.case.k_star for one in plates}):
         of_plate = {
             one.mesh: _value(one)
-            for one in sorted(plates, key=lambda one: one.iterations)
-            if one.case.k_star == k_star
-            and (one.iterations >= PLATE_ITERATIONS or one.mesh in _OF_SPAN.values())
+            for one in plates
+            if one.case.k_star == k_star and one.iterations >= PLATE_ITERATIONS
         }
         in_plane = [_value(one) for one in sections if one.case.k_star == k_star]
         along = [
