@@ -1,6 +1,7 @@
 """Limit of the plate's growth and onset from meshes that are finer in one direction."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 
 import pytest
@@ -15,7 +16,9 @@ from equisection.paper.mesh_convergence.kept_releases import (
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_direction import (
     BY_DIRECTION,
-    by_direction,
+    GrowthByDirection,
+    ReleasesByDirection,
+    hides_error,
     onset_by_direction,
 )
 from equisection.paper.mesh_convergence.onset_by_mesh import ONSET
@@ -73,6 +76,12 @@ def of_growth(
     own = {field.name: getattr(some, field.name) for field in fields(MeshRelease)}
     own |= {"case": case, "cells": cells, "iterations": iterations}
     return OfKnownGrowth(**own, rate=rate)
+
+
+def by_direction(
+    plates: Sequence[MeshRelease], sections: Sequence[MeshRelease]
+) -> list[GrowthByDirection]:
+    return list(ReleasesByDirection(tuple(plates), tuple(sections)).growths())
 
 
 def layers(name: str) -> int:
@@ -134,12 +143,12 @@ def test_errors_that_do_not_add_up_are_in_the_interval(plate: MeshRelease, mixed
 @pytest.mark.parametrize("without", sorted(set(MESHES.values())))
 def test_every_mesh_is_needed(plate: MeshRelease, without: str) -> None:
     rest = [one for one in plates(plate) if one.mesh != without]
-    assert not list(by_direction(rest, sections(plate)))
+    assert not (by_direction(rest, sections(plate)))
     few = of_growth(plate, without, 0.0, iterations=2)
-    assert not list(by_direction([*rest, few], sections(plate)))
-    assert not list(by_direction(plates(plate), sections(plate)[:2]))
+    assert not (by_direction([*rest, few], sections(plate)))
+    assert not (by_direction(plates(plate), sections(plate)[:2]))
     elsewhere = [of_growth(plate, one.mesh, 0.0, 10.0, cells=one.cells) for one in sections(plate)]
-    assert not list(by_direction(plates(plate), elsewhere))
+    assert not (by_direction(plates(plate), elsewhere))
 
 
 #: Growth over k* on the coarse mesh (V/c): its slope over ln k*, and where it is zero.
@@ -163,6 +172,32 @@ def curve(plate: MeshRelease) -> GrowthCurve:
 def of_meshes() -> MeshSeries:
     value = MeshValue("medium", 300912, 8.4, 8.2, 8.6)
     return MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, (value,))
+
+
+def test_growth_in_one_direction_is_there_without_the_other(plate: MeshRelease) -> None:
+    few = [one for one in plates(plate) if one.mesh in ("coarse", "coarse-medium-span", "medium")]
+    span, plane = ReleasesByDirection(tuple(few), tuple(sections(plate))).series()
+    assert (span.basis, [value.mesh for value in span.values]) == ("along the span", [*NAMES[:2]])
+    assert (plane.basis, [value.mesh for value in plane.values]) == ("in the plane", [*NAMES])
+    assert plane.limit.order == pytest.approx(2.0)
+    assert plane.limit.value == pytest.approx(OF_SECTION)
+    assert not hides_error(plane)
+
+
+def test_cells_that_are_too_coarse_hide_their_error(plate: MeshRelease) -> None:
+    rates = {"coarse": 0.001, "medium": 0.0015, "fine": -0.002}
+    of_section = [
+        of_growth(plate, f"plate-{name}", rate, cells=PRESETS[f"plate-{name}"].cells)
+        for name, rate in rates.items()
+    ]
+    (plane,) = ReleasesByDirection((), tuple(of_section)).series()
+    assert hides_error(plane)
+    (less,) = ReleasesByDirection((), tuple(of_section[:2])).series()
+    assert not hides_error(less)
+    value = MeshValue("medium", 300912, 8.4, 8.2, 8.6)
+    onset = MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, (value,))
+    assert "do not trust the plate's limit by two meshes" in page([onset, plane], "")
+    assert "do not trust" not in page([onset, less], "")
 
 
 def test_onset_is_where_the_growth_is_zero_that_is_moved_to_the_limit(

@@ -38,7 +38,7 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, as_table
 from equisection.paper.mesh_convergence.onset_by_difference import onsets_by_difference
 from equisection.paper.mesh_convergence.onset_by_direction import (
-    growths_by_direction,
+    ReleasesByDirection,
     onset_by_direction,
 )
 from equisection.paper.mesh_convergence.onset_by_mesh import (
@@ -80,19 +80,19 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
         *sections_by_model(releases, section, plate_of_table_1(CLONE), own),
     ]
     of_plate = list(onsets_from_equilibrium(from_equilibrium, releases))
-    directions = list(growths_by_direction(reference))
+    directions = ReleasesByDirection.read(reference)
     curve = curve_from_equilibrium(from_equilibrium, releases)
     series = [
         *of_sections,
         *onsets_by_difference(of_sections),
         *plates_by_model(releases, plate),
         *of_plate,
-        *onset_by_direction(directions, of_plate, curve, change_of_shift(releases)),
+        *onset_by_direction(list(directions.growths()), of_plate, curve, change_of_shift(releases)),
         *learnt_from_equilibrium(from_equilibrium, plate),
         *growth_series(releases),
         *growth_from_equilibrium(from_equilibrium, "2d"),
         *growth_from_equilibrium(from_equilibrium),
-        *(one for both in directions for one in (both.along_span, both.in_plane)),
+        *directions.series(),
         early_growth_of_plate(releases),
         *mean_series(releases),
         *load_series(section, "2d", reference),

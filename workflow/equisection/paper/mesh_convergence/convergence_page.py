@@ -25,6 +25,7 @@ from equisection.paper.mesh_convergence.onset_by_direction import (
     ALONG_SPAN,
     BY_DIRECTION,
     IN_PLANE,
+    hides_error,
 )
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
@@ -131,7 +132,8 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   factor that grows with the mesh; `{OWN_RATIOS}` by this project's plate, on equal cells in the
   plane {f"(mesh {own_mesh}; releases: the mesh's own)" if own_mesh else "(not kept)"}.
 """
-    return text + _notes(chosen) + _of_the_plate(chosen) + _targets(chosen)
+    of_plate = _of_the_plate(chosen) + _hidden(series)
+    return text + _notes(chosen) + of_plate + _targets(chosen)
 
 
 def _of_the_plate(chosen: Sequence[MeshSeries]) -> str:
@@ -150,6 +152,17 @@ interval {limit.low:.1f} to {limit.high:.1f}{order}{first}.
 {_what_narrows_it(one)}From rest the run on `medium` is
 [not converged in its time step](plate-sweep.md#on-the-medium-mesh) beyond 30 c/V.
 {_contradictions([one for one in chosen if one.model == "3d"])}"""
+
+
+def _hidden(series: Sequence[MeshSeries]) -> str:
+    """Return whether the cells of the plate in the plane are too coarse to show their error."""
+    if not any(hides_error(one) for one in series if one.basis == IN_PLANE):
+        return ""
+    return (
+        "With the plate's cells in the plane the section's growth changes more from `medium` to "
+        "`fine`\nthan from `coarse` to `medium` ([growth](#growth-at-one-k)): do not trust the "
+        "plate's limit by two meshes.\n"
+    )
 
 
 def _what_narrows_it(one: MeshSeries) -> str:
@@ -180,10 +193,11 @@ def _contradictions(chosen: Sequence[MeshSeries]) -> str:
             ]
             if excluded:
                 lines += (
-                    f"On `{here.mesh}` *{learnt.basis}* ({_of_mesh([here], here.mesh, '.2f')}) "
-                    f"excludes {between.join(excluded)}.\nThe runs count: do not trust a model "
-                    "learnt there away from the k\\* of its release.\n"
+                    f"On `{here.mesh}` *{learnt.basis}* ({_of_mesh([here], here.mesh, '.2f')})\n"
+                    f"excludes {between.join(excluded)}.\n"
                 )
+    if lines:
+        lines += "The runs count: do not trust such a model away from the k\\* of its release.\n"
     return lines
 
 
@@ -251,8 +265,8 @@ Of the plate from static equilibrium, 10 to 30 c/V:
 """
     if directions:
         text += f"""
-The same on cells that shrink in one direction, of the plate with those of `coarse` in the plane and
-of the section with those of the plate's meshes:
+On cells that shrink in one direction: of the plate with those of `coarse` in the plane, of the
+section with those of the plate's meshes:
 
 {_table(("k*", "finer"), _places(directions), directions, form="+.4f", judged=False)}
 """
@@ -325,7 +339,7 @@ Rigid loads, on equal cells in the plane:
 
 Means of the plate with two over those with four, at {at}, 10 to 30 c/V:
 {quotients}.
-Two are enough on `coarse`, not on `medium`.
+For means two are enough on `coarse`, not on `medium`; for the [onset](#onset) on neither.
 """
 
 

@@ -112,52 +112,93 @@ def _on(series: MeshSeries, mesh: str) -> MeshValue:
     return next(value for value in series.values if value.mesh == mesh)
 
 
-def growths_by_direction(reference: Path) -> Iterator[GrowthByDirection]:
-    """Yield the growth at each k* that has a release from equilibrium on every mesh."""
-    meshes = [*_OF_SPAN.values(), _OF_PLANE, _OF_BOTH]
-    plates = mesh_releases(reference, FROM_EQUILIBRIUM, meshes)
-    on_cells = [ON_CELLS_OF_PLATE + name for name in MESHES]
-    sections = mesh_releases(reference, FROM_EQUILIBRIUM, on_cells)
-    yield from by_direction(
-        [one for one in plates if one.model == "3d"], [one for one in sections if one.model == "2d"]
-    )
+@dataclass(frozen=True)
+class ReleasesByDirection:
+    """Releases from equilibrium of the plate on every mesh, and of the section on its cells.
 
+    Those of the plate with fewer than four iterations of a time step are left out.
 
-def by_direction(
-    plates: Sequence[MeshRelease], sections: Sequence[MeshRelease]
-) -> Iterator[GrowthByDirection]:
-    """Yield the same of releases of plate and section, the latter on the plate's cells.
-
-    Releases of the plate with fewer than four iterations of a time step are left out.
+    Attributes
+    ----------
+    plates, sections
+        The releases.
     """
-    for k_star in sorted({one.case.k_star for one in plates}):
-        of_plate = {
-            one.mesh: _value(one)
-            for one in plates
-            if one.case.k_star == k_star and one.iterations >= PLATE_ITERATIONS
-        }
-        in_plane = [_value(one) for one in sections if one.case.k_star == k_star]
-        along = [
+
+    plates: tuple[MeshRelease, ...]
+    sections: tuple[MeshRelease, ...]
+
+    def __post_init__(self) -> None:
+        enough = (one for one in self.plates if one.iterations >= PLATE_ITERATIONS)
+        object.__setattr__(self, "plates", tuple(enough))
+
+    @classmethod
+    def read(cls, reference: Path) -> ReleasesByDirection:
+        """Read those that are kept in a folder."""
+        meshes = [*_OF_SPAN.values(), _OF_PLANE, _OF_BOTH]
+        on_cells = [ON_CELLS_OF_PLATE + name for name in MESHES]
+        plates = mesh_releases(reference, FROM_EQUILIBRIUM, meshes)
+        sections = mesh_releases(reference, FROM_EQUILIBRIUM, on_cells)
+        return cls(
+            tuple(one for one in plates if one.model == "3d"),
+            tuple(one for one in sections if one.model == "2d"),
+        )
+
+    @property
+    def k_star(self) -> list[float]:
+        """Each k* that there is a release at."""
+        return sorted({one.case.k_star for one in (*self.plates, *self.sections)})
+
+    def of_plate(self, k_star: float) -> dict[str, MeshValue]:
+        """Return the plate's growth (V/c) at a k* by mesh."""
+        return {one.mesh: _value(one) for one in self.plates if one.case.k_star == k_star}
+
+    def along_span(self, k_star: float) -> MeshSeries:
+        """Return the plate's growth on meshes that are finer along the span alone, by layers."""
+        of_plate = self.of_plate(k_star)
+        values = [
             replace(of_plate[mesh], mesh=name, cells=sum(layers_of_beam(PRESETS[name].plate)))
             for name, mesh in _OF_SPAN.items()
             if mesh in of_plate
         ]
-        there = [{one.mesh for one in values} for values in (along, in_plane)]
-        if not (
-            {_OF_PLANE, _OF_BOTH} <= of_plate.keys()
-            and {"coarse", _OF_BOTH} <= there[0]
-            and {"coarse", _OF_BOTH, _IN_PLANE} <= there[1]
-            and len(along) >= _FEWEST
-        ):
-            continue
-        at = f"k* = {k_star:g}"
-        yield GrowthByDirection(
-            k_star,
-            MeshSeries(GROWTH, "3d", at, ALONG_SPAN, 1, tuple(along)),
-            MeshSeries(GROWTH, "2d", at, IN_PLANE, 2, tuple(in_plane)),
-            of_plate[_OF_PLANE],
-            of_plate[_OF_BOTH],
-        )
+        return MeshSeries(GROWTH, "3d", f"k* = {k_star:g}", ALONG_SPAN, 1, tuple(values))
+
+    def in_plane(self, k_star: float) -> MeshSeries:
+        """Return the section's growth on the cells that the plate's meshes have in the plane."""
+        values = (_value(one) for one in self.sections if one.case.k_star == k_star)
+        return MeshSeries(GROWTH, "2d", f"k* = {k_star:g}", IN_PLANE, 2, tuple(values))
+
+    def series(self) -> Iterator[MeshSeries]:
+        """Yield the growth in either direction at each k* that has it on two meshes or more."""
+        for k_star in self.k_star:
+            both = self.along_span(k_star), self.in_plane(k_star)
+            yield from (one for one in both if len(one.values) > 1)
+
+    def growths(self) -> Iterator[GrowthByDirection]:
+        """Yield the growth at each k* that has a release on every mesh that a limit rests on."""
+        for k_star in self.k_star:
+            of_plate = self.of_plate(k_star)
+            along, plane = self.along_span(k_star), self.in_plane(k_star)
+            there = [{value.mesh for value in one.values} for one in (along, plane)]
+            if (
+                {_OF_PLANE, _OF_BOTH} <= of_plate.keys()
+                and {"coarse", _OF_BOTH} <= there[0]
+                and {"coarse", _OF_BOTH, _IN_PLANE} <= there[1]
+                and len(along.values) >= _FEWEST
+            ):
+                yield GrowthByDirection(
+                    k_star, along, plane, of_plate[_OF_PLANE], of_plate[_OF_BOTH]
+                )
+
+
+def hides_error(in_plane: MeshSeries) -> bool:
+    """Tell whether the change from coarse to medium is smaller than that from there to fine.
+
+    The cells of both are then too coarse for their difference to say what is left.
+    """
+    of = {value.mesh: value.value for value in in_plane.values}
+    if not {"coarse", "medium", "fine"} <= of.keys():
+        return False
+    return abs(of["medium"] - of["coarse"]) < abs(of["fine"] - of["medium"])
 
 
 def onset_by_direction(
