@@ -22,7 +22,7 @@ ifeq ($(PAPER_FROM_$(FROM)),)
 $(error FROM is '$(FROM)'; allowed are kept and scratch)
 endif
 
-.PHONY: run install report paper paper-figures paper-reductions paper-meshes validation cost identification cost-model status verify test lint docs drawing gallery pictures bench openfoam slurm chromium clean
+.PHONY: run install report paper paper-plate paper-figures paper-reductions paper-meshes validation cost identification cost-model status verify test lint docs drawing gallery pictures bench openfoam slurm chromium clean
 
 run: $(ENV)/run
 	@folder=$$($(BIN)/equisection folder $(CONFIG)) && echo "$(SNAKEMAKE)" && $(SNAKEMAKE) && printf '%s\n' '' \
@@ -47,15 +47,18 @@ paper: $(ENV)/run
 		"tables:     results/paper-figures/tables/ and comparison/, Table 1 in $(PAPER_PLATE)/tables/" \
 		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"
 
-# Parts of `make paper`, side by side: each has spells in which it takes one core.
-paper-figures:
+# Parts of `make paper`, side by side where they do not take what another makes: each has spells in
+# which it takes one core.
+paper-plate:
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \
 		$(PAPER_PLATE)/figures/fig09-plate-mesh.png $(PAPER_PLATE)/figures/fig10-spanwise-loads.png \
 		$(PAPER_PLATE)/figures/fig11-plate-surface.png $(PAPER_PLATE)/figures/fig12-tip-flow.png
+
+paper-figures: paper-plate
 	$(SNAKEMAKE) --configfile config/openfoam.yaml config/paper/figures.yaml --config $(PAPER_FROM_$(FROM))
 
-paper-reductions:
+paper-reductions: paper-plate
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_REDUCTIONS)/figures/section-and-beam.png
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/reductions.yaml config/paper/reductions-modal.yaml \

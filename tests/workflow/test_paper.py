@@ -3,11 +3,13 @@
 import re
 import shlex
 import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 from matplotlib.image import imread
 
 from equisection.paper.claims_page.__main__ import main
@@ -22,7 +24,7 @@ def commands(origin: str) -> list[list[str]]:
     """
     text = (ROOT / "Makefile").read_text().replace("\\\n", " ")
     variables = dict(re.findall(r"^(PAPER_\w+) := (.*)$", text, flags=re.MULTILINE))
-    recipe = text[text.index("\npaper-figures:") : text.index("\npaper-meshes:")]
+    recipe = text[text.index("\npaper-plate:") : text.index("\npaper-meshes:")]
     chosen = f"{variables[f'PAPER_FROM_{origin}']} figure_formats=[png]"
     recipe = recipe.replace("$(PAPER_FROM_$(FROM))", chosen)
     for run in ("PAPER_PLATE", "PAPER_REDUCTIONS"):
@@ -33,6 +35,20 @@ def commands(origin: str) -> list[list[str]]:
         place = words.index("--")
         found.append([*words[place + 1 : -1], *words[:place]])
     return found
+
+
+@pytest.mark.parametrize("part", ["paper-figures", "paper-reductions"])
+def test_part_that_takes_the_plate_runs_after_it(part: str) -> None:
+    """Also where make runs its parts side by side."""
+    make = ["make", "--dry-run", "--jobs", "3", "--no-print-directory", part]
+    said = subprocess.run(make, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    lines = [line for line in said.splitlines() if "--configfile" in line]
+    assert "config/paper/plate.yaml" in lines[0]
+    for line in lines[1:]:
+        configs = re.findall(r"config/paper/\w+(?:-\w+)?\.yaml", line)
+        taken = [yaml.safe_load((ROOT / one).read_text())["sweep"] for one in configs[:1]]
+        assert "results/paper-plate-figures/" in taken[0]["taken"]["3d"]
+    assert len(lines) > 1
 
 
 @pytest.fixture(scope="module")
