@@ -143,12 +143,12 @@ def test_errors_that_do_not_add_up_are_in_the_interval(plate: MeshRelease, mixed
 @pytest.mark.parametrize("without", sorted(set(MESHES.values())))
 def test_every_mesh_is_needed(plate: MeshRelease, without: str) -> None:
     rest = [one for one in plates(plate) if one.mesh != without]
-    assert not (by_direction(rest, sections(plate)))
+    assert not by_direction(rest, sections(plate))
     few = of_growth(plate, without, 0.0, iterations=2)
-    assert not (by_direction([*rest, few], sections(plate)))
-    assert not (by_direction(plates(plate), sections(plate)[:2]))
+    assert not by_direction([*rest, few], sections(plate))
+    assert not by_direction(plates(plate), sections(plate)[:2])
     elsewhere = [of_growth(plate, one.mesh, 0.0, 10.0, cells=one.cells) for one in sections(plate)]
-    assert not (by_direction(plates(plate), elsewhere))
+    assert not by_direction(plates(plate), elsewhere)
 
 
 #: Growth over k* on the coarse mesh (V/c): its slope over ln k*, and where it is zero.
@@ -172,6 +172,16 @@ def curve(plate: MeshRelease) -> GrowthCurve:
 def of_meshes() -> MeshSeries:
     value = MeshValue("medium", 300912, 8.4, 8.2, 8.6)
     return MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, (value,))
+
+
+def test_sections_on_cells_of_their_own_are_left_out(plate: MeshRelease) -> None:
+    releases = mesh_releases(
+        ROOT / "results/reference/section-equilibrium-medium", FROM_EQUILIBRIUM
+    )
+    assert {one.model for one in releases} == {"2d"}
+    assert not list(ReleasesByDirection.of([*releases, *plates(plate)]).growths())
+    (of_plate,) = ReleasesByDirection.of([*releases, *plates(plate)]).series()
+    assert of_plate.model == "3d"
 
 
 def test_growth_in_one_direction_is_there_without_the_other(plate: MeshRelease) -> None:
@@ -214,6 +224,8 @@ def test_onset_is_where_the_growth_is_zero_that_is_moved_to_the_limit(
     assert wider.limit.value == found.limit.value
     assert wider.limit.half_width > found.limit.half_width
     assert not list(onset_by_direction([], [of_meshes], curve, 0.0))
+    elsewhere = replace(growth, k_star=7.5)  # without a release of the curve
+    assert not list(onset_by_direction([elsewhere], [of_meshes], curve, 0.0))
     assert not list(onset_by_direction([growth], [of_meshes], None, 0.0))
 
 

@@ -36,7 +36,9 @@ from equisection.config.groups.sweep import Range
 from equisection.keys.checks import DisagreementError, Problem, check, disagreements
 from equisection.keys.values import EMPTY, Name
 
+#: Format of a figure.
 FigureFormat = Literal["png", "svg", "pdf"]
+#: All of them.
 FIGURE_FORMATS: tuple[FigureFormat, ...] = get_args(FigureFormat)
 #: Holds the recorded reference runs, which no run may mix with.
 RESERVED_RUN = "reference"

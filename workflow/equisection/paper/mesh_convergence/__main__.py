@@ -25,6 +25,7 @@ from equisection.paper.mesh_convergence import convergence_figure
 from equisection.paper.mesh_convergence.convergence_page import page
 from equisection.paper.mesh_convergence.kept_releases import (
     FROM_EQUILIBRIUM,
+    MESHES,
     mesh_releases,
     rigid_loads,
 )
@@ -38,6 +39,7 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, as_table
 from equisection.paper.mesh_convergence.onset_by_difference import onsets_by_difference
 from equisection.paper.mesh_convergence.onset_by_direction import (
+    MESHES_BY_DIRECTION,
     ReleasesByDirection,
     onset_by_direction,
 )
@@ -71,7 +73,8 @@ STYLE = CLONE / "envs" / "equisection.mplstyle"
 def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
     """Return every series of what is kept, and the mesh that the own ratios are of."""
     releases = mesh_releases(reference)
-    from_equilibrium = mesh_releases(reference, FROM_EQUILIBRIUM)
+    at_equilibrium = mesh_releases(reference, FROM_EQUILIBRIUM, MESHES_BY_DIRECTION)
+    from_equilibrium = [one for one in at_equilibrium if one.mesh in MESHES]
     section, plate = (rigid_loads(reference, dimension) for dimension in ("2d", "3d"))
     own, own_mesh = own_factors(section, plate)
     of_sections = [
@@ -80,14 +83,14 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
         *sections_by_model(releases, section, plate_of_table_1(CLONE), own),
     ]
     of_plate = list(onsets_from_equilibrium(from_equilibrium, releases))
-    directions = ReleasesByDirection.read(reference)
+    directions = ReleasesByDirection.of(at_equilibrium)
     curve = curve_from_equilibrium(from_equilibrium, releases)
     series = [
         *of_sections,
         *onsets_by_difference(of_sections),
         *plates_by_model(releases, plate),
         *of_plate,
-        *onset_by_direction(list(directions.growths()), of_plate, curve, change_of_shift(releases)),
+        *onset_by_direction(directions.growths(), of_plate, curve, change_of_shift(releases)),
         *learnt_from_equilibrium(from_equilibrium, plate),
         *growth_series(releases),
         *growth_from_equilibrium(from_equilibrium, "2d"),

@@ -11,29 +11,25 @@ the interval.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 from equisection.analysis.grid_limit import GridLimit
 from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
-from equisection.paper.mesh_convergence.kept_releases import (
-    FROM_EQUILIBRIUM,
-    MESHES,
-    MeshRelease,
-    mesh_releases,
-)
+from equisection.paper.mesh_convergence.kept_releases import MESHES, MeshRelease
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     EARLY,
     GROWTH,
     PLATE_ITERATIONS,
-    half_width,
 )
-from equisection.paper.mesh_convergence.onset_from_equilibrium import BY_EQUILIBRIUM, GrowthCurve
+from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    BY_EQUILIBRIUM,
+    GrowthCurve,
+    early_growth,
+)
 from equisection.solvers.openfoam.mesh.beam_mesh import layers_of_beam
 from equisection.solvers.openfoam.mesh.presets import PRESETS
-from equisection.verdict.growth import AFTER_RELEASE
 
 #: Basis of the onset, and of the growth in one direction.
 BY_DIRECTION = "by direction"
@@ -42,6 +38,13 @@ ALONG_SPAN, IN_PLANE = "along the span", "in the plane"
 _OF_SPAN = {name: f"coarse-{name}-span" for name in MESHES} | {"coarse": "coarse"}
 #: Mesh of the plate that is finer in the plane alone, with its cells there, and one finer in both.
 _OF_PLANE, _IN_PLANE, _OF_BOTH = "fine-coarse-span", "fine", "medium"
+#: Meshes of releases that count in one direction, or in both.
+MESHES_BY_DIRECTION = {
+    *MESHES,
+    *_OF_SPAN.values(),
+    _OF_PLANE,
+    *(ON_CELLS_OF_PLATE + name for name in MESHES),
+}
 #: Fewest meshes of a direction, which show an order.
 _FEWEST = 3
 
@@ -116,7 +119,7 @@ def _on(series: MeshSeries, mesh: str) -> MeshValue:
 class ReleasesByDirection:
     """Releases from equilibrium of the plate on every mesh, and of the section on its cells.
 
-    Those of the plate with fewer than four iterations of a time step are left out.
+    Those of the plate with fewer than four iterations of a time step do not count.
 
     Attributes
     ----------
@@ -127,20 +130,16 @@ class ReleasesByDirection:
     plates: tuple[MeshRelease, ...]
     sections: tuple[MeshRelease, ...]
 
-    def __post_init__(self) -> None:
-        enough = (one for one in self.plates if one.iterations >= PLATE_ITERATIONS)
-        object.__setattr__(self, "plates", tuple(enough))
-
     @classmethod
-    def read(cls, reference: Path) -> ReleasesByDirection:
-        """Read those that are kept in a folder."""
-        meshes = [*_OF_SPAN.values(), _OF_PLANE, _OF_BOTH]
-        on_cells = [ON_CELLS_OF_PLATE + name for name in MESHES]
-        plates = mesh_releases(reference, FROM_EQUILIBRIUM, meshes)
-        sections = mesh_releases(reference, FROM_EQUILIBRIUM, on_cells)
+    def of(cls, releases: Sequence[MeshRelease]) -> ReleasesByDirection:
+        """Return those among releases from equilibrium on any meshes."""
         return cls(
-            tuple(one for one in plates if one.model == "3d"),
-            tuple(one for one in sections if one.model == "2d"),
+            tuple(one for one in releases if one.model == "3d"),
+            tuple(
+                one
+                for one in releases
+                if one.model == "2d" and one.mesh.startswith(ON_CELLS_OF_PLATE)
+            ),
         )
 
     @property
@@ -150,7 +149,11 @@ class ReleasesByDirection:
 
     def of_plate(self, k_star: float) -> dict[str, MeshValue]:
         """Return the plate's growth (V/c) at a k* by mesh."""
-        return {one.mesh: _value(one) for one in self.plates if one.case.k_star == k_star}
+        return {
+            one.mesh: early_growth(one)
+            for one in self.plates
+            if one.case.k_star == k_star and one.iterations >= PLATE_ITERATIONS
+        }
 
     def along_span(self, k_star: float) -> MeshSeries:
         """Return the plate's growth on meshes that are finer along the span alone, by layers."""
@@ -164,7 +167,11 @@ class ReleasesByDirection:
 
     def in_plane(self, k_star: float) -> MeshSeries:
         """Return the section's growth on the cells that the plate's meshes have in the plane."""
-        values = (_value(one) for one in self.sections if one.case.k_star == k_star)
+        values = (
+            replace(early_growth(one), mesh=one.mesh.removeprefix(ON_CELLS_OF_PLATE))
+            for one in self.sections
+            if one.case.k_star == k_star
+        )
         return MeshSeries(GROWTH, "2d", f"k* = {k_star:g}", IN_PLANE, 2, tuple(values))
 
     def series(self) -> Iterator[MeshSeries]:
@@ -202,7 +209,7 @@ def hides_error(in_plane: MeshSeries) -> bool:
 
 
 def onset_by_direction(
-    growths: Sequence[GrowthByDirection],
+    growths: Iterable[GrowthByDirection],
     series: Sequence[MeshSeries],
     curve: GrowthCurve | None,
     change: float,
@@ -212,7 +219,7 @@ def onset_by_direction(
     Parameters
     ----------
     growths
-        Growth at one k* or more; that nearest to its onset counts.
+        Growth at any k*; that nearest to its onset counts, where the curve has a release too.
     series
         Series of the onset, of which that from equilibrium has the values on the meshes.
     curve
@@ -223,9 +230,15 @@ def onset_by_direction(
     of_meshes = next(
         (one for one in series if (one.model, one.basis) == ("3d", BY_EQUILIBRIUM)), None
     )
-    if not growths or of_meshes is None or curve is None:
+    if of_meshes is None or curve is None:
         return
-    found = [(one, curve.moved(one.k_star, one.limit, change)) for one in growths]
+    found = [
+        (one, curve.moved(one.k_star, one.limit, change, EARLY))
+        for one in growths
+        if curve.runs.at(one.k_star)
+    ]
+    if not found:
+        return
     growth, onset = min(found, key=lambda pair: pair[1].away)
     rate, half = growth.limit
     words = (
@@ -233,14 +246,8 @@ def onset_by_direction(
         f"plane {growth.part[0]:.2f} times the section's change, both directions' changes miss "
         f"their sum by {growth.missed:+.4f}"
     )
-    limit = GridLimit(*onset.ends, 3, growth.along_span.limit.order, "limits of both directions")
+    of_span = growth.along_span.limit
+    limit = GridLimit(*onset.ends, of_span.meshes, of_span.order, "limits of both directions")
     *coarser, finest = (replace(one, note="") for one in of_meshes.values)
     values = (*coarser, replace(finest, note=words))
     yield replace(of_meshes, basis=BY_DIRECTION, values=values, derived=limit)
-
-
-def _value(release: MeshRelease) -> MeshValue:
-    growth = release.growth(AFTER_RELEASE, min(release.end, EARLY))
-    half = half_width(growth)
-    mesh = release.mesh.removeprefix(ON_CELLS_OF_PLATE)
-    return MeshValue(mesh, release.cells, growth.rate, growth.rate - half, growth.rate + half)

@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -166,6 +166,12 @@ def _growth(release: MeshRelease, end: float = math.inf) -> Growth:
     return release.growth(AFTER_RELEASE, min(release.end, end))
 
 
+def early_growth(release: MeshRelease) -> MeshValue:
+    """Return the growth (V/c) of a release from 10 to 30 c/V."""
+    growth = _growth(release, EARLY)
+    return MeshValue(release.mesh, release.cells, growth.rate, *growth.interval)
+
+
 def growth_from_equilibrium(
     releases: Sequence[MeshRelease], model: str = "3d"
 ) -> Iterator[MeshSeries]:
@@ -178,10 +184,8 @@ def growth_from_equilibrium(
     for k_star in sorted({one.case.k_star for one in own}):
         values = []
         for group in _most_iterations([one for one in own if one.case.k_star == k_star], model):
-            growth = _growth(group.runs[0], EARLY)
-            low, high = growth.interval
             note = f"{group.iterations} iterations"
-            values.append(MeshValue(group.mesh, group.cells, growth.rate, low, high, note))
+            values.append(replace(early_growth(group.runs[0]), note=note))
         basis = f"{BY_EQUILIBRIUM}, {AFTER_RELEASE:.0f} to {EARLY:.0f} c/V"
         dimensions = int(own[0].case.dimension[0])
         yield MeshSeries(GROWTH, model, f"k* = {k_star:g}", basis, dimensions, tuple(values))
@@ -306,16 +310,13 @@ def _shifted(curve: GrowthCurve, group: _Runs, change: float) -> list[MeshValue]
         k_star, end = run.case.k_star, min(run.end, known.end)
         growth = _growth(run, end)
         onset = curve.moved(k_star, (growth.rate, half_width(growth)), change, end)
-        of = f"{curve.runs.iterations} iterations"
-        if run.mesh != curve.runs.mesh:
-            of = curve.runs.mesh
-        note = f"growth of {of} {onset.shift:+.4f} +- {onset.half:.4f} V/c, the difference at k* = "
-        note += f"{k_star:g}"
-        if run.mesh != curve.runs.mesh and group.iterations != curve.runs.iterations:
-            note += f", a part of it that of {group.iterations} iterations beside "
-            note += f"{curve.runs.iterations}"
-        value = onset_on(run.mesh, run.cells, onset.ends, note)
-        found.append((onset.away, value))
+        is_finer, fewer = run.mesh != curve.runs.mesh, curve.runs.iterations
+        of = curve.runs.mesh if is_finer else f"{fewer} iterations"
+        note = f"growth of {of} {onset.shift:+.4f} +- {onset.half:.4f} V/c, the difference at "
+        note += f"k* = {k_star:g}"
+        if is_finer and group.iterations != fewer:
+            note += f", a part of it that of {group.iterations} iterations beside {fewer}"
+        found.append((onset.away, onset_on(run.mesh, run.cells, onset.ends, note)))
     return [min(found, key=lambda one: one[0])[1]] if found else []
 
 

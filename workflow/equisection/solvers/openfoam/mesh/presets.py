@@ -53,8 +53,8 @@ class Preset:
 
     def along_span_of(self, other: Preset) -> Preset:
         """Return this mesh with as many cells along the plate's span as another one has."""
-        ratio = other.plate / self.plate
-        return replace(self, plate_spacing=replace(OF_PLATE, along_span=ratio))
+        along_span = other.plate * other.plate_spacing.along_span / self.plate
+        return replace(self, plate_spacing=replace(self.plate_spacing, along_span=along_span))
 
 
 #: About 1e4, 2e4, 6e4 and 1e5 cells, and cells of given sizes; of the plate 8e4, 3e5, 1e6, 3e6 and
