@@ -16,11 +16,13 @@ from equisection.solvers.openfoam.rigid_flow import (
     FLOOR_OF_OUTLINE,
     ITERATIONS_TO_LOOK,
     MOST,
+    STARTS_AFTER,
     RigidFlowRecord,
     follow_iterations,
     follow_unsteady,
     follow_until_even,
     has_converged,
+    may_start_motion,
     method_of_mean,
     of_outline,
 )
@@ -73,6 +75,18 @@ def test_steady_loads_that_do_not_converge_are_all_there(
     loads, converged = follow_iterations(tmp_path, has_converged, nothing, run)
     assert not converged
     assert loads.time[-1] == MOST
+
+
+@pytest.mark.parametrize(("hunts_by", "may_start"), [(1e-3, True), (4e-3, True), (6e-3, False)])
+def test_flow_that_hunts_a_little_starts_a_motion_and_has_not_converged(
+    hunts_by: float, may_start: bool
+) -> None:
+    time = np.arange(1.0, STARTS_AFTER + 1)
+    load = 0.4 * (1 + hunts_by * np.sin(0.3 * time))
+    loads = Loads(time, load, load, load)
+    assert not has_converged(loads)
+    assert may_start_motion(loads) == may_start
+    assert not may_start_motion(loads.until(STARTS_AFTER - 1))
 
 
 @pytest.mark.parametrize("interval", [0.02, 0.1, 3.3, 17.0])

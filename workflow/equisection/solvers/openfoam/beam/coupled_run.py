@@ -114,7 +114,7 @@ class CoupledRun(MovingRun[CaseT, BeamCells], ABC):
             self.turbulence,
         )
         deform = self._deform if self.is_held else None
-        source, _, converged = rigid.steady(self.before_release(tell), deform)
+        source, _, converged = rigid.steady(self.before_release(tell), deform, starts_motion=True)
         if not converged:
             logger.info("the steady flow does not converge; the motion begins in its last state")
         self.start_from(source)

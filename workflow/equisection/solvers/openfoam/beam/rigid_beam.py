@@ -48,6 +48,7 @@ from equisection.solvers.openfoam.rigid_flow import (
     follow_iterations,
     follow_until_even,
     has_converged_around_outline,
+    may_start_motion,
     of_outline,
     write_at_rest,
 )
@@ -163,7 +164,11 @@ class PlateFlow:
         return folder
 
     def steady(
-        self, tell: Tell, deform: Callable[[Path], None] | None = None
+        self,
+        tell: Tell,
+        deform: Callable[[Path], None] | None = None,
+        *,
+        starts_motion: bool = False,
     ) -> tuple[Path, Loads, bool]:
         """Make the mesh and run the steady solver until it has converged, or for long enough.
 
@@ -173,6 +178,8 @@ class PlateFlow:
             Called with the progress.
         deform
             Moves the mesh of a folder, which is divided already, to that of a plate held deformed.
+        starts_motion
+            Whether a motion starts from the flow: one that hunts a little is then good enough.
 
         Returns
         -------
@@ -188,15 +195,16 @@ class PlateFlow:
         divide(self.installation, folder, self.ranks, self.mesh.layers)
         if deform is not None:
             deform(folder)
-        loads, has_converged = follow_iterations(
+        has_converged = self._has_converged
+        loads, is_known = follow_iterations(
             folder,
-            self._has_converged,
+            lambda loads: has_converged(loads) or (starts_motion and may_start_motion(loads)),
             tell,
             lambda watch: run_program(
                 self.installation, "simpleFoam", folder, watch, ranks=self.ranks
             ),
         )
-        return folder, loads, has_converged
+        return folder, loads, is_known and has_converged(loads)
 
     @property
     def _has_converged(self) -> Callable[[Loads], bool]:
