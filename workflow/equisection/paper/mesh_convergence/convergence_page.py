@@ -25,6 +25,7 @@ from equisection.paper.mesh_convergence.onset_by_direction import (
     ALONG_SPAN,
     BY_DIRECTION,
     IN_PLANE,
+    SPARSE,
     hides_error,
 )
 from equisection.paper.mesh_convergence.onset_by_mesh import (
@@ -108,9 +109,9 @@ def _onsets(series: Sequence[MeshSeries], own_mesh: str) -> str:
     low, high = PAPER_ONSET[1:]
     stated = f"{PAPER_ONSET[0]:g}, here taken as {low:g} to {high:g}"
     of_directions = (
-        f"- *{BY_DIRECTION}*: cells that shrink along the span alone and, as the section on the "
-        "plate's\n  cells, in the plane alone ([growth](#growth-at-one-k)).\n"
-        if any(one.basis == BY_DIRECTION for one in chosen)
+        f"- *{BY_DIRECTION}*: cells that shrink in the plane alone, and what is left along the\n"
+        "  span ([growth](#growth-at-one-k)).\n"
+        if (is_by_direction := any(one.basis == BY_DIRECTION for one in chosen))
         else ""
     )
     text = f"""## Onset
@@ -134,7 +135,7 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   factor that grows with the mesh; `{OWN_RATIOS}` by this project's plate, on equal cells in the
   plane {f"(mesh {own_mesh}; releases: the mesh's own)" if own_mesh else "(not kept)"}.
 """
-    hidden = _hidden(series)
+    hidden = "" if is_by_direction else _hidden(series)
     of_plate = _of_the_plate(chosen, narrowed=not hidden) + excluded + hidden
     return text + _notes(chosen) + of_plate + _targets(chosen)
 
@@ -267,8 +268,8 @@ Of the plate from static equilibrium, 10 to 30 c/V:
 """
     if directions:
         text += f"""
-On cells that shrink in one direction: of the plate with those of `coarse` in the plane, of the
-section with those of the plate's meshes:
+On cells that shrink in one direction, along the span or in the plane, and are of `coarse` in the
+other (`{SPARSE}`: half of its layers); of the section those of the plate's meshes:
 
 {_table(("k*", "finer"), _places(directions), directions, form="+.4f", judged=False)}
 """
@@ -359,7 +360,9 @@ def _table(
     judged: bool = True,
 ) -> str:
     """Return a line for each series: its head, its values by mesh, order and limit."""
-    meshes = [m for m in MESHES if any(v.mesh == m for one in series for v in one.values)]
+    meshes = [
+        m for m in (SPARSE, *MESHES) if any(v.mesh == m for one in series for v in one.values)
+    ]
     columns = [*map(_plain, head), *meshes, "order", "limit", "interval"]
     columns += ["converged"] if judged else []
     lines = [columns, ["---"] * len(columns)]

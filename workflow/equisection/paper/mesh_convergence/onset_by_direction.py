@@ -1,20 +1,19 @@
 """Onset of the plate in the limit of cells that shrink in the plane and along the span apart.
 
 The next finer mesh of the plate has three times the cells, one that is finer along the span alone
-half as many more. So meshes with the cells of ``coarse`` in the plane tell the error along the
-span. The section on the cells that the plate's meshes have in the plane tells how the error there
-falls, and one mesh of the plate that is finer in the plane alone, how much of it the plate has. The
-mesh that is finer in both directions shows by how much the two changes miss their sum; that is in
-the interval.
+half as many more, one that is finer in the plane alone twice as many. So meshes with the cells of
+``coarse`` in the plane tell the error along the span, and meshes with its layers along the span the
+error in the plane. The mesh that is finer in both directions shows by how much the two changes miss
+their sum; three times that is in the interval.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from equisection.analysis.grid_limit import GridLimit
+from equisection.analysis.grid_limit import SAFETY_WITHOUT_ORDER, GridLimit
 from equisection.config.groups.openfoam_keys import ON_CELLS_OF_PLATE
 from equisection.paper.mesh_convergence.kept_releases import MESHES, MeshRelease
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
@@ -22,6 +21,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     EARLY,
     GROWTH,
     PLATE_ITERATIONS,
+    SECTIONS,
 )
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     BY_EQUILIBRIUM,
@@ -34,15 +34,24 @@ from equisection.solvers.openfoam.mesh.presets import PRESETS
 #: Basis of the onset, and of the growth in one direction.
 BY_DIRECTION = "by direction"
 ALONG_SPAN, IN_PLANE = "along the span", "in the plane"
+#: Half of the layers of ``coarse`` along the span.
+SPARSE = "sparse"
 #: Meshes of the plate that have the cells of ``coarse`` in the plane, by those along the span.
-_OF_SPAN = {name: f"coarse-{name}-span" for name in MESHES} | {"coarse": "coarse"}
-#: Mesh of the plate that is finer in the plane alone, with its cells there, and one finer in both.
-_OF_PLANE, _IN_PLANE, _OF_BOTH = "fine-coarse-span", "fine", "medium"
+_OF_SPAN = {
+    SPARSE: f"coarse-{SPARSE}-span",
+    "coarse": "coarse",
+    "medium": "coarse-medium-span",
+    "fine": "coarse-fine-span",
+}
+#: Meshes of the plate that have the layers of ``coarse`` along the span, by the cells in the plane.
+_OF_PLANE = {name: f"{name}-coarse-span" for name in MESHES} | {"coarse": "coarse"}
+#: Mesh of the plate that is finer in both directions.
+_OF_BOTH = "medium"
 #: Meshes of releases that count in one direction, or in both.
 MESHES_BY_DIRECTION = {
     *MESHES,
     *_OF_SPAN.values(),
-    _OF_PLANE,
+    *_OF_PLANE.values(),
     *(ON_CELLS_OF_PLATE + name for name in MESHES),
 }
 #: Fewest meshes of a direction, which show an order.
@@ -60,55 +69,45 @@ class GrowthByDirection:
     along_span
         Growth (V/c) on meshes that are finer along the span alone, by their layers.
     in_plane
-        Growth of the section on the cells that the plate has in the plane.
-    finer_in_plane, finer_in_both
-        Growth of the plate on the mesh that is finer in the plane alone, and in both directions.
+        Growth on meshes that are finer in the plane alone, by their cells there.
+    finer_in_both
+        Growth on the mesh that is finer in both directions.
     """
 
     k_star: float
     along_span: MeshSeries
     in_plane: MeshSeries
-    finer_in_plane: MeshValue
     finer_in_both: MeshValue
-
-    @property
-    def part(self) -> tuple[float, float]:
-        """Change of the plate over that of the section, in the plane, and half of its interval."""
-        pair = self.finer_in_plane, _on(self.along_span, "coarse")
-        of_section = _on(self.in_plane, _IN_PLANE), _on(self.in_plane, "coarse")
-        change, own = (one.value - other.value for one, other in (pair, of_section))
-        part = change / own
-        errors, own_errors = (
-            math.hypot(*(one.half_width for one in both)) for both in (pair, of_section)
-        )
-        return part, math.hypot(errors / own, part * own_errors / own)
 
     @property
     def missed(self) -> float:
         """By how much (V/c) the change in both directions is not the sum of those in one."""
-        both = self.finer_in_both
-        span = _on(self.along_span, both.mesh).value
-        plane = _on(self.in_plane, both.mesh).value - _on(self.in_plane, "coarse").value
-        return both.value - span - self.part[0] * plane
+        both, mesh = self.finer_in_both.value, self.finer_in_both.mesh
+        in_plane = _on(self.in_plane, mesh).value - _on(self.in_plane, "coarse").value
+        return both - _on(self.along_span, mesh).value - in_plane
+
+    @property
+    def left_along_span(self) -> float:
+        """Growth (V/c) in the limit of cells along the span, less that on the layers of coarse.
+
+        To the mesh that is finer in both directions from that with its cells in the plane, and from
+        there to the limit as with the cells of ``coarse``.
+        """
+        both, mesh = self.finer_in_both.value, self.finer_in_both.mesh
+        change = both - _on(self.in_plane, mesh).value
+        return change + self.along_span.limit.value - _on(self.along_span, mesh).value
 
     @property
     def limit(self) -> tuple[float, float]:
-        """Growth (V/c) in the limit, and half of its interval.
-
-        The mesh that is finer in both directions, and what is left in each: along the span to the
-        limit of the plate itself, in the plane the part of what is left of the section.
-        """
-        both, (part, of_part) = self.finer_in_both, self.part
-        span = self.along_span.limit.value - _on(self.along_span, both.mesh).value
-        plane = self.in_plane.limit.value - _on(self.in_plane, both.mesh).value
+        """Growth (V/c) in the limit of both directions, and half of its interval."""
         errors = (
-            both.half_width,
+            self.in_plane.limit.half_width,
             self.along_span.limit.half_width,
-            part * self.in_plane.limit.half_width,
-            of_part * plane,
-            self.missed,
+            self.finer_in_both.half_width,
+            _on(self.in_plane, self.finer_in_both.mesh).half_width,
+            SAFETY_WITHOUT_ORDER * self.missed,
         )
-        return both.value + span + part * plane, math.hypot(*errors)
+        return self.in_plane.limit.value + self.left_along_span, math.hypot(*errors)
 
 
 def _on(series: MeshSeries, mesh: str) -> MeshValue:
@@ -117,7 +116,7 @@ def _on(series: MeshSeries, mesh: str) -> MeshValue:
 
 @dataclass(frozen=True)
 class ReleasesByDirection:
-    """Releases from equilibrium of the plate on every mesh, and of the section on its cells.
+    """Releases from equilibrium of the plate on every mesh, and of the sections on its cells.
 
     Those of the plate with fewer than four iterations of a time step do not count.
 
@@ -138,7 +137,7 @@ class ReleasesByDirection:
             tuple(
                 one
                 for one in releases
-                if one.model == "2d" and one.mesh.startswith(ON_CELLS_OF_PLATE)
+                if one.model in SECTIONS and one.mesh.startswith(ON_CELLS_OF_PLATE)
             ),
         )
 
@@ -157,44 +156,57 @@ class ReleasesByDirection:
 
     def along_span(self, k_star: float) -> MeshSeries:
         """Return the plate's growth on meshes that are finer along the span alone, by layers."""
-        of_plate = self.of_plate(k_star)
-        values = [
-            replace(of_plate[mesh], mesh=name, cells=sum(layers_of_beam(PRESETS[name].plate)))
-            for name, mesh in _OF_SPAN.items()
-            if mesh in of_plate
-        ]
-        return MeshSeries(GROWTH, "3d", f"k* = {k_star:g}", ALONG_SPAN, 1, tuple(values))
+        values = self._named(k_star, _OF_SPAN)
+        by_layers = (replace(one, cells=_layers(_OF_SPAN[one.mesh])) for one in values)
+        return MeshSeries(GROWTH, "3d", f"k* = {k_star:g}", ALONG_SPAN, 1, tuple(by_layers))
 
     def in_plane(self, k_star: float) -> MeshSeries:
-        """Return the section's growth on the cells that the plate's meshes have in the plane."""
+        """Return the plate's growth on meshes that are finer in the plane alone."""
+        values = self._named(k_star, _OF_PLANE)
+        there = (replace(one, cells=PRESETS[ON_CELLS_OF_PLATE + one.mesh].cells) for one in values)
+        return MeshSeries(GROWTH, "3d", f"k* = {k_star:g}", IN_PLANE, 2, tuple(there))
+
+    def _named(self, k_star: float, meshes: Mapping[str, str]) -> list[MeshValue]:
+        """Return the plate's growth on meshes, by the names that these have in one direction."""
+        of_plate = self.of_plate(k_star)
+        return [
+            replace(of_plate[mesh], mesh=name) for name, mesh in meshes.items() if mesh in of_plate
+        ]
+
+    def of_section(self, k_star: float, model: str) -> MeshSeries:
+        """Return a section's growth on the cells that the plate's meshes have in the plane."""
         values = (
             replace(early_growth(one), mesh=one.mesh.removeprefix(ON_CELLS_OF_PLATE))
             for one in self.sections
-            if one.case.k_star == k_star
+            if (one.model, one.case.k_star) == (model, k_star)
         )
-        return MeshSeries(GROWTH, "2d", f"k* = {k_star:g}", IN_PLANE, 2, tuple(values))
+        return MeshSeries(GROWTH, model, f"k* = {k_star:g}", IN_PLANE, 2, tuple(values))
 
     def series(self) -> Iterator[MeshSeries]:
         """Yield the growth in either direction at each k* that has it on two meshes or more."""
         for k_star in self.k_star:
-            both = self.along_span(k_star), self.in_plane(k_star)
-            yield from (one for one in both if len(one.values) > 1)
+            found = [self.along_span(k_star), self.in_plane(k_star)]
+            found += [self.of_section(k_star, model) for model in SECTIONS]
+            yield from (one for one in found if len(one.values) > 1)
 
     def growths(self) -> Iterator[GrowthByDirection]:
         """Yield the growth at each k* that has a release on every mesh that a limit rests on."""
         for k_star in self.k_star:
-            of_plate = self.of_plate(k_star)
+            both = self.of_plate(k_star).get(_OF_BOTH)
             along, plane = self.along_span(k_star), self.in_plane(k_star)
             there = [{value.mesh for value in one.values} for one in (along, plane)]
             if (
-                {_OF_PLANE, _OF_BOTH} <= of_plate.keys()
-                and {"coarse", _OF_BOTH} <= there[0]
-                and {"coarse", _OF_BOTH, _IN_PLANE} <= there[1]
-                and len(along.values) >= _FEWEST
+                both is not None
+                and all({"coarse", _OF_BOTH} <= one for one in there)
+                and min(map(len, there)) >= _FEWEST
             ):
-                yield GrowthByDirection(
-                    k_star, along, plane, of_plate[_OF_PLANE], of_plate[_OF_BOTH]
-                )
+                yield GrowthByDirection(k_star, along, plane, both)
+
+
+def _layers(mesh: str) -> int:
+    """Return the layers of a mesh along the span of the plate, and across the gap."""
+    preset = PRESETS[mesh]
+    return sum(layers_of_beam(preset.plate * preset.plate_spacing.along_span))
 
 
 def hides_error(in_plane: MeshSeries) -> bool:
@@ -242,12 +254,12 @@ def onset_by_direction(
     growth, onset = min(found, key=lambda pair: pair[1].away)
     rate, half = growth.limit
     words = (
-        f"limit of the growth {rate:+.4f} +- {half:.4f} V/c at k* = {growth.k_star:g}; in the "
-        f"plane {growth.part[0]:.2f} times the section's change, both directions' changes miss "
-        f"their sum by {growth.missed:+.4f}"
+        f"limit of the growth {rate:+.4f} +- {half:.4f} V/c at k* = {growth.k_star:g}; along the "
+        f"span {growth.left_along_span:+.4f} of it, and both directions' changes miss their sum "
+        f"by {growth.missed:+.4f}"
     )
-    of_span = growth.along_span.limit
-    limit = GridLimit(*onset.ends, of_span.meshes, of_span.order, "limits of both directions")
+    of_plane = growth.in_plane.limit
+    limit = GridLimit(*onset.ends, of_plane.meshes, of_plane.order, "limits of both directions")
     *coarser, finest = (replace(one, note="") for one in of_meshes.values)
     values = (*coarser, replace(finest, note=words))
     yield replace(of_meshes, basis=BY_DIRECTION, values=values, derived=limit)

@@ -67,14 +67,18 @@ _OWN: Mapping[str, Preset] = {
     "finest": Preset(1.0, BY_CELL_SIZE, plate=2.05),
     "five-layers": Preset(1.0, FIVE_LAYERS, plate_spacing=FIVE_LAYERS_OF_PLATE),
 }
-#: Meshes that are refined in the plane or along the span alone, by both meshes' names.
+#: Sparse has half of the layers along the plate's span that ``coarse`` has.
+_SPANS: Mapping[str, Preset] = {**_OWN, "sparse": Preset(1.0, plate=0.26)}
+#: Meshes that are refined in the plane or along the span alone, by the meshes of both.
 _BY_DIRECTION = {
-    f"{plane}-{span}-span": _OWN[plane].along_span_of(_OWN[span])
+    f"{plane}-{span}-span": _OWN[plane].along_span_of(_SPANS[span])
     for plane, span in (
         ("coarse", "medium"),
         ("coarse", "fine"),
-        ("coarse", "extra-fine"),
+        ("coarse", "sparse"),
+        ("medium", "coarse"),
         ("fine", "coarse"),
+        ("extra-fine", "coarse"),
     )
 }
 _OF_PLATE = {
