@@ -62,8 +62,7 @@ make paper                                          # or this step of it alone:
 python -m equisection.paper.mesh_convergence
 ```
 
-writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from kept
-results.
+writes page, figure and `results/paper-convergence/mesh_convergence.csv` from kept results.
 
 A **limit** is the value at vanishing cell size:
 
@@ -268,8 +267,8 @@ Of the plate from static equilibrium, 10 to 30 c/V:
 """
     if directions:
         text += f"""
-On cells that shrink in one direction, along the span or in the plane, and are of `coarse` in the
-other (`{SPARSE}`: half of its layers); of the section those of the plate's meshes:
+On cells that shrink in one direction and are of `coarse` in the other (`{SPARSE}`: half of its
+layers); sections on the plate's cells:
 
 {_table(("k*", "finer"), _places(directions), directions, form="+.4f", judged=False)}
 """
@@ -293,7 +292,6 @@ def _means(series: Sequence[MeshSeries]) -> str:
 Limits of the section `2d` with half of their intervals; not converged in italics:
 
 {_limits("k*", chosen, form=".4g")}
-On each mesh: `mesh_convergence.csv`.
 """
 
 
