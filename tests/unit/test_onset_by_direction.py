@@ -27,7 +27,6 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     GrowthCurve,
     curve_from_equilibrium,
 )
-from equisection.solvers.openfoam.mesh.beam_mesh import layers_of_beam
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.verdict.growth import Growth
 
@@ -91,8 +90,7 @@ def by_direction(plates: Sequence[MeshRelease]) -> list[GrowthByDirection]:
 
 
 def layers(mesh: str) -> int:
-    preset = PRESETS[mesh]
-    return sum(layers_of_beam(preset.plate * preset.plate_spacing.along_span))
+    return PRESETS[mesh].plate_layers
 
 
 def along(name: str) -> float:

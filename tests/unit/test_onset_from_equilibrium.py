@@ -30,8 +30,10 @@ from equisection.paper.mesh_convergence.kept_releases import (
     strip_polars_of,
 )
 from equisection.paper.mesh_convergence.mesh_series import LIMIT, MeshSeries, MeshValue, as_table
+from equisection.paper.mesh_convergence.onset_by_direction import ReleasesByDirection
 from equisection.paper.mesh_convergence.onset_by_mesh import BEAMS_AT, ONSET, beam_at
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    AROUND_OUTLINE,
     BY_EQUILIBRIUM,
     LEARNT_FROM_EQUILIBRIUM,
     change_of_shift,
@@ -165,6 +167,22 @@ def test_releases_of_another_start_are_not_among_them(at_equilibrium: MeshReleas
     assert not mesh_releases(folder)  # from rest
     assert not mesh_releases(folder, FROM_EQUILIBRIUM | {"twist_deg": 1.0})
     assert not mesh_releases(KEPT_SECTION, FROM_EQUILIBRIUM)
+
+
+def test_meshes_around_the_outline_are_a_family_of_their_own() -> None:
+    folder = REFERENCE / "outline-equilibrium-medium"
+    assert not mesh_releases(folder, FROM_EQUILIBRIUM)
+    (found,) = mesh_releases(folder, FROM_EQUILIBRIUM, with_outlines=True)
+    assert found.is_around_outline
+    (series,) = growth_from_equilibrium([found], "2d")
+    assert series.basis.endswith(AROUND_OUTLINE)
+    assert not list(ReleasesByDirection.of([found]).series())
+    assert "is in no interval" in page([series], "")
+    blocks = mesh_releases(
+        REFERENCE / "section-equilibrium-medium", FROM_EQUILIBRIUM, with_outlines=True
+    )
+    assert not any(one.is_around_outline for one in blocks)
+    assert "is in no interval" not in page(list(growth_from_equilibrium(blocks, "2d")), "")
 
 
 def test_growth_is_that_of_the_mesh_with_the_most_iterations(at_equilibrium: MeshRelease) -> None:

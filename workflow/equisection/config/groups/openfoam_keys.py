@@ -26,7 +26,6 @@ MeshName = Literal[
     "coarse-sparse-span",
     "medium-coarse-span",
     "fine-coarse-span",
-    "extra-fine-coarse-span",
     "plate-coarse",
     "plate-medium",
     "plate-fine",
@@ -75,9 +74,9 @@ class OpenFoam(SolverKeys):
         "and 0.04 c in the wake; `five-layers` (5e4; 5e6) has the same sizes and five layers of "
         "0.075 c in all on it. "
         "With `plate-` before the name the section has the cells of that plate in its plane. "
-        "`coarse-medium-span`, `coarse-fine-span`, `coarse-sparse-span`, `medium-coarse-span`, "
-        "`fine-coarse-span` and `extra-fine-coarse-span` are the first mesh in the plane, and the "
-        "second one along the plate's span; sparse is half of coarse's layers there.",
+        "`coarse-medium-span`, `coarse-fine-span`, `coarse-sparse-span`, `medium-coarse-span` and "
+        "`fine-coarse-span` are the first mesh in the plane, and the second one along the plate's "
+        "span; sparse is half of coarse's layers there.",
     )
     outer_correctors: Annotated[int, Field(ge=1, le=50), WHOLE] = Field(
         8,

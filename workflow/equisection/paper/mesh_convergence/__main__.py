@@ -73,8 +73,13 @@ STYLE = CLONE / "envs" / "equisection.mplstyle"
 def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
     """Return every series of what is kept, and the mesh that the own ratios are of."""
     releases = mesh_releases(reference)
-    at_equilibrium = mesh_releases(reference, FROM_EQUILIBRIUM, MESHES_BY_DIRECTION)
-    from_equilibrium = [one for one in at_equilibrium if one.mesh in MESHES]
+    at_equilibrium = mesh_releases(
+        reference, FROM_EQUILIBRIUM, MESHES_BY_DIRECTION, with_outlines=True
+    )
+    around_outline = [one for one in at_equilibrium if one.is_around_outline]
+    from_equilibrium = [
+        one for one in at_equilibrium if one.mesh in MESHES and not one.is_around_outline
+    ]
     section, plate = (rigid_loads(reference, dimension) for dimension in ("2d", "3d"))
     own, own_mesh = own_factors(section, plate)
     of_sections = [
@@ -94,6 +99,7 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
         *learnt_from_equilibrium(from_equilibrium, plate),
         *growth_series(releases),
         *growth_from_equilibrium(from_equilibrium, "2d"),
+        *growth_from_equilibrium(around_outline, "2d"),
         *growth_from_equilibrium(from_equilibrium),
         *directions.series(),
         early_growth_of_plate(releases),

@@ -36,6 +36,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     POLAR_OF,
 )
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    AROUND_OUTLINE,
     BY_EQUILIBRIUM,
     LEARNT_FROM_EQUILIBRIUM,
 )
@@ -62,7 +63,8 @@ make paper                                          # or this step of it alone:
 python -m equisection.paper.mesh_convergence
 ```
 
-writes page, figure and `results/paper-convergence/mesh_convergence.csv` from kept results.
+writes this page, its figure and `results/paper-convergence/mesh_convergence.csv` from kept
+results.
 
 A **limit** is the value at vanishing cell size:
 
@@ -136,7 +138,7 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
 """
     hidden = "" if is_by_direction else _hidden(series)
     of_plate = _of_the_plate(chosen, narrowed=not hidden) + excluded + hidden
-    return text + _notes(chosen) + of_plate + _targets(chosen)
+    return text + _notes(chosen) + of_plate + _targets(chosen) + _other_mesher(series)
 
 
 def _of_the_plate(chosen: Sequence[MeshSeries], *, narrowed: bool) -> str:
@@ -159,7 +161,7 @@ interval {limit.low:.1f} to {limit.high:.1f}{order}{first}.
 
 def _hidden(series: Sequence[MeshSeries]) -> str:
     """Return whether the cells of the plate in the plane are too coarse to show their error."""
-    if not any(hides_error(one) for one in series if one.basis == IN_PLANE):
+    if not any(hides_error(one) for one in series if (one.model, one.basis) == ("2d", IN_PLANE)):
         return ""
     return (
         "On the plate's cells in the plane the section changes more from `medium` to `fine` than\n"
@@ -225,6 +227,16 @@ Best limit of each model: its interval, and the one wanted
 """
 
 
+def _other_mesher(series: Sequence[MeshSeries]) -> str:
+    """Return what the intervals do not have, where there are releases around the outline."""
+    if not any(one.basis.endswith(AROUND_OUTLINE) for one in series):
+        return ""
+    return """
+All of it on blocks: what meshes around the [outline](outline-mesh.md) differ by
+([growth](#growth-at-one-k)) is in no interval.
+"""
+
+
 def _damping(series: Sequence[MeshSeries]) -> str:
     learnt = [one for one in series if one.quantity == ONSET and one.basis == BY_MODEL]
     known = {one.model for one in learnt if math.isfinite(one.limit.half_width)}
@@ -281,7 +293,7 @@ def _places(series: Sequence[MeshSeries]) -> list[tuple[str, str]]:
 
 def _window(basis: str) -> str:
     """Return the window of a growth, and its start where that is not from rest."""
-    start, _, window = basis.removesuffix(" c/V").partition(", ")
+    start, _, window = basis.replace(" c/V", "").partition(", ")
     return window if start == BY_RELEASES else f"{window}, from equilibrium"
 
 
@@ -291,8 +303,7 @@ def _means(series: Sequence[MeshSeries]) -> str:
 
 Limits of the section `2d` with half of their intervals; not converged in italics:
 
-{_limits("k*", chosen, form=".4g")}
-"""
+{_limits("k*", chosen, form=".4g")}"""
 
 
 def _loads(series: Sequence[MeshSeries]) -> str:

@@ -44,8 +44,9 @@ SEEN = (0.0, math.radians(5.0))
 OWN_RATIOS, _OWN_FOLDER = "2d-corrected, own ratios", "own-ratios"
 _MODELS = ("2d", "2d-corrected", "3d")
 _OF_MESH = "mesh"
-#: Settings that the compared results differ in at most.
+#: Settings that the compared results differ in at most, and that of a mesh around the outline.
 _USUAL = {_OF_MESH, "outer_correctors", "velocity_relaxation"}
+_OF_OUTLINE = "mesher"
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +87,11 @@ class MeshRelease:
         return str(self.case.solver.settings[_OF_MESH])
 
     @property
+    def is_around_outline(self) -> bool:
+        """Tell whether the mesh is one around the outline, and not of blocks."""
+        return _OF_OUTLINE in self.case.solver.settings
+
+    @property
     def end(self) -> float:
         """End of the history (c/V)."""
         return float(self.tip.time[-1])
@@ -115,7 +121,11 @@ def growth_behind_release(case: UnsteadyCase, tip: TipMotion, end: float = UNTIL
 
 
 def mesh_releases(
-    reference: Path, start: dict[str, Any] | None = None, meshes: Collection[str] = MESHES
+    reference: Path,
+    start: dict[str, Any] | None = None,
+    meshes: Collection[str] = MESHES,
+    *,
+    with_outlines: bool = False,
 ) -> list[MeshRelease]:
     """Return the kept releases of the plate and its sections on meshes of one family.
 
@@ -130,14 +140,18 @@ def mesh_releases(
         Their start, as :data:`FROM_EQUILIBRIUM`; None: from rest, rigid.
     meshes
         Names of the meshes.
+    with_outlines
+        Whether those on meshes around the outline, which are no family with blocks, are taken too.
     """
+    usual = _USUAL | ({_OF_OUTLINE} if with_outlines else set())
     chosen: dict[tuple[Any, ...], MeshRelease] = {}
     for kept in kept_results(reference):  # the longest first
-        if not (_is_compared(kept, meshes) and _starts_from(kept.case, start)):
+        if not (_is_compared(kept, meshes, usual) and _starts_from(kept.case, start)):
             continue
         settings = kept.case["solver"]["settings"]
         iterations = int(settings["outer_correctors"])
-        key = (_model_of(kept.path), kept.case["k_star"], settings[_OF_MESH], iterations)
+        mesh = settings[_OF_MESH], settings.get(_OF_OUTLINE)
+        key = (_model_of(kept.path), kept.case["k_star"], mesh, iterations)
         if key not in chosen:
             chosen[key] = MeshRelease(
                 kept.path,
@@ -166,12 +180,12 @@ def alike_sections(
             yield k_star, alike, min(one.end for one in alike)
 
 
-def _is_compared(kept: Kept, meshes: Collection[str]) -> bool:
+def _is_compared(kept: Kept, meshes: Collection[str], usual: set[str]) -> bool:
     case = kept.case
     if case.get("kind") != FREE.folder or "outline" in case["geometry"]:
         return False
     settings = case["solver"]["settings"]
-    if settings.keys() - _USUAL or settings.get(_OF_MESH) not in meshes:
+    if settings.keys() - usual or settings.get(_OF_MESH) not in meshes:
         return False
     if case["time_step"] != STEPS[case["dimension"]]:
         return False

@@ -28,7 +28,6 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     GrowthCurve,
     early_growth,
 )
-from equisection.solvers.openfoam.mesh.beam_mesh import layers_of_beam
 from equisection.solvers.openfoam.mesh.presets import PRESETS
 
 #: Basis of the onset, and of the growth in one direction.
@@ -44,7 +43,7 @@ _OF_SPAN = {
     "fine": "coarse-fine-span",
 }
 #: Meshes of the plate that have the layers of ``coarse`` along the span, by the cells in the plane.
-_OF_PLANE = {name: f"{name}-coarse-span" for name in MESHES} | {"coarse": "coarse"}
+_OF_PLANE = {"coarse": "coarse", "medium": "medium-coarse-span", "fine": "fine-coarse-span"}
 #: Mesh of the plate that is finer in both directions.
 _OF_BOTH = "medium"
 #: Meshes of releases that count in one direction, or in both.
@@ -133,7 +132,7 @@ class ReleasesByDirection:
     def of(cls, releases: Sequence[MeshRelease]) -> ReleasesByDirection:
         """Return those among releases from equilibrium on any meshes."""
         return cls(
-            tuple(one for one in releases if one.model == "3d"),
+            tuple(one for one in releases if one.model == "3d" and not one.is_around_outline),
             tuple(
                 one
                 for one in releases
@@ -157,7 +156,7 @@ class ReleasesByDirection:
     def along_span(self, k_star: float) -> MeshSeries:
         """Return the plate's growth on meshes that are finer along the span alone, by layers."""
         values = self._named(k_star, _OF_SPAN)
-        by_layers = (replace(one, cells=_layers(_OF_SPAN[one.mesh])) for one in values)
+        by_layers = (replace(one, cells=PRESETS[_OF_SPAN[one.mesh]].plate_layers) for one in values)
         return MeshSeries(GROWTH, "3d", f"k* = {k_star:g}", ALONG_SPAN, 1, tuple(by_layers))
 
     def in_plane(self, k_star: float) -> MeshSeries:
@@ -201,12 +200,6 @@ class ReleasesByDirection:
                 and min(map(len, there)) >= _FEWEST
             ):
                 yield GrowthByDirection(k_star, along, plane, both)
-
-
-def _layers(mesh: str) -> int:
-    """Return the layers of a mesh along the span of the plate, and across the gap."""
-    preset = PRESETS[mesh]
-    return sum(layers_of_beam(preset.plate * preset.plate_spacing.along_span))
 
 
 def hides_error(in_plane: MeshSeries) -> bool:

@@ -57,6 +57,8 @@ from equisection.verdict.growth import AFTER_RELEASE, Growth
 
 #: Bases of growth and onset.
 BY_EQUILIBRIUM, LEARNT_FROM_EQUILIBRIUM = "releases from equilibrium", "learnt from equilibrium"
+#: End of the basis of a growth on meshes around the outline.
+AROUND_OUTLINE = ", around the outline"
 #: Fewest k* of a curve that is moved: fewer do not show its bend.
 FEWEST_OF_CURVE = 3
 #: Shortest release (c/V) from equilibrium that a model is learnt from.
@@ -177,8 +179,8 @@ def growth_from_equilibrium(
 ) -> Iterator[MeshSeries]:
     """Yield the growth of a model at each k* on the meshes that have a release from equilibrium.
 
-    It is that from 10 to 30 c/V. Of a mesh that has several the one with the most iterations of a
-    time step is taken.
+    The meshes are of one family. It is that from 10 to 30 c/V. Of a mesh that has several the one
+    with the most iterations of a time step is taken.
     """
     own = [one for one in releases if one.model == model]
     for k_star in sorted({one.case.k_star for one in own}):
@@ -187,6 +189,7 @@ def growth_from_equilibrium(
             note = f"{group.iterations} iterations"
             values.append(replace(early_growth(group.runs[0]), note=note))
         basis = f"{BY_EQUILIBRIUM}, {AFTER_RELEASE:.0f} to {EARLY:.0f} c/V"
+        basis += AROUND_OUTLINE if own[0].is_around_outline else ""
         dimensions = int(own[0].case.dimension[0])
         yield MeshSeries(GROWTH, model, f"k* = {k_star:g}", basis, dimensions, tuple(values))
 

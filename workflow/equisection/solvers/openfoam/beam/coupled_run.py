@@ -116,7 +116,7 @@ class CoupledRun(MovingRun[CaseT, BeamCells], ABC):
         deform = self._deform if self.is_held else None
         source, _, converged = rigid.steady(self.before_release(tell), deform, starts_motion=True)
         if not converged:
-            logger.info("the steady flow does not converge; the motion begins in its last state")
+            logger.info("the steady flow has not converged; the motion begins in its last state")
         self.start_from(source)
 
     def start_from(self, source: Path) -> None:

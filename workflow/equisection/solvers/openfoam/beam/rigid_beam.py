@@ -196,7 +196,7 @@ class PlateFlow:
         if deform is not None:
             deform(folder)
         has_converged = self._has_converged
-        loads, is_known = follow_iterations(
+        loads, _ = follow_iterations(
             folder,
             lambda loads: has_converged(loads) or (starts_motion and may_start_motion(loads)),
             tell,
@@ -204,7 +204,7 @@ class PlateFlow:
                 self.installation, "simpleFoam", folder, watch, ranks=self.ranks
             ),
         )
-        return folder, loads, is_known and has_converged(loads)
+        return folder, loads, has_converged(loads)
 
     @property
     def _has_converged(self) -> Callable[[Loads], bool]:

@@ -37,6 +37,11 @@ class Preset:
         return plate_cells(self.plate_spacing, self.plate)
 
     @property
+    def plate_layers(self) -> int:
+        """Number of layers along the plate's span and across the gap between tip and wall."""
+        return sum(layers_of_beam(self.plate * self.plate_spacing.along_span))
+
+    @property
     def outline_cells(self) -> int:
         """Number of cells around an outline, roughly."""
         return round(TYPICAL_CELLS * self.refinement**2)
@@ -44,7 +49,7 @@ class Preset:
     @property
     def outline_beam_cells(self) -> int:
         """Number of cells around a beam of an outline, with a gap beyond its tip, roughly."""
-        return round(TYPICAL_CELLS * self.plate**2 * sum(layers_of_beam(self.plate)))
+        return round(TYPICAL_CELLS * self.plate**2 * self.plate_layers)
 
     @property
     def is_similar(self) -> bool:
@@ -78,7 +83,6 @@ _BY_DIRECTION = {
         ("coarse", "sparse"),
         ("medium", "coarse"),
         ("fine", "coarse"),
-        ("extra-fine", "coarse"),
     )
 }
 _OF_PLATE = {
