@@ -124,22 +124,6 @@ def sections(some: MeshRelease) -> list[MeshRelease]:
     ]
 
 
-@pytest.mark.parametrize("name", NAMES[1:])
-def test_meshes_are_finer_in_one_direction_alone(name: str) -> None:
-    in_the_plane, along_span = PRESETS[f"{name}-coarse-span"], PRESETS[f"coarse-{name}-span"]
-    per_layer = in_the_plane.plate_cells / layers("coarse")
-    assert per_layer == pytest.approx(PRESETS[name].plate_cells / layers(name), rel=0.01)
-    assert layers(f"{name}-coarse-span") == layers("coarse")
-    assert layers(f"coarse-{name}-span") == layers(name)
-    assert along_span.plate_cells / layers(name) == pytest.approx(
-        PRESETS["coarse"].plate_cells / layers("coarse"), rel=0.01
-    )
-
-
-def test_sparse_span_has_half_of_the_layers() -> None:
-    assert layers("coarse-sparse-span") == pytest.approx(layers("coarse") / 2, abs=1)
-
-
 def test_errors_that_add_up_leave_the_limit(plate: MeshRelease) -> None:
     (found,) = by_direction(plates(plate))
     value, half = found.limit

@@ -41,7 +41,7 @@ def test_presets_have_about_as_many_cells_as_they_are_to_have(name: str, cells: 
 
 @pytest.mark.parametrize(
     ("plane", "span"),
-    [("coarse", "medium"), ("coarse", "fine"), ("coarse", "extra-fine"), ("fine", "coarse")],
+    [("coarse", "medium"), ("coarse", "fine"), ("medium", "coarse"), ("fine", "coarse")],
 )
 def test_mesh_by_direction_is_one_in_the_plane_and_another_along_the_span(
     plane: str, span: str
@@ -53,7 +53,15 @@ def test_mesh_by_direction_is_one_in_the_plane_and_another_along_the_span(
     assert both.section.cells == of_plane.section.cells
     np.testing.assert_allclose(both.edges(), of_span.edges(), rtol=1e-9)
     assert both.layers == of_span.layers != of_plane.layers
+    assert both.layers == PRESETS[f"{plane}-{span}-span"].plate_layers
     assert not PRESETS[f"{plane}-{span}-span"].is_similar  # to the others
+
+
+def test_sparse_span_has_half_of_the_layers_of_coarse() -> None:
+    sparse, coarse = PRESETS["coarse-sparse-span"], PRESETS["coarse"]
+    assert sparse.plate_layers == pytest.approx(coarse.plate_layers / 2, abs=1)
+    per_layer = coarse.plate_cells / coarse.plate_layers
+    assert sparse.plate_cells / sparse.plate_layers == pytest.approx(per_layer, rel=0.01)
 
 
 def test_layers_along_the_plate_grow_evenly_from_the_tip_to_the_root() -> None:
