@@ -13,6 +13,7 @@ of the runs stay in `results/near-wall`.
 import argparse
 import csv
 import math
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -40,12 +41,23 @@ from equisection.solvers.openfoam.mesh.near_wall_spacing import (
     by_size,
     layers,
 )
+from equisection.solvers.openfoam.mesh.outline_mesh import OutlineMesh
+from equisection.solvers.openfoam.mesh.outline_sizes import OutlineSizes
 from equisection.solvers.openfoam.mesh.presets import PRESETS
-from equisection.solvers.openfoam.rigid_flow import MOST, WINDOW
+from equisection.solvers.openfoam.rigid_flow import (
+    MOST,
+    WINDOW,
+    has_converged,
+    has_converged_around_outline,
+)
 from equisection.solvers.openfoam.section.rigid_section import (
+    SIZES,
+    SectionCells,
+    check_mesh,
     iterate,
     make_mesh,
     mesh_of,
+    outline_mesh_of,
     steady_mean,
 )
 from equisection.solvers.openfoam.stream_turbulence import STREAM, StreamTurbulence
@@ -70,6 +82,8 @@ class Change:
         Entries of ``fvSchemes`` in the place of the usual ones.
     turbulence
         Turbulence of the stream.
+    sizes
+        Sizes of the mesh around the outline, in the place of a mesh of blocks.
     """
 
     of: str
@@ -77,6 +91,7 @@ class Change:
     spacing: Spacing = SIMILAR
     schemes: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     turbulence: StreamTurbulence = STREAM
+    sizes: OutlineSizes | None = None
 
 
 def first_cell(size: float) -> Spacing:
@@ -96,6 +111,11 @@ def rows_off_sides(cells: int) -> Spacing:
         return f"{1 / ratio if j == 1 else ratio:.8g}"
 
     return replace(SIMILAR, rows=rows, across=across)
+
+
+def with_columns(spacing: Spacing, *, times: int = 2) -> Spacing:
+    """Return a spacing with so many times the columns."""
+    return replace(spacing, columns=tuple(times * one for one in SIMILAR.columns))
 
 
 def off_sides(part: Part, cells: int) -> Spacing:
@@ -120,6 +140,10 @@ def _stream(intensity: float = STREAM.intensity, ratio: float = STREAM.viscosity
     return Change("coarse", turbulence=StreamTurbulence(STREAM.model, intensity, ratio))
 
 
+def _outline(**sizes: float) -> Change:
+    return Change("outline", sizes=replace(SIZES, **sizes))
+
+
 _LIMITED = "cellLimited Gauss linear 1"
 CHANGES: Mapping[str, Change] = {
     "coarse": Change("coarse"),
@@ -134,6 +158,10 @@ CHANGES: Mapping[str, Change] = {
     "first cell 1e-4 c": Change("coarse", spacing=first_cell(1e-4)),
     "first cell 1e-3 c": Change("coarse", spacing=first_cell(1e-3)),
     "twice the rows off the sides": Change("coarse", spacing=rows_off_sides(64)),
+    "twice the columns": Change("coarse", spacing=with_columns(SIMILAR)),
+    "twice the columns, and rows off the sides": Change(
+        "coarse", spacing=with_columns(rows_off_sides(64))
+    ),
     "five layers off the sides, then 0.02 c": Change(
         "coarse", spacing=off_sides(layers(FIRST_LAYER), 36)
     ),
@@ -142,13 +170,23 @@ CHANGES: Mapping[str, Change] = {
         "medium", PRESETS["medium"].refinement, schemes={"gradSchemes": {"grad(U)": _LIMITED}}
     ),
     "five-layers": Change("medium", 1.0, PRESETS["five-layers"].spacing),
+    "outline": _outline(),
+    "outline, twice the layers": _outline(layers=52, growth=1.086),
+    "outline, half of the size along the wall": _outline(wall=0.007, last=2.4),
+    "outline, half of the size at corners": _outline(at_corner=1e-3, last=2.4),
+    "outline, twice the rays at corners": _outline(fan_step_deg=9.0),
+    "outline, half of the size near it": _outline(near=0.0175, wake=0.025),
+    "outline, half of the size far off": _outline(far=0.0375, outward=0.08),
 }
 
 
 def run(name: str) -> dict[str, object]:
     """Run one change and return its line."""
     change, case = CHANGES[name], section(INCIDENCE_DEG)
-    mesh = mesh_of(case, change.refinement, change.spacing)
+    if change.sizes is None:
+        mesh: SectionCells = mesh_of(case, change.refinement, change.spacing)
+    else:
+        mesh = outline_mesh_of(case, change.refinement, sizes=change.sizes)
     folder = emptied(Path("results") / "near-wall" / name.replace(" ", "-") / "steady")
     reynolds = flow.reynolds_number(case.geometry, case.medium)
     flow.write_flow(folder, reynolds, turbulence=change.turbulence)
@@ -156,11 +194,17 @@ def run(name: str) -> dict[str, object]:
     for part, entries in change.schemes.items():
         schemes[part] = {**schemes[part], **entries}
     write_system(folder, control("simpleFoam", MOST, 1, MOST), schemes, flow.steady_solution())
-    write_mesh_dictionary(folder, mesh)
-    make_mesh(find(), folder)
-    _, loads, has_converged = iterate(find(), "simpleFoam", folder, nothing)
+    if isinstance(mesh, OutlineMesh):
+        mesh.write(folder)
+        check_mesh(find(), folder)
+        wanted = has_converged_around_outline
+    else:
+        write_mesh_dictionary(folder, mesh)
+        make_mesh(find(), folder)
+        wanted = has_converged
+    _, loads, is_converged = iterate(find(), "simpleFoam", folder, nothing, wanted)
     found = steady_mean(find(), folder, loads, mesh)
-    if not has_converged:
+    if not is_converged:
         drag, lift, moment = loads.last(10 * WINDOW).means()
         found = replace(found, drag=drag, lift=lift, moment=moment)
     sides = [found.surface.on(side) for side in ("upper", "lower")]
@@ -171,7 +215,7 @@ def run(name: str) -> dict[str, object]:
     return {
         "change": name,
         "of": change.of,
-        "cells": mesh.cells,
+        "cells": cells_in(folder),
         "cl": found.lift,
         "cm": found.moment,
         "cd": found.drag,
@@ -183,6 +227,14 @@ def run(name: str) -> dict[str, object]:
         "iterations": loads.time[-1],
         "half_range": loads.last(WINDOW).spread(),
     }
+
+
+def cells_in(folder: Path) -> int:
+    """Return the number of cells that ``checkMesh`` counted."""
+    said = (folder / "log.checkMesh").read_text(encoding="utf-8")
+    found = re.search(r"^ *cells: +(\d+)$", said, re.MULTILINE)
+    assert found is not None, "checkMesh counts the cells"
+    return int(found[1])
 
 
 def lines() -> list[dict[str, Any]]:

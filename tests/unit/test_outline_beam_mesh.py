@@ -20,13 +20,14 @@ from equisection.errors import SolverError
 from equisection.figures.mesh_of_beam import _on_upper_side
 from equisection.figures.surface_of_beam import on_grid
 from equisection.results.plate_surface import PlateSurface, joined, plate_surface_from_dataset
-from equisection.solvers.openfoam.beam.rigid_beam import outline_beam_mesh_of
+from equisection.solvers.openfoam.beam.rigid_beam import outline_beam_mesh_of, plate_mesh_of
 from equisection.solvers.openfoam.mesh.beam_mesh import SIDE_WALLS, planes_beyond
 from equisection.solvers.openfoam.mesh.block_mesh import ChannelBox
 from equisection.solvers.openfoam.mesh.extruded_cells import Extrusion
 from equisection.solvers.openfoam.mesh.outline_mesher import PATCHES, patches_of
 from equisection.solvers.openfoam.mesh.plane_cells import PlaneCells
 from equisection.solvers.openfoam.mesh.poly_mesh import read_poly_mesh
+from equisection.solvers.openfoam.mesh.presets import PRESETS
 from equisection.solvers.openfoam.reading import contour_places
 from equisection.solvers.openfoam.reading.contour_places import Contour, cut_at
 
@@ -112,6 +113,23 @@ def test_long_beam_has_layers_as_long_as_a_short_one() -> None:
         assert mesh.edges()[-1] == pytest.approx(mesh.span)
         assert mesh.levels()[-1] == pytest.approx(mesh.span + 0.3)
         assert mesh.layers == mesh.levels().size - 1
+
+
+def test_mesh_finer_in_the_plane_alone_has_the_layers_of_the_coarse_one() -> None:
+    """Around the outline as on blocks, by the same preset."""
+    finer, coarse = PRESETS["medium-coarse-span"], PRESETS["coarse"]
+    assert finer.plate == PRESETS["medium"].plate > coarse.plate
+    meshes = [
+        outline_beam_mesh_of(STEADY_PLATE, one.plate, along_span=one.plate_spacing.along_span)
+        for one in (coarse, finer)
+    ]
+    blocks = [plate_mesh_of(STEADY_PLATE, one.plate, one.plate_spacing) for one in (coarse, finer)]
+    for mesh in (*meshes, *blocks):
+        assert_allclose(mesh.edges(), meshes[0].edges())
+    assert_allclose(meshes[1].levels(), meshes[0].levels())
+    assert finer.outline_beam_cells / coarse.outline_beam_cells == pytest.approx(
+        (finer.plate / coarse.plate) ** 2, rel=1e-4
+    )
 
 
 def test_beam_with_a_fine_detail_has_more_layers() -> None:

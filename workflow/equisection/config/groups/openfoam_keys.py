@@ -53,8 +53,8 @@ LAMINAR: Turbulence = "laminar"
 #: Turbulence of the stream at the inlet by default: rms velocity over V, eddy viscosity over
 #: viscosity.
 TURBULENCE_INTENSITY, VISCOSITY_RATIO = 0.01, 10.0
-#: Meshes that there are around an outline.
-OUTLINE_MESHES = ("coarse", "medium", "fine")
+#: Meshes that there are around an outline, and beams of one.
+OUTLINE_MESHES = ("coarse", "medium", "fine", "medium-coarse-span")
 #: Environment variable of the command before each program.
 PREFIX_VARIABLE = "EQUISECTION_OPENFOAM"
 #: The largest time step (c/V) that follows the flow over the plate.

@@ -13,6 +13,7 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from equisection.clone import CLONE
@@ -52,7 +53,13 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     plates_by_model,
     sections_by_model,
 )
+from equisection.paper.mesh_convergence.onset_by_mesher import (
+    onsets_of_both_meshers,
+    plate_around_outline,
+    section_around_outline,
+)
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    AROUND_OUTLINE,
     change_of_shift,
     curve_from_equilibrium,
     growth_from_equilibrium,
@@ -77,31 +84,36 @@ def all_series(reference: Path) -> tuple[list[MeshSeries], str]:
         reference, FROM_EQUILIBRIUM, MESHES_BY_DIRECTION, with_outlines=True
     )
     around_outline = [one for one in at_equilibrium if one.is_around_outline]
-    from_equilibrium = [
-        one for one in at_equilibrium if one.mesh in MESHES and not one.is_around_outline
-    ]
+    on_blocks = [one for one in at_equilibrium if not one.is_around_outline]
+    from_equilibrium = [one for one in on_blocks if one.mesh in MESHES]
     section, plate = (rigid_loads(reference, dimension) for dimension in ("2d", "3d"))
     own, own_mesh = own_factors(section, plate)
+    change = change_of_shift(releases)
     of_sections = [
         *onsets_by_releases(releases),
         *sections_from_equilibrium(from_equilibrium, releases),
+        *section_around_outline(around_outline, change),
         *sections_by_model(releases, section, plate_of_table_1(CLONE), own),
     ]
-    of_plate = list(onsets_from_equilibrium(from_equilibrium, releases))
-    directions = ReleasesByDirection.of(at_equilibrium)
+    of_sections += onsets_of_both_meshers(of_sections)
+    directions, around = map(ReleasesByDirection.of, (on_blocks, around_outline))
     curve = curve_from_equilibrium(from_equilibrium, releases)
+    of_plate = [*plates_by_model(releases, plate)]
+    of_plate += onsets_from_equilibrium(from_equilibrium, releases)
+    of_plate += onset_by_direction(directions.growths(), of_plate, curve, change)
+    of_plate += plate_around_outline(around, directions, curve, change)
+    of_plate += onsets_of_both_meshers(of_plate)
     series = [
         *of_sections,
         *onsets_by_difference(of_sections),
-        *plates_by_model(releases, plate),
         *of_plate,
-        *onset_by_direction(directions.growths(), of_plate, curve, change_of_shift(releases)),
         *learnt_from_equilibrium(from_equilibrium, plate),
         *growth_series(releases),
         *growth_from_equilibrium(from_equilibrium, "2d"),
         *growth_from_equilibrium(around_outline, "2d"),
         *growth_from_equilibrium(from_equilibrium),
         *directions.series(),
+        *(replace(one, basis=one.basis + AROUND_OUTLINE) for one in around.series()),
         early_growth_of_plate(releases),
         *mean_series(releases),
         *load_series(section, "2d", reference),

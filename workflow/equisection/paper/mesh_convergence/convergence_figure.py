@@ -15,7 +15,10 @@ from equisection.figures.panels import letter
 from equisection.figures.style import GREEN, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
-from equisection.paper.mesh_convergence.onset_by_difference import BY_DIFFERENCE
+from equisection.paper.mesh_convergence.onset_by_difference import (
+    BY_DIFFERENCE,
+    DIFFERENCE_OF_BOTH,
+)
 from equisection.paper.mesh_convergence.onset_by_mesh import (
     BY_MODEL,
     BY_RELEASES,
@@ -23,6 +26,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     ONSET,
     damped,
 )
+from equisection.paper.mesh_convergence.onset_by_mesher import AROUND, BOTH_MESHERS
 from equisection.paper.mesh_convergence.onset_from_equilibrium import BY_EQUILIBRIUM
 
 #: Looks of the models, with that of the section corrected by this project's own ratios.
@@ -41,7 +45,10 @@ _FILLED = {
     BY_RELEASES: "full",
     BY_MODEL: "full",
     BY_EQUILIBRIUM: "left",
+    AROUND: "right",
+    BOTH_MESHERS: "top",
     BY_DIFFERENCE: "bottom",
+    DIFFERENCE_OF_BOTH: "bottom",
 }
 
 
@@ -72,8 +79,9 @@ def draw(series: Sequence[MeshSeries], onset: tuple[float, float, float]) -> Fig
     figure.legend(entries.values(), entries.keys(), loc="outside upper center", ncols=len(entries))
     add_provenance(
         figure,
-        "open: releases by OpenFOAM v1912 (half filled: from equilibrium; below: 2D and "
-        "difference); filled: model learnt from one release; at 0: limit with its interval",
+        "open: releases by OpenFOAM v1912 (filled on the left: from equilibrium; right: so, around "
+        "the outline; top: both meshers; below: 2D and difference); filled: model learnt from one "
+        "release; at 0: limit with its interval",
         "grey: the paper's 5.5, give or take 10 %",
     )
     return figure
@@ -127,7 +135,8 @@ def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:
         "elinewidth": 0.8,
     }
     label = look.label if learnt else None
-    axes.errorbar(sizes, values, errors, linewidth=0.8, linestyle="-", label=label, **style)
+    if one.basis != BOTH_MESHERS:  # whose values are those of blocks
+        axes.errorbar(sizes, values, errors, linewidth=0.8, linestyle="-", label=label, **style)
     limit = one.limit
     if math.isfinite(limit.half_width):
         axes.errorbar([at_limit], [limit.value], [limit.half_width], linestyle="none", **style)

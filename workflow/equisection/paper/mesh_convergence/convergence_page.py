@@ -35,8 +35,8 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     ONSET,
     POLAR_OF,
 )
+from equisection.paper.mesh_convergence.onset_by_mesher import BOTH_MESHERS, DO_NOT_MEET
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
-    AROUND_OUTLINE,
     BY_EQUILIBRIUM,
     LEARNT_FROM_EQUILIBRIUM,
 )
@@ -115,6 +115,7 @@ def _onsets(series: Sequence[MeshSeries], own_mesh: str) -> str:
         if (is_by_direction := any(one.basis == BY_DIRECTION for one in chosen))
         else ""
     )
+    of_meshers = _of_both_meshers(chosen)
     text = f"""## Onset
 
 k\\* of the onset; above it a release decays. The paper: about {stated}.
@@ -131,14 +132,14 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   where there are any, on finer meshes as the learnt models change. That change is as uncertain as
   it is large, or as they miss the releases.
 - *{LEARNT_FROM_EQUILIBRIUM}*: from such a release at k\\* 6.44; onset by eigenvalues.
-{of_directions}\
+{of_directions}{of_meshers}\
 - `2d-corrected` divides by the plate of the paper's Table 1: two programs' errors, and a moment
   factor that grows with the mesh; `{OWN_RATIOS}` by this project's plate, on equal cells in the
   plane {f"(mesh {own_mesh}; releases: the mesh's own)" if own_mesh else "(not kept)"}.
 """
     hidden = "" if is_by_direction else _hidden(series)
     of_plate = _of_the_plate(chosen, narrowed=not hidden) + excluded + hidden
-    return text + _notes(chosen) + of_plate + _targets(chosen) + _other_mesher(series)
+    return text + _notes(chosen) + of_plate + _targets(chosen)
 
 
 def _of_the_plate(chosen: Sequence[MeshSeries], *, narrowed: bool) -> str:
@@ -227,14 +228,17 @@ Best limit of each model: its interval, and the one wanted
 """
 
 
-def _other_mesher(series: Sequence[MeshSeries]) -> str:
-    """Return what the intervals do not have, where there are releases around the outline."""
-    if not any(one.basis.endswith(AROUND_OUTLINE) for one in series):
+def _of_both_meshers(chosen: Sequence[MeshSeries]) -> str:
+    """Return what the limits of both meshers are together, and of which models they do not meet."""
+    both = [one for one in chosen if one.basis == BOTH_MESHERS]
+    if not both:
         return ""
-    return """
-All of it on blocks: what meshes around the [outline](outline-mesh.md) differ by
-([growth](#growth-at-one-k)) is in no interval.
-"""
+    apart = ", ".join(f"`{one.model}`" for one in both if one.limit.basis == DO_NOT_MEET)
+    return (
+        f"- *{BOTH_MESHERS}*: meshes of blocks and around the [outline](outline-mesh.md). Where\n"
+        "  their intervals meet, the narrower one, widened to hold the other limit; else both"
+        f"{f' ({apart})' if apart else ''}.\n"
+    )
 
 
 def _damping(series: Sequence[MeshSeries]) -> str:
@@ -251,7 +255,7 @@ critical) in both motions, and half of their intervals:
 
 def _growth(series: Sequence[MeshSeries]) -> str:
     growths = [one for one in series if one.quantity == GROWTH]
-    directions = [one for one in growths if one.basis in (ALONG_SPAN, IN_PLANE)]
+    directions = [one for one in growths if one.basis.startswith((ALONG_SPAN, IN_PLANE))]
     chosen, plate = (
         [one for one in growths if one.model == model and one not in directions]
         for model in ("2d", "3d")

@@ -19,10 +19,12 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     ONSET,
     SECTIONS,
 )
+from equisection.paper.mesh_convergence.onset_by_mesher import BOTH_MESHERS
 from equisection.paper.mesh_convergence.onset_from_equilibrium import BY_EQUILIBRIUM
 
 #: Basis of the onset.
 BY_DIFFERENCE = "2d and difference"
+DIFFERENCE_OF_BOTH = f"{BY_DIFFERENCE}, {BOTH_MESHERS}"
 
 
 def onsets_by_difference(series: Sequence[MeshSeries]) -> Iterator[MeshSeries]:
@@ -49,7 +51,8 @@ def onsets_by_difference(series: Sequence[MeshSeries]) -> Iterator[MeshSeries]:
     ]
     if not plain:
         return
-    base = min(plain, key=lambda one: one.limit.half_width)
+    narrowest = min(plain, key=lambda one: one.limit.half_width)
+    base = onsets.get(("2d", BOTH_MESHERS), narrowest)
     of_section = onsets.get(("2d", BY_MODEL))
     for model in SECTIONS[1:]:
         releases = onsets.get((model, BY_EQUILIBRIUM)) or onsets.get((model, BY_RELEASES))
@@ -100,6 +103,7 @@ def _moved(releases: MeshSeries, base: MeshSeries, learnt: dict[str, float]) -> 
         of_base.order,
         f"limit of 2d ({base.basis}), and the difference from it",
     )
+    basis = DIFFERENCE_OF_BOTH if base.basis == BOTH_MESHERS else BY_DIFFERENCE
     return MeshSeries(
-        ONSET, releases.model, "", BY_DIFFERENCE, base.dimensions, tuple(values), derived=limit
+        ONSET, releases.model, "", basis, base.dimensions, tuple(values), derived=limit
     )

@@ -130,9 +130,9 @@ class ReleasesByDirection:
 
     @classmethod
     def of(cls, releases: Sequence[MeshRelease]) -> ReleasesByDirection:
-        """Return those among releases from equilibrium on any meshes."""
+        """Return those among releases from equilibrium on any meshes of one mesher."""
         return cls(
-            tuple(one for one in releases if one.model == "3d" and not one.is_around_outline),
+            tuple(one for one in releases if one.model == "3d"),
             tuple(
                 one
                 for one in releases

@@ -257,42 +257,69 @@ def onsets_from_equilibrium(
         one sign.
     """
     curve = curve_from_equilibrium(releases, from_rest)
-    if curve is None:
-        return
-    change = change_of_shift(from_rest)
-    values = []
-    for group in _most_iterations(releases):
+    if curve is not None:
+        values = onset_by_mesh(releases, "3d", curve, change_of_shift(from_rest))
+        yield MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, tuple(values))
+
+
+def onset_by_mesh(
+    releases: Sequence[MeshRelease], model: str, curve: GrowthCurve, change: float
+) -> Iterator[MeshValue]:
+    """Yield the onset of a model on each mesh: its own, or that of a curve that is moved.
+
+    Parameters
+    ----------
+    releases
+        Releases from equilibrium.
+    model
+        The model.
+    curve
+        Growth over k* on one mesh.
+    change
+        Part of a shift by which it changes over a k* of 1 (:func:`change_of_shift`).
+    """
+    for group in _most_iterations(releases, model):
         if group == curve.runs:
-            values.append(curve.base)
+            yield curve.base
         elif math.isfinite((found := _zero(group)).value):
-            values.append(_onset_of(group, found))
+            yield _onset_of(group, found)
         else:
-            values += _shifted(curve, group, change)
-    yield MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, tuple(values))
+            yield from _shifted(curve, group, change)
 
 
 def curve_from_equilibrium(
     releases: Sequence[MeshRelease], from_rest: Sequence[MeshRelease]
 ) -> GrowthCurve | None:
     """Return the plate's growth over k* on the coarsest mesh that shows it; None without one."""
-    own = {
-        group: found for group in _groups(releases) if math.isfinite((found := _zero(group)).value)
-    }
-    runs = next((group for group in own if len(group.runs) >= FEWEST_OF_CURVE), None)
-    if runs is not None:
-        table, found, words = growth_table(runs.runs, _growth), own[runs], ""
-    else:
-        of_rest = curve_of_plate(from_rest)
-        table, words = growth_table(of_rest), "growth curve of releases from rest"
-        found = onset_by_growth(table, K_STAR)
-        keys = [(one.mesh, one.iterations) for one in of_rest]
-        groups = [one for one in _groups(releases) if (one.mesh, one.iterations) in keys]
-        if not groups or not math.isfinite(found.value):
-            return None
-        (runs,) = groups
-    zigzag = _zigzag_in_words(runs) if runs.iterations < PLATE_ITERATIONS else ""
-    base = _onset_of(runs, found, "; ".join(filter(None, (words, zigzag))))
-    return GrowthCurve(runs, table, base)
+    if own := curve_of(releases, "3d"):
+        return own
+    of_rest = curve_of_plate(from_rest)
+    table = growth_table(of_rest)
+    found = onset_by_growth(table, K_STAR)
+    keys = [(one.mesh, one.iterations) for one in of_rest]
+    groups = [one for one in _groups(releases) if (one.mesh, one.iterations) in keys]
+    if not groups or not math.isfinite(found.value):
+        return None
+    (runs,) = groups
+    return _curve(runs, table, found, "growth curve of releases from rest")
+
+
+def curve_of(releases: Sequence[MeshRelease], model: str) -> GrowthCurve | None:
+    """Return a model's growth over k* on the coarsest mesh with three on both sides of its onset.
+
+    None where no mesh has them.
+    """
+    for group in _groups(releases, model):
+        if len(group.runs) >= FEWEST_OF_CURVE and math.isfinite((found := _zero(group)).value):
+            return _curve(group, growth_table(group.runs, _growth), found)
+    return None
+
+
+def _curve(runs: _Runs, table: pd.DataFrame, found: GrowthOnset, words: str = "") -> GrowthCurve:
+    is_plate = runs.runs[0].model == "3d"
+    zigzag = _zigzag_in_words(runs) if is_plate and runs.iterations < PLATE_ITERATIONS else ""
+    note = "; ".join(filter(None, (words, zigzag)))
+    return GrowthCurve(runs, table, _onset_of(runs, found, note))
 
 
 def _zero(group: _Runs) -> GrowthOnset:

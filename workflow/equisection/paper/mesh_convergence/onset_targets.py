@@ -12,6 +12,7 @@ from equisection.analysis.grid_limit import FORMAL_ORDER, GridLimit
 from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
 from equisection.paper.mesh_convergence.mesh_series import LIMIT, MeshSeries, MeshValue
 from equisection.paper.mesh_convergence.onset_by_mesh import ONSET
+from equisection.paper.mesh_convergence.onset_by_mesher import BOTH_MESHERS
 
 #: Wanted half-width of the interval of the onset's limit, as a part of it, by model.
 WANTED = {"2d": 0.05, "2d-corrected": 0.05, OWN_RATIOS: 0.05, "3d": 0.10}
@@ -20,9 +21,9 @@ WANTED = {"2d": 0.05, "2d-corrected": 0.05, OWN_RATIOS: 0.05, "3d": 0.10}
 def best_limit(table: pd.DataFrame, model: str) -> pd.Series | None:
     """Return the line of the best limit of the onset of a model without damping.
 
-    That is the narrowest interval of k*: as a part of the limit, whatever errs high would look
-    surer. Without any interval it is the onset on one mesh that the table has first; None where the
-    model has none.
+    That is the limit of both meshers, or else the narrowest interval of k*: as a part of the limit,
+    whatever errs high would look surer. Without any interval it is the onset on one mesh that the
+    table has first; None where the model has none.
 
     Parameters
     ----------
@@ -39,6 +40,8 @@ def best_limit(table: pd.DataFrame, model: str) -> pd.Series | None:
     ]
     if chosen.empty:
         return None
+    of_both = chosen[chosen["basis"].str.endswith(BOTH_MESHERS)]
+    chosen = chosen if of_both.empty else of_both
     width = chosen["high"] - chosen["low"]
     width = width.where(width < math.inf)
     return chosen.iloc[0] if width.isna().all() else chosen.loc[width.idxmin()]

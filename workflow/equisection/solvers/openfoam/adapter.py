@@ -199,7 +199,8 @@ class Adapter:
         refinement = preset.plate
         if self._has_outline(case):
             far_field = self._settings.far_field
-            return rigid_beam.outline_beam_mesh_of(case, refinement, far_field)
+            along_span = preset.plate_spacing.along_span
+            return rigid_beam.outline_beam_mesh_of(case, refinement, far_field, along_span)
         return rigid_beam.plate_mesh_of(case, refinement, preset.plate_spacing)
 
     def _has_outline(self, case: SteadyCase | UnsteadyCase | ForcedCase) -> bool:

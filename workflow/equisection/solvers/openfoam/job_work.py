@@ -80,21 +80,23 @@ def cells_of_job(config: Config, dimension: str, resolution: str) -> int:
         return PRESETS[mesh].outline_cells
     channel, far_field = config.flow.channel, config.openfoam.far_field_chords
     gap = far_field if channel is None else channel.tip_gap_chords
-    refinement = PRESETS[mesh].plate
-    layers, along = _layers(config.beam, Path.cwd(), refinement, gap)
+    refinement, along_span = PRESETS[mesh].plate, PRESETS[mesh].plate_spacing.along_span
+    layers, along = _layers(config.beam, Path.cwd(), refinement, gap, along_span)
     # beyond the tip the outline is filled, by no more cells than there are around it
     return round(TYPICAL_CELLS * refinement**2 * (2 * layers - along))
 
 
 @cache  # each job of a run asks for it
-def _layers(beam: Beam, directory: Path, refinement: float, gap: float) -> tuple[int, int]:
+def _layers(
+    beam: Beam, directory: Path, refinement: float, gap: float, along_span: float
+) -> tuple[int, int]:
     """Return the layers of cells from wall to wall, and those along the beam."""
     thickness = beam.thickness / beam.chord
     outline = beam.outline_in_flow(directory) or outline_of(rectangle(thickness))
     # layers go by the cells at the wall, whatever box is around them
     box = ChannelBox(thickness, 1.0, 1.0, 1.0)
     section = OutlineMesh(outline.as_pairs(), box, 0.0, refinement, OF_BEAM)
-    mesh = OutlineBeamMesh(section, beam.length / beam.chord, gap)
+    mesh = OutlineBeamMesh(section, beam.length / beam.chord, gap, along_span)
     return mesh.layers, mesh.edges().size - 1
 
 

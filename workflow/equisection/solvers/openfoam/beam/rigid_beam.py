@@ -89,11 +89,15 @@ def plate_mesh_of(
 
 
 def outline_beam_mesh_of(
-    case: SteadyCase | UnsteadyCase | ForcedCase, refinement: float, far_field: float = 0.0
+    case: SteadyCase | UnsteadyCase | ForcedCase,
+    refinement: float,
+    far_field: float = 0.0,
+    along_span: float = 1.0,
 ) -> OutlineBeamMesh:
     """Return the mesh of a case of the beam around its outline, or that of its rectangle.
 
-    In free air the wall beyond the tip is as far as the others (``far_field``, chords).
+    In free air the wall beyond the tip is as far as the others (``far_field``, chords). Along the
+    span it has ``along_span`` as many layers as the refinement gives it.
 
     Raises
     ------
@@ -103,7 +107,7 @@ def outline_beam_mesh_of(
     section, geometry = outline_mesh_of(case, refinement, far_field, OF_BEAM), case.geometry
     _require_root_on_wall(geometry)
     gap = far_field if geometry.channel_height is None else geometry.tip_gap or 0.0
-    return OutlineBeamMesh(section, geometry.span, gap)
+    return OutlineBeamMesh(section, geometry.span, gap, along_span)
 
 
 def _require_root_on_wall(geometry: Geometry) -> None:

@@ -45,11 +45,14 @@ class OutlineBeamMesh:
         The mesh in the plane of the section.
     span, gap
         L/c, and the gap between tip and wall (chords); 0 for a beam from wall to wall.
+    along_span
+        Layers along the span over those that the refinement gives (-).
     """
 
     section: OutlineMesh
     span: float
     gap: float
+    along_span: float = 1.0
 
     def edges(self) -> NDArray[np.float64]:
         """Return z/c of the planes between the cells along the beam, shape (n + 1,)."""
@@ -57,10 +60,14 @@ class OutlineBeamMesh:
 
     @cached_property
     def _edges(self) -> NDArray[np.float64]:
-        times, refinement = max(1.0, self.span / _LONG), self.section.refinement
+        times, refinement = max(1.0, self.span / _LONG), self._refinement_along_span
         edges = planes_along(self.span, refinement, times)
         too_long = float(np.diff(edges).max()) / self._longest
         return planes_along(self.span, refinement, times * max(1.0, too_long))
+
+    @property
+    def _refinement_along_span(self) -> float:
+        return self.section.refinement * self.along_span
 
     @cached_property
     def _longest(self) -> float:
@@ -71,7 +78,7 @@ class OutlineBeamMesh:
         """Return z/c of all planes between the layers of cells, from wall to wall."""
         if not self.gap:
             return self.edges()
-        beyond = self.span + planes_beyond(self.gap, self.section.refinement, self._longest)
+        beyond = self.span + planes_beyond(self.gap, self._refinement_along_span, self._longest)
         return np.concatenate([self.edges(), beyond[1:]])
 
     @property

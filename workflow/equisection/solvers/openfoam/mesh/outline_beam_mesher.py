@@ -70,7 +70,9 @@ def with_inside(mesh: OutlineMesh, around: PlaneCells) -> PlaneCells:
 
 def write_mesh(found: dict[str, Any], folder: Path) -> int:
     """Write the mesh of an input into the folder of a case, and return its number of cells."""
-    mesh = OutlineBeamMesh(read_mesh(found["section"]), found["span"], found["gap"])
+    mesh = OutlineBeamMesh(
+        read_mesh(found["section"]), found["span"], found["gap"], found["along_span"]
+    )
     channel = mesh.section.channel
     return extrusion_of(mesh).write(
         folder, {**PATCHES, **SIDE_WALLS}, lambda a, b: patches_of(channel, a, b), "plate"

@@ -1,0 +1,134 @@
+"""Onset on meshes around the outline, and what both meshers say of it together.
+
+Meshes of blocks and meshes around the outline are two families, each with a limit of its own. Where
+the limits' intervals meet, the narrower one counts, widened to hold the other limit; where they do
+not, at least one of them is too narrow, and the interval has both.
+
+The plate's meshes around the outline shrink in the plane alone. What is left along the span is that
+of blocks, whose layers they have.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from equisection.analysis.grid_limit import GridLimit
+from equisection.paper.mesh_convergence.kept_releases import MeshRelease
+from equisection.paper.mesh_convergence.mesh_series import MeshSeries
+from equisection.paper.mesh_convergence.onset_by_direction import ReleasesByDirection
+from equisection.paper.mesh_convergence.onset_by_mesh import EARLY, ONSET, onset_on
+from equisection.paper.mesh_convergence.onset_from_equilibrium import (
+    AROUND_OUTLINE,
+    BY_EQUILIBRIUM,
+    GrowthCurve,
+    curve_of,
+    onset_by_mesh,
+)
+
+#: Basis of the onset by the meshes of both meshers.
+BOTH_MESHERS = "both meshers"
+#: Origin of its limit.
+MEET, DO_NOT_MEET = "limits of both meshers, which meet", "limits of both meshers, which do not"
+#: Basis of the onset on meshes around the outline.
+AROUND = BY_EQUILIBRIUM + AROUND_OUTLINE
+
+
+def section_around_outline(releases: Sequence[MeshRelease], change: float) -> Iterator[MeshSeries]:
+    """Yield the onset of the section over the meshes around the outline.
+
+    Parameters
+    ----------
+    releases
+        Releases from equilibrium, around the outline.
+    change
+        Part of a shift by which it changes over a k* of 1.
+    """
+    curve = curve_of(releases, "2d")
+    if curve is not None:
+        values = tuple(onset_by_mesh(releases, "2d", curve, change))
+        yield MeshSeries(ONSET, "2d", "", AROUND, 2, values)
+
+
+def plate_around_outline(
+    around: ReleasesByDirection,
+    blocks: ReleasesByDirection,
+    curve: GrowthCurve | None,
+    change: float,
+) -> Iterator[MeshSeries]:
+    """Yield the onset of the plate over the meshes that shrink in the plane, around the outline.
+
+    It is where the growth curve of blocks is zero that is moved to the growth on each mesh, or to
+    its limit in the plane and along the span.
+
+    Parameters
+    ----------
+    around, blocks
+        Releases around the outline and on blocks.
+    curve
+        Growth over k* on blocks.
+    change
+        Part of a shift by which it changes over a k* of 1.
+    """
+    if curve is None:
+        return
+    found = []
+    for k_star in around.k_star:
+        plane, span = around.in_plane(k_star), blocks.along_span(k_star)
+        has_limits = all(math.isfinite(one.limit.half_width) for one in (plane, span))
+        if has_limits and curve.runs.at(k_star):
+            (start,) = (value for value in span.values if value.mesh == "coarse")
+            left = span.limit.value - start.value
+            half = math.hypot(plane.limit.half_width, span.limit.half_width)
+            growth = plane.limit.value + left, half
+            found.append((k_star, plane, left, growth, curve.moved(k_star, growth, change, EARLY)))
+    if not found:
+        return
+    k_star, plane, left, (rate, half), onset = min(found, key=lambda one: one[-1].away)
+    words = (
+        f"limit of the growth {rate:+.4f} +- {half:.4f} V/c at k* = {k_star:g}; along the span "
+        f"{left:+.4f} of it, as on blocks, whose curve over k* it has"
+    )
+    values = []
+    for value in plane.values:
+        moved = curve.moved(k_star, (value.value, value.half_width), change, EARLY)
+        values.append(onset_on(value.mesh, value.cells, moved.ends))
+    values[-1] = replace(values[-1], note=words)
+    of_plane = plane.limit
+    limit = GridLimit(*onset.ends, of_plane.meshes, of_plane.order, "limits of both directions")
+    yield MeshSeries(ONSET, "3d", "", AROUND, 2, tuple(values), derived=limit)
+
+
+def onsets_of_both_meshers(series: Sequence[MeshSeries]) -> Iterator[MeshSeries]:
+    """Yield the onset of each model that has a limit with an interval by either mesher.
+
+    Of several series on blocks the one with the narrowest interval counts. The values are those of
+    blocks.
+    """
+    known = [
+        one
+        for one in series
+        if (one.quantity, one.at) == (ONSET, "") and math.isfinite(one.limit.half_width)
+    ]
+    for around in (one for one in known if one.basis == AROUND):
+        blocks = [one for one in known if one.model == around.model and one.basis != AROUND]
+        if blocks:
+            best = min(blocks, key=lambda one: one.limit.half_width)
+            values = tuple(replace(value, note="") for value in best.values)
+            limit = limit_of_both(best.limit, around.limit)
+            yield replace(best, basis=BOTH_MESHERS, values=values, derived=limit)
+
+
+def limit_of_both(one: GridLimit, other: GridLimit) -> GridLimit:
+    """Return the limit of two families of meshes.
+
+    Its value is the middle of its interval. That is the narrower interval, widened to the value of
+    the other limit; or where they do not meet both.
+    """
+    narrow, wide = sorted((one, other), key=lambda limit: limit.half_width)
+    meet = narrow.low <= wide.high and wide.low <= narrow.high
+    ends = (wide.value,) if meet else (wide.low, wide.high)
+    low, high = min(narrow.low, *ends), max(narrow.high, *ends)
+    words = MEET if meet else DO_NOT_MEET
+    return GridLimit(0.5 * (low + high), low, high, narrow.meshes, math.nan, words)
