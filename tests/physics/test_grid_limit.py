@@ -34,8 +34,22 @@ def test_order_beyond_that_of_the_scheme_is_not_used() -> None:
     found = grid_limit(values(3.0), SIZES)
     assert found.order == pytest.approx(3.0)
     change = 2.0 * (SIZES[1] ** 3 - SIZES[2] ** 3) / ((SIZES[1] / SIZES[2]) ** 2 - 1.0)
-    assert found.half_width == pytest.approx(1.25 * change)
+    assert found.half_width == pytest.approx(3.0 * change)
     assert found.low < 5.0 < found.high
+
+
+def test_errors_of_opposite_signs_that_pass_for_a_high_order_are_in_the_interval() -> None:
+    """Both fall, at different rates: the order looks better than any of them, and is not."""
+    both = [5.0 + 0.5 * h**2 - 0.3 * h for h in SIZES]
+    found = grid_limit(both, SIZES)
+    assert found.order > 2.1
+    assert found.low < 5.0 < found.high
+    assert abs(found.value - 5.0) > 1.25 / 3.0 * found.half_width  # factor 1.25 would miss it
+
+
+def test_order_of_the_scheme_is_trusted_within_what_its_fit_errs_by() -> None:
+    trusted, beyond = (grid_limit(values(order), SIZES) for order in (2.05, 2.15))
+    assert beyond.half_width > 2.0 * trusted.half_width
 
 
 @pytest.mark.parametrize("three", [[1.0, 1.2, 1.1], [1.0, 1.1, 1.3], [1.0, 0.5, 0.49999]])

@@ -8,6 +8,7 @@ from tests.unit.test_onset_by_direction import of_growth, plates
 from tests.workflow.project import ROOT
 
 from equisection.analysis.grid_limit import GridLimit
+from equisection.paper.mesh_convergence.convergence_page import page
 from equisection.paper.mesh_convergence.kept_releases import (
     FROM_EQUILIBRIUM,
     MeshRelease,
@@ -144,6 +145,16 @@ def test_narrower_limit_of_one_mesher_does_not_count() -> None:
     assert plate["basis"] == BY_EQUILIBRIUM
     without = replace(series[1], derived=GridLimit(7.4, math.nan, math.nan, 1))
     assert not list(onsets_of_both_meshers([series[0], without]))
+
+
+def test_page_says_whether_both_meshers_meet() -> None:
+    blocks = onsets("2d", BY_EQUILIBRIUM, 6.7, 7.1)
+    for low, says in ((7.3, "else both (`2d`)"), (7.0, "else both.")):
+        around = onsets("2d", BY_EQUILIBRIUM + AROUND_OUTLINE, low, 7.6)
+        series = [blocks, around]
+        series += onsets_of_both_meshers(series)
+        assert says in " ".join(page(series, "").split())
+    assert "both meshers" not in page([blocks], "")
 
 
 def test_corrected_section_has_the_uncertainty_of_both_meshers() -> None:

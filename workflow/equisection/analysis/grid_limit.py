@@ -1,11 +1,13 @@
 """Limit of a value at vanishing cell size, with an interval, from the meshes that there are.
 
-From three meshes with monotonic convergence, of an order from 0.5 to 4, the limit is extrapolated
-with the observed order p, at most the order 2 of the scheme, and the interval is the grid
-convergence index with the factor of safety 1.25 (Celik, Ghia, Roache & Freitas 2008, J. Fluids Eng.
-130, 078001; the smaller of both orders by Roache, Verification and Validation in Computational
-Science and Engineering, 1998). Two meshes show no order: it is taken to be 2, with Roache's factor
-3 for two grids. Without convergence the limit is the finest value, give or take three times the
+From three meshes with monotonic convergence of an observed order p from 0.5 to that of the scheme,
+2, the limit is extrapolated with p, and the interval is the grid convergence index with the factor
+of safety 1.25 (Celik, Ghia, Roache & Freitas 2008, J. Fluids Eng. 130, 078001). An order beyond the
+scheme's is no better convergence: errors of opposite signs fall at different rates, or chance
+decides. Up to 4 the limit is extrapolated with the order 2 then, and the factor is 3, as Roache has
+it for an order that is not to be trusted (Verification and Validation in Computational Science and
+Engineering, 1998; J. Fluids Eng. 133, 115501, 2011). Two meshes show no order: so of them as well.
+Without convergence the limit is the finest value, give or take three times the
 largest difference (Eca & Hoekstra 2014, J. Comput. Phys. 262). One mesh has no limit.
 
 A difference within the values' own errors tells no order. Of more than three meshes one that
@@ -25,7 +27,10 @@ from equisection.analysis.grid_convergence import SAFETY, Convergence, grid_conv
 FORMAL_ORDER = 2.0
 #: Observed orders that are extrapolated with. Beyond them chance or round-off decides.
 LEAST_ORDER, MOST_ORDER = 0.5, 4.0
-#: Factor of safety of two meshes, and of three without convergence.
+#: Observed order up to which it is that of the scheme, within what fits of it err by.
+LARGEST_TRUSTED = 2.1
+#: Factor of safety of two meshes, of three with an order beyond the scheme's, and of three without
+#: convergence.
 SAFETY_OF_TWO = SAFETY_WITHOUT_ORDER = 3.0
 
 
@@ -90,13 +95,14 @@ def grid_limit(
     words = f"three of {count} meshes" if passed else "three meshes"
     if found.convergence is Convergence.MONOTONIC and is_credible(found.order):
         order, pair = min(found.order, FORMAL_ORDER), used[1:]
+        safety = SAFETY if found.order <= LARGEST_TRUSTED else SAFETY_OF_TWO
         of_pair = ([column[one] for one in pair] for column in (values, sizes, own))
-        limit, half = _extrapolated(*of_pair, order=order, safety=SAFETY)
+        limit, half = _extrapolated(*of_pair, order=order, safety=safety)
         slope = (values[-1] - limit) / sizes[-1] ** order
         misses = [values[one] - limit - slope * sizes[one] ** order for one in passed]
         half = math.hypot(half, max(map(abs, misses), default=0.0))
         words += (
-            f": order {found.order:.1f} observed, {order:.1f} used, factor of safety {SAFETY:g}"
+            f": order {found.order:.1f} observed, {order:.1f} used, factor of safety {safety:g}"
         )
         return GridLimit(limit, limit - half, limit + half, 3, found.order, words)
     half = math.hypot(SAFETY_WITHOUT_ORDER * (max(three) - min(three)), own[-1])

@@ -70,10 +70,11 @@ A **limit** is the value at vanishing cell size:
 
 | meshes | its interval |
 | --- | --- |
-| three | grid convergence index, observed order up to 2, factor 1.25 (Celik et al. 2008) |
+| three | grid convergence index, observed order up to 2.1, factor 1.25 (Celik et al. 2008) |
+| three, order above: errors of opposite signs, or chance | as of two |
 | more | so of the finest and two that differ by more than their errors; one between adds its miss |
 | two | the same with order 2 and factor 3 (Roache 1998) |
-| three, order not 0.5 to 4 or none | 3 times the largest difference (Eca and Hoekstra 2014) |
+| three, order below 0.5, above 4 or none | 3 times the largest difference (Eca and Hoekstra 2014) |
 | one | not known |
 
 Intervals of growth rates and bands of learnt models are added as independent errors. *Converged*:
