@@ -170,14 +170,19 @@ def test_releases_of_another_start_are_not_among_them(at_equilibrium: MeshReleas
 
 
 def test_meshes_around_the_outline_are_a_family_of_their_own() -> None:
-    folder = REFERENCE / "outline-equilibrium-medium"
-    assert not mesh_releases(folder, FROM_EQUILIBRIUM)
-    (found,) = mesh_releases(folder, FROM_EQUILIBRIUM, with_outlines=True)
-    assert found.is_around_outline
-    (series,) = growth_from_equilibrium([found], "2d")
-    assert series.basis.endswith(AROUND_OUTLINE)
-    assert not list(ReleasesByDirection.of([found]).series())
-    assert "around the outline" in page([series], "")
+    folders = [REFERENCE / f"outline-equilibrium-{mesh}" for mesh in ("coarse", "medium")]
+    assert not any(mesh_releases(folder, FROM_EQUILIBRIUM) for folder in folders)
+    found = [
+        one
+        for folder in folders
+        for one in mesh_releases(folder, FROM_EQUILIBRIUM, with_outlines=True)
+    ]
+    assert all(one.is_around_outline for one in found)
+    series = list(growth_from_equilibrium(found, "2d"))
+    assert all(one.basis.endswith(AROUND_OUTLINE) for one in series)
+    assert [value.mesh for value in series[-1].values] == ["coarse", "medium"]  # at k* 8
+    assert not list(ReleasesByDirection.of(found).series())
+    assert "around the outline" in page(series, "")
     blocks = mesh_releases(
         REFERENCE / "section-equilibrium-medium", FROM_EQUILIBRIUM, with_outlines=True
     )

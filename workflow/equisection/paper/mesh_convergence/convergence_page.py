@@ -152,7 +152,8 @@ def _of_the_plate(chosen: Sequence[MeshSeries], *, narrowed: bool) -> str:
     if not math.isfinite(limit.half_width):
         return "\n**The plate's onset is not converged**: each of its series has one mesh.\n"
     order = f", with the assumed order {FORMAL_ORDER:g}" if limit.meshes == 2 else ""
-    first = f" ({_by_first_order(one):.1f} with the order 1)" if limit.meshes == 2 else ""
+    is_of_two = limit.meshes == 2 and one.derived is None
+    first = f" ({_by_first_order(one):.1f} with the order 1)" if is_of_two else ""
     return f"""
 **The plate's onset is {state}**: its best limit ({one.basis}) is {limit.value:.1f} with the
 interval {limit.low:.1f} to {limit.high:.1f}{order}{first}.
@@ -173,7 +174,7 @@ def _hidden(series: Sequence[MeshSeries]) -> str:
 
 def _what_narrows_it(one: MeshSeries) -> str:
     """Return how narrow the interval of two meshes would become with finer ones."""
-    if one.limit.meshes != 2:
+    if one.limit.meshes != 2 or one.derived is not None:
         return ""
     fine, extra = (PRESETS[name].plate_cells for name in ("fine", "extra-fine"))
     limits = [foreseen(one, [fine]), foreseen(one, [fine, extra], 0.5 * one.values[-1].half_width)]
@@ -258,8 +259,12 @@ def _growth(series: Sequence[MeshSeries]) -> str:
     growths = [one for one in series if one.quantity == GROWTH]
     directions = [one for one in growths if one.basis.startswith((ALONG_SPAN, IN_PLANE))]
     chosen, plate = (
-        [one for one in growths if one.model == model and one not in directions]
-        for model in ("2d", "3d")
+        [
+            one
+            for one in growths
+            if one.model == model and one not in directions and len(one.values) >= fewest
+        ]
+        for model, fewest in (("2d", 2), ("3d", 1))
     )
     rows = [(one.at.removeprefix("k* = "), _window(one.basis)) for one in chosen]
     text = f"""## Growth at one k\\*
