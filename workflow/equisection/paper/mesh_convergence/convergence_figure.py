@@ -14,7 +14,11 @@ from equisection.figures.origin import add_provenance
 from equisection.figures.panels import letter
 from equisection.figures.style import GREEN, GREY, LIGHT_GREY, PAGE_WIDTH
 from equisection.paper.mesh_convergence.kept_releases import OWN_RATIOS
-from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue
+from equisection.paper.mesh_convergence.mesh_series import (
+    MeshSeries,
+    MeshValue,
+    is_part_of_another,
+)
 from equisection.paper.mesh_convergence.onset_by_difference import (
     BY_DIFFERENCE,
     DIFFERENCE_OF_BOTH,
@@ -94,7 +98,7 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
         of_model = [one for one in onsets if (one.model, one.at) == (model, "")]
         for basis in _FILLED:
             for one in of_model:
-                if one.basis == basis and not _is_part_of_another(one, of_model):
+                if one.basis == basis and not is_part_of_another(one, of_model):
                     aside = 0.5 * list(_FILLED).index(basis)
                     _series(axes, one, -_APART * (number + 1 + aside))
     axes.axvline(0.0, color=GREY, linewidth=0.6)
@@ -110,12 +114,6 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
         color=GREY,
     )
     axes.set_xlim(-_APART * (len(_MODELS) + 2), 1.06)
-
-
-def _is_part_of_another(one: MeshSeries, onsets: Sequence[MeshSeries]) -> bool:
-    """Tell whether another series has all onsets of one, and further meshes."""
-    own = {(value.mesh, value.value) for value in one.values}
-    return any(own < {(value.mesh, value.value) for value in other.values} for other in onsets)
 
 
 def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:

@@ -19,7 +19,12 @@ from equisection.paper.mesh_convergence.loads_by_mesh import (
     TWO_OVER_FOUR,
     printed_limit,
 )
-from equisection.paper.mesh_convergence.mesh_series import MeshSeries, MeshValue, as_table
+from equisection.paper.mesh_convergence.mesh_series import (
+    MeshSeries,
+    MeshValue,
+    as_table,
+    is_part_of_another,
+)
 from equisection.paper.mesh_convergence.onset_by_difference import BY_DIFFERENCE
 from equisection.paper.mesh_convergence.onset_by_direction import (
     ALONG_SPAN,
@@ -108,6 +113,11 @@ def _onsets(series: Sequence[MeshSeries], own_mesh: str) -> str:
     excluded = _contradictions([one for one in every if one.model == "3d"])
     # what the runs exclude has a line of its own
     chosen = [one for one in every if not (excluded and one.basis == LEARNT_FROM_EQUILIBRIUM)]
+    shown = [
+        one
+        for one in chosen
+        if not is_part_of_another(one, (other for other in chosen if other.model == one.model))
+    ]
     low, high = PAPER_ONSET[1:]
     stated = f"{PAPER_ONSET[0]:g}, here taken as {low:g} to {high:g}"
     of_directions = (
@@ -121,7 +131,7 @@ def _onsets(series: Sequence[MeshSeries], own_mesh: str) -> str:
 
 k\\* of the onset; above it a release decays. The paper: about {stated}.
 
-{_table(("model", "basis"), [(one.model, one.basis) for one in chosen], chosen)}
+{_table(("model", "basis"), [(one.model, one.basis) for one in shown], shown)}
 - *releases*: zero of the runs' growth between two k\\*. From one release on a mesh: the next
   coarser growth curve, shifted by the difference at that k\\*.
 - *learnt model*: from the release at k\\* 6.44 on that mesh ([how](reduced-model.md)); a polar of

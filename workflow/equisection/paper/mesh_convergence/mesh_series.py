@@ -126,6 +126,12 @@ class MeshSeries:
         )
 
 
+def is_part_of_another(one: MeshSeries, others: Iterable[MeshSeries]) -> bool:
+    """Tell whether another series has all values of one, and further meshes."""
+    own = {(value.mesh, value.value) for value in one.values}
+    return any(own < {(value.mesh, value.value) for value in other.values} for other in others)
+
+
 def as_table(series: Iterable[MeshSeries]) -> pd.DataFrame:
     """Return a line for each mesh of each series, and one for its limit."""
     rows: list[tuple[object, ...]] = []
