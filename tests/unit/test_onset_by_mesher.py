@@ -53,7 +53,7 @@ def plate() -> MeshRelease:
 @pytest.fixture(scope="module")
 def curve(plate: MeshRelease) -> GrowthCurve:
     """Return the growth on blocks, a line over k* with the onset at 9."""
-    line = [of_growth(plate, "coarse", SLOPE * (k - 9.0), k) for k in (7.0, 8.0, 10.0)]
+    line = [of_growth(plate, "coarse", SLOPE * (k - 9.0), k) for k in (5.0, 8.0, 12.0)]
     found = curve_from_equilibrium(line, [])
     assert found is not None
     return found
@@ -117,6 +117,25 @@ def test_plate_has_its_onset_by_cells_in_the_plane_and_what_is_left_along_the_sp
     one_mesh = ReleasesByDirection(tuple(around[:1]), ())
     assert not list(plate_around_outline(one_mesh, blocks, curve, 0.0))
     assert not list(plate_around_outline(blocks, ReleasesByDirection((), ()), curve, 0.0))
+
+
+def test_what_two_meshes_hide_in_the_plane_is_in_the_interval(
+    plate: MeshRelease, curve: GrowthCurve
+) -> None:
+    """The section's change from medium to fine on the plate's cells, where it is the larger one."""
+    around = ReleasesByDirection(
+        tuple(of_growth(plate, mesh, 0.001) for mesh in ("coarse", "medium-coarse-span")), ()
+    )
+    some = replace(plate, path=REFERENCE / "some" / "unsteady" / "2d" / "k8.nc")
+    halves = []
+    for rates in ((0.004, 0.001, 0.0005), (0.004, 0.0035, -0.0005)):
+        cells = zip(("coarse", "medium", "fine"), (3132, 7112, 16056), rates, strict=True)
+        sections = [of_growth(some, f"plate-{mesh}", rate, cells=n) for mesh, n, rate in cells]
+        blocks = ReleasesByDirection(tuple(plates(plate)), tuple(sections))
+        (series,) = plate_around_outline(around, blocks, curve, change=0.0)
+        halves.append(series.limit.half_width)
+    plain, hiding = halves
+    assert math.sqrt(hiding**2 - plain**2) == pytest.approx(0.004 / abs(SLOPE), rel=0.02)
 
 
 def onsets(model: str, basis: str, low: float, high: float) -> MeshSeries:

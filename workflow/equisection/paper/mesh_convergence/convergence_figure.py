@@ -40,7 +40,7 @@ _LOOKS = {
     OWN_RATIOS: Look("2D corrected, own ratios", GREEN, "D"),
 }
 #: Places of the limits of the models beside h = 0, one beside the other.
-_APART = 0.022
+_APART, _BESIDE = 0.028, 0.004
 #: Distance of models of one mesh, so that their intervals do not hide each other.
 _ASIDE = 0.012
 _MODELS = ("2d", "2d-corrected", OWN_RATIOS, "3d")
@@ -99,8 +99,8 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
         for basis in _FILLED:
             for one in of_model:
                 if one.basis == basis and not is_part_of_another(one, of_model):
-                    aside = 0.5 * list(_FILLED).index(basis)
-                    _series(axes, one, -_APART * (number + 1 + aside))
+                    aside = _BESIDE * list(_FILLED).index(basis)
+                    _series(axes, one, -_APART * (number + 1) - aside)
     axes.axvline(0.0, color=GREY, linewidth=0.6)
     axes.annotate(
         "limits",

@@ -148,7 +148,10 @@ k\\* of the onset; above it a release decays. The paper: about {stated}.
   factor that grows with the mesh; `{OWN_RATIOS}` by this project's plate, on equal cells in the
   plane {f"(mesh {own_mesh}; releases: the mesh's own)" if own_mesh else "(not kept)"}.
 """
-    hidden = "" if is_by_direction else _hidden(series)
+    has_it = is_by_direction or any(
+        (one.model, one.basis) == ("3d", BOTH_MESHERS) for one in chosen
+    )
+    hidden = "" if has_it else _hidden(series)
     of_plate = _of_the_plate(chosen, narrowed=not hidden) + excluded + hidden
     return text + _notes(chosen) + of_plate + _targets(chosen)
 
@@ -204,7 +207,7 @@ def _contradictions(chosen: Sequence[MeshSeries]) -> str:
             excluded = [
                 f"*{runs.basis}* ({_of_mesh([there], there.mesh, '.2f')})"
                 for runs in chosen
-                if runs.basis not in _LEARNT
+                if runs.basis not in (*_LEARNT, BOTH_MESHERS)
                 for there in runs.values
                 if here.mesh == there.mesh and (here.low > there.high or here.high < there.low)
             ]

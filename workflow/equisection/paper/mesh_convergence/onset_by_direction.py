@@ -54,7 +54,7 @@ MESHES_BY_DIRECTION = {
     *(ON_CELLS_OF_PLATE + name for name in MESHES),
 }
 #: Fewest meshes of a direction, which show an order.
-_FEWEST = 3
+FEWEST = 3
 
 
 @dataclass(frozen=True)
@@ -197,9 +197,23 @@ class ReleasesByDirection:
             if (
                 both is not None
                 and all({"coarse", _OF_BOTH} <= one for one in there)
-                and min(map(len, there)) >= _FEWEST
+                and min(map(len, there)) >= FEWEST
             ):
                 yield GrowthByDirection(k_star, along, plane, both)
+
+
+def hidden_in_plane(releases: ReleasesByDirection, k_star: float) -> float:
+    """Return by how much (V/c) a section's growth changes where two coarser meshes hide it.
+
+    It is the largest change of a section from medium to fine on the plate's cells in the plane,
+    where :func:`hides_error`; else 0.
+    """
+    found = [0.0]
+    for model in SECTIONS:
+        series = releases.of_section(k_star, model)
+        if hides_error(series):
+            found.append(abs(_on(series, "fine").value - _on(series, "medium").value))
+    return max(found)
 
 
 def hides_error(in_plane: MeshSeries) -> bool:

@@ -5,7 +5,8 @@ the limits' intervals meet, the narrower one counts, widened to hold the other l
 not, at least one of them is too narrow, and the interval has both.
 
 The plate's meshes around the outline shrink in the plane alone. What is left along the span is that
-of blocks, whose layers they have.
+of blocks, whose layers they have. Two meshes can hide an error in the plane: what the section's
+growth changes by between the next finer ones, on the plate's cells of blocks, is in the interval.
 """
 
 from __future__ import annotations
@@ -17,7 +18,11 @@ from dataclasses import replace
 from equisection.analysis.grid_limit import GridLimit
 from equisection.paper.mesh_convergence.kept_releases import MeshRelease
 from equisection.paper.mesh_convergence.mesh_series import MeshSeries
-from equisection.paper.mesh_convergence.onset_by_direction import ReleasesByDirection
+from equisection.paper.mesh_convergence.onset_by_direction import (
+    FEWEST,
+    ReleasesByDirection,
+    hidden_in_plane,
+)
 from equisection.paper.mesh_convergence.onset_by_mesh import EARLY, ONSET, onset_on
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     AROUND_OUTLINE,
@@ -80,15 +85,18 @@ def plate_around_outline(
         if has_limits and curve.runs.at(k_star):
             (start,) = (value for value in span.values if value.mesh == "coarse")
             left = span.limit.value - start.value
-            half = math.hypot(plane.limit.half_width, span.limit.half_width)
+            hidden = hidden_in_plane(blocks, k_star) if plane.limit.meshes < FEWEST else 0.0
+            half = math.hypot(plane.limit.half_width, span.limit.half_width, hidden)
             growth = plane.limit.value + left, half
-            found.append((k_star, plane, left, growth, curve.moved(k_star, growth, change, EARLY)))
+            moved = curve.moved(k_star, growth, change, EARLY)
+            found.append((k_star, plane, left, hidden, growth, moved))
     if not found:
         return
-    k_star, plane, left, (rate, half), onset = min(found, key=lambda one: one[-1].away)
+    k_star, plane, left, hidden, (rate, half), onset = min(found, key=lambda one: one[-1].away)
     words = (
         f"limit of the growth {rate:+.4f} +- {half:.4f} V/c at k* = {k_star:g}; along the span "
-        f"{left:+.4f} of it, as on blocks, whose curve over k* it has"
+        f"{left:+.4f} of it, as on blocks, whose curve over k* it has; the interval has "
+        f"{hidden:.4f}, what a section changes by from medium to fine on the plate's cells"
     )
     values = []
     for value in plane.values:
