@@ -40,7 +40,7 @@ _LOOKS = {
     OWN_RATIOS: Look("2D corrected, own ratios", GREEN, "D"),
 }
 #: Places of the limits of the models beside h = 0, one beside the other.
-_APART, _BESIDE = 0.028, 0.004
+_APART, _BESIDE = 0.036, 0.005
 #: Distance of models of one mesh, so that their intervals do not hide each other.
 _ASIDE = 0.012
 _MODELS = ("2d", "2d-corrected", OWN_RATIOS, "3d")
