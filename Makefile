@@ -48,8 +48,8 @@ paper: $(ENV)/run
 		"reductions: $(PAPER_REDUCTIONS)/figures/section-and-beam.png"
 
 # Parts of `make paper`, side by side where they do not take what another makes: each has spells in
-# which it takes one core. One of two side by side has no lock of Snakemake: its first to end removes
-# the folder of locks, in which the other may just write its own.
+# which it takes one core. Of two Snakemakes side by side one has no lock: with two the first to end
+# removes the folder of locks, in which the other may just write its own.
 paper-plate:
 	$(SNAKEMAKE) --configfile config/openfoam3d.yaml config/paper/plate.yaml --config $(PAPER_FROM_$(FROM)) \
 		-- $(PAPER_PLATE)/unsteady/3d/sweep.json $(PAPER_PLATE)/tables/table1.csv \

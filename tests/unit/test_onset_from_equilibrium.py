@@ -440,6 +440,15 @@ def test_meshes_that_are_foreseen_narrow_the_interval_by_order_and_rule() -> Non
     assert "`fine` (1.0 million cells) would make it ± " in text
 
 
+def test_release_around_the_outline_does_not_exclude_a_model_of_blocks() -> None:
+    """Meshes of both have the same names."""
+    series = [
+        onset_of_model("3d", BY_EQUILIBRIUM + AROUND_OUTLINE, [10.2, 8.4], 0.4),
+        onset_of_model("3d", LEARNT_FROM_EQUILIBRIUM, [10.4, 13.6], 0.4),
+    ]
+    assert "excludes" not in page(series, "")
+
+
 @pytest.mark.parametrize(("medium", "said"), [(13.6, True), (8.6, False)])
 def test_learnt_model_that_the_runs_exclude_is_named(medium: float, said: bool) -> None:
     text = page(

@@ -6,9 +6,9 @@ of safety 1.25 (Celik, Ghia, Roache & Freitas 2008, J. Fluids Eng. 130, 078001).
 scheme's is no better convergence: errors of opposite signs fall at different rates, or chance
 decides. Up to 4 the limit is extrapolated with the order 2 then, and the factor is 3, as Roache has
 it for an order that is not to be trusted (Verification and Validation in Computational Science and
-Engineering, 1998; J. Fluids Eng. 133, 115501, 2011). Two meshes show no order: so of them as well.
-Without convergence the limit is the finest value, give or take three times the
-largest difference (Eca & Hoekstra 2014, J. Comput. Phys. 262). One mesh has no limit.
+Engineering, 1998; J. Fluids Eng. 133, 115501, 2011). Two meshes, which show no order, have the same
+two numbers. Without convergence the limit is the finest value, give or take three times the largest
+difference (Eca & Hoekstra 2014, J. Comput. Phys. 262). One mesh has no limit.
 
 A difference within the values' own errors tells no order. Of more than three meshes one that
 differs from the finest by no more is passed over, as long as three are left; what the limit and the
@@ -27,7 +27,7 @@ from equisection.analysis.grid_convergence import SAFETY, Convergence, grid_conv
 FORMAL_ORDER = 2.0
 #: Observed orders that are extrapolated with. Beyond them chance or round-off decides.
 LEAST_ORDER, MOST_ORDER = 0.5, 4.0
-#: Observed order up to which it is that of the scheme, within what fits of it err by.
+#: Largest observed order that still counts as that of the scheme.
 LARGEST_TRUSTED = 2.1
 #: Factor of safety of two meshes, of three with an order beyond the scheme's, and of three without
 #: convergence.

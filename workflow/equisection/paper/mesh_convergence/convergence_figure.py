@@ -114,6 +114,7 @@ def _over_cell_size(axes: Axes, onsets: Sequence[MeshSeries]) -> None:
         color=GREY,
     )
     axes.set_xlim(-_APART * (len(_MODELS) + 2), 1.06)
+    axes.set_xticks([0.0, 0.2, 0.4, 0.6, 0.8, 1.0])  # beside 0 there are no sizes
 
 
 def _series(axes: Axes, one: MeshSeries, at_limit: float) -> None:

@@ -40,7 +40,7 @@ from equisection.paper.mesh_convergence.onset_by_mesh import (
     ONSET,
     POLAR_OF,
 )
-from equisection.paper.mesh_convergence.onset_by_mesher import BOTH_MESHERS, DO_NOT_MEET
+from equisection.paper.mesh_convergence.onset_by_mesher import AROUND, BOTH_MESHERS, DO_NOT_MEET
 from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     BY_EQUILIBRIUM,
     LEARNT_FROM_EQUILIBRIUM,
@@ -200,14 +200,14 @@ def _what_narrows_it(one: MeshSeries) -> str:
 
 
 def _contradictions(chosen: Sequence[MeshSeries]) -> str:
-    """Return where a learnt model and the releases on one mesh exclude each other."""
+    """Return where a learnt model and the releases on one mesh of blocks exclude each other."""
     lines, between = "", " and\n"
     for learnt in chosen:
         for here in learnt.values if learnt.basis in _LEARNT else ():
             excluded = [
                 f"*{runs.basis}* ({_of_mesh([there], there.mesh, '.2f')})"
                 for runs in chosen
-                if runs.basis not in (*_LEARNT, BOTH_MESHERS)
+                if runs.basis not in (*_LEARNT, AROUND, BOTH_MESHERS)
                 for there in runs.values
                 if here.mesh == there.mesh and (here.low > there.high or here.high < there.low)
             ]

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from equisection.analysis.grid_limit import GridLimit
 from equisection.paper.mesh_convergence.kept_releases import MeshRelease
@@ -29,7 +29,7 @@ from equisection.paper.mesh_convergence.onset_from_equilibrium import (
     BY_EQUILIBRIUM,
     GrowthCurve,
     curve_of,
-    onset_by_mesh,
+    onsets_on_meshes,
 )
 
 #: Basis of the onset by the meshes of both meshers.
@@ -38,6 +38,40 @@ BOTH_MESHERS = "both meshers"
 MEET, DO_NOT_MEET = "limits of both meshers, which meet", "limits of both meshers, which do not"
 #: Basis of the onset on meshes around the outline.
 AROUND = BY_EQUILIBRIUM + AROUND_OUTLINE
+
+
+@dataclass(frozen=True)
+class _GrowthAroundOutline:
+    """Growth of the plate at one k* around the outline, and what is left along the span."""
+
+    k_star: float
+    in_plane: MeshSeries
+    along_span: MeshSeries
+    hidden: float
+
+    @property
+    def left_along_span(self) -> float:
+        """Growth (V/c) in the limit of cells along the span, less that on the layers of coarse."""
+        (coarse,) = (value for value in self.along_span.values if value.mesh == "coarse")
+        return self.along_span.limit.value - coarse.value
+
+    @property
+    def limit(self) -> tuple[float, float]:
+        """Growth (V/c) in the limit of both directions, and half of its interval."""
+        plane, span = self.in_plane.limit, self.along_span.limit
+        half = math.hypot(plane.half_width, span.half_width, self.hidden)
+        return plane.value + self.left_along_span, half
+
+
+def _growths_around_outline(
+    around: ReleasesByDirection, blocks: ReleasesByDirection
+) -> Iterator[_GrowthAroundOutline]:
+    """Yield the growth at each k* that has a limit in either direction."""
+    for k_star in around.k_star:
+        plane, span = around.in_plane(k_star), blocks.along_span(k_star)
+        if all(math.isfinite(one.limit.half_width) for one in (plane, span)):
+            hidden = hidden_in_plane(blocks, k_star) if plane.limit.meshes < FEWEST else 0.0
+            yield _GrowthAroundOutline(k_star, plane, span, hidden)
 
 
 def section_around_outline(releases: Sequence[MeshRelease], change: float) -> Iterator[MeshSeries]:
@@ -52,7 +86,7 @@ def section_around_outline(releases: Sequence[MeshRelease], change: float) -> It
     """
     curve = curve_of(releases, "2d")
     if curve is not None:
-        values = tuple(onset_by_mesh(releases, "2d", curve, change))
+        values = tuple(onsets_on_meshes(releases, "2d", curve, change))
         yield MeshSeries(ONSET, "2d", "", AROUND, 2, values)
 
 
@@ -78,32 +112,27 @@ def plate_around_outline(
     """
     if curve is None:
         return
-    found = []
-    for k_star in around.k_star:
-        plane, span = around.in_plane(k_star), blocks.along_span(k_star)
-        has_limits = all(math.isfinite(one.limit.half_width) for one in (plane, span))
-        if has_limits and curve.runs.at(k_star):
-            (start,) = (value for value in span.values if value.mesh == "coarse")
-            left = span.limit.value - start.value
-            hidden = hidden_in_plane(blocks, k_star) if plane.limit.meshes < FEWEST else 0.0
-            half = math.hypot(plane.limit.half_width, span.limit.half_width, hidden)
-            growth = plane.limit.value + left, half
-            moved = curve.moved(k_star, growth, change, EARLY)
-            found.append((k_star, plane, left, hidden, growth, moved))
+    found = [
+        (growth, curve.moved(growth.k_star, growth.limit, change, EARLY))
+        for growth in _growths_around_outline(around, blocks)
+        if curve.runs.at(growth.k_star)
+    ]
     if not found:
         return
-    k_star, plane, left, hidden, (rate, half), onset = min(found, key=lambda one: one[-1].away)
+    growth, onset = min(found, key=lambda pair: pair[1].away)
+    rate, half = growth.limit
     words = (
-        f"limit of the growth {rate:+.4f} +- {half:.4f} V/c at k* = {k_star:g}; along the span "
-        f"{left:+.4f} of it, as on blocks, whose curve over k* it has; the interval has "
-        f"{hidden:.4f}, what a section changes by from medium to fine on the plate's cells"
+        f"limit of the growth {rate:+.4f} +- {half:.4f} V/c at k* = {growth.k_star:g}; along the "
+        f"span {growth.left_along_span:+.4f} of it, as on blocks, whose curve over k* it has; the "
+        f"interval has {growth.hidden:.4f}, what a section changes by from medium to fine on the "
+        "plate's cells"
     )
     values = []
-    for value in plane.values:
-        moved = curve.moved(k_star, (value.value, value.half_width), change, EARLY)
+    for value in growth.in_plane.values:
+        moved = curve.moved(growth.k_star, (value.value, value.half_width), change, EARLY)
         values.append(onset_on(value.mesh, value.cells, moved.ends))
     values[-1] = replace(values[-1], note=words)
-    of_plane = plane.limit
+    of_plane = growth.in_plane.limit
     limit = GridLimit(*onset.ends, of_plane.meshes, of_plane.order, "limits of both directions")
     yield MeshSeries(ONSET, "3d", "", AROUND, 2, tuple(values), derived=limit)
 

@@ -258,11 +258,11 @@ def onsets_from_equilibrium(
     """
     curve = curve_from_equilibrium(releases, from_rest)
     if curve is not None:
-        values = onset_by_mesh(releases, "3d", curve, change_of_shift(from_rest))
+        values = onsets_on_meshes(releases, "3d", curve, change_of_shift(from_rest))
         yield MeshSeries(ONSET, "3d", "", BY_EQUILIBRIUM, 3, tuple(values))
 
 
-def onset_by_mesh(
+def onsets_on_meshes(
     releases: Sequence[MeshRelease], model: str, curve: GrowthCurve, change: float
 ) -> Iterator[MeshValue]:
     """Yield the onset of a model on each mesh: its own, or that of a curve that is moved.

@@ -191,6 +191,13 @@ def run_steady(
         flow.schemes(steady=True),
         flow.steady_solution(),
     )
+    return mesh_and_iterate(installation, mesh, folder, tell)
+
+
+def mesh_and_iterate(
+    installation: Installation, mesh: SectionCells, folder: Path, tell: Tell
+) -> tuple[Path, Loads, bool]:
+    """Make the mesh of a folder with its dictionaries and run it; see :func:`run_steady`."""
     if isinstance(mesh, OutlineMesh):
         mesh.write(folder)
         check_mesh(installation, folder)
